@@ -1,0 +1,1 @@
+//! Angles, reflection and refraction at a grain.

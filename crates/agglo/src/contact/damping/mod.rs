@@ -1,0 +1,33 @@
+//! Dissipation along the line of centres.
+
+mod restitution;
+mod viscous_area;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+pub use restitution::Restitution;
+pub use viscous_area::ViscousArea;
+
+use super::{Normal, PairConstants, Touch};
+
+/// The closed set of normal damping laws; each is a dashpot whose coefficient depends on the contact.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Damping {
+    /// Coefficient times contact area ([A] 19).
+    ViscousArea(ViscousArea),
+    /// Coefficient from a coefficient of restitution (Tsuji; Antypov and Elliott).
+    Restitution(Restitution),
+}
+
+impl Damping {
+    /// Dashpot coefficient c [N s/m]; the force on the pair is -c times the speed of separation.
+    #[inline]
+    pub fn coefficient(&self, pair: &PairConstants, touch: &Touch, normal: &Normal) -> f64 {
+        match self {
+            Self::ViscousArea(law) => law.coefficient(touch),
+            Self::Restitution(law) => law.coefficient(pair, touch, normal),
+        }
+    }
+}

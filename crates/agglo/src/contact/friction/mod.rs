@@ -1,0 +1,20 @@
+//! Resistance to sliding.
+
+mod mindlin;
+mod regularised;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+pub use mindlin::{Mindlin, Sliding, TangentialSpring};
+pub use regularised::Regularised;
+
+/// The closed set of friction laws.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Friction {
+    /// The regularised law of [A] 20-24; its stick force carries the time step and does not converge.
+    Regularised(Regularised),
+    /// Mindlin / Cundall-Strack: a tangential spring kept per contact.
+    Mindlin(Mindlin),
+}

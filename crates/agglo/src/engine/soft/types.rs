@@ -1,0 +1,97 @@
+//! What a scenario says of the time stepping.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::units::Time;
+
+/// The closed set of time-stepping schemes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Engine {
+    /// The staggered implicit scheme of [A] 31-34 with adaptive steps.
+    Staggered(Staggered),
+    /// Explicit velocity Verlet.
+    Verlet(Verlet),
+}
+
+/// The staggered implicit scheme.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Staggered {
+    /// First step.
+    pub initial_step: Time,
+    /// Largest step.
+    pub largest_step: Time,
+    /// Largest iteration error, over the motion of the step.
+    #[serde(default = "default_tolerance")]
+    pub tolerance: f64,
+    /// Wanted number of iterations.
+    #[serde(default = "default_iterations")]
+    pub target_iterations: u32,
+    /// phi: 0.5 is the trapezoidal rule, 1 backward Euler.
+    #[serde(default = "half")]
+    pub implicitness: f64,
+}
+
+fn default_tolerance() -> f64 {
+    5e-4
+}
+fn default_iterations() -> u32 {
+    10
+}
+fn half() -> f64 {
+    0.5
+}
+
+/// Explicit velocity Verlet.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Verlet {
+    /// The step; worked out from the contact and bond stiffness if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub step: Option<Time>,
+    /// Part of the critical step that the automatic step takes.
+    #[serde(default = "default_safety")]
+    pub safety: f64,
+}
+
+fn default_safety() -> f64 {
+    0.1
+}
+
+/// Bounds beyond which the physics is not to be believed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Limits {
+    /// Largest motion of a grain in one step, over its radius.
+    #[serde(default = "half")]
+    pub displacement: f64,
+    /// Largest overlap, over the sum of the two radii.
+    #[serde(default = "default_strain")]
+    pub strain: f64,
+    /// What happens beyond.
+    #[serde(default)]
+    pub on_breach: Breach,
+}
+
+fn default_strain() -> f64 {
+    0.1
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { displacement: half(), strain: default_strain(), on_breach: Breach::default() }
+    }
+}
+
+/// What happens when a limit is passed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Breach {
+    /// The run ends with an error.
+    #[default]
+    Stop,
+    /// The run goes on with a counted warning.
+    Warn,
+}

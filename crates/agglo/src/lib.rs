@@ -1,0 +1,26 @@
+//! agglo: how particulate agglomerates grow, break up and disperse.
+//!
+//! The modules stand in the order in which data flows.
+
+pub mod constants;
+pub mod units;
+
+pub mod math;
+pub mod particles;
+
+pub mod domain;
+pub mod neighbors;
+pub mod packing;
+
+pub mod contact;
+pub mod fields;
+
+pub mod acoustics;
+
+pub mod engine;
+
+pub mod measure;
+pub mod record;
+
+pub mod run;
+pub mod scenario;

@@ -1,0 +1,6 @@
+//! Vectors, random numbers and statistics. No physics.
+
+pub mod rng;
+mod vec3;
+
+pub use vec3::Vec3;

@@ -1,0 +1,235 @@
+//! A vector in space: three `f64`, nothing hidden.
+
+use std::ops::{Add, AddAssign, Div, Index, Mul, MulAssign, Neg, Sub, SubAssign};
+
+use serde::{Deserialize, Serialize};
+
+/// A vector or point in three dimensions; its unit is that of its components.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[repr(C)]
+pub struct Vec3 {
+    /// First component.
+    pub x: f64,
+    /// Second component.
+    pub y: f64,
+    /// Third component.
+    pub z: f64,
+}
+
+impl Vec3 {
+    /// The vector of length zero.
+    pub const ZERO: Self = Self::new(0.0, 0.0, 0.0);
+    /// The unit vectors of the three axes.
+    pub const AXES: [Self; 3] =
+        [Self::new(1.0, 0.0, 0.0), Self::new(0.0, 1.0, 0.0), Self::new(0.0, 0.0, 1.0)];
+
+    /// Puts three components together.
+    #[inline]
+    pub const fn new(x: f64, y: f64, z: f64) -> Self {
+        Self { x, y, z }
+    }
+
+    /// Scalar product.
+    #[inline]
+    pub fn dot(self, other: Self) -> f64 {
+        self.x * other.x + self.y * other.y + self.z * other.z
+    }
+
+    /// Vector product.
+    #[inline]
+    pub fn cross(self, other: Self) -> Self {
+        Self::new(
+            self.y * other.z - self.z * other.y,
+            self.z * other.x - self.x * other.z,
+            self.x * other.y - self.y * other.x,
+        )
+    }
+
+    /// Length.
+    #[inline]
+    pub fn norm(self) -> f64 {
+        self.norm_squared().sqrt()
+    }
+
+    /// Square of the length.
+    #[inline]
+    pub fn norm_squared(self) -> f64 {
+        self.dot(self)
+    }
+
+    /// The same direction with length one; zero stays zero.
+    #[inline]
+    #[must_use]
+    pub fn normalized(self) -> Self {
+        let norm = self.norm();
+        if norm > 0.0 { self / norm } else { Self::ZERO }
+    }
+
+    /// Whether all components are finite.
+    #[inline]
+    pub fn is_finite(self) -> bool {
+        self.x.is_finite() && self.y.is_finite() && self.z.is_finite()
+    }
+
+    /// The part at right angles to the unit vector `axis`.
+    #[inline]
+    #[must_use]
+    pub fn rejected_from(self, axis: Self) -> Self {
+        self - axis * self.dot(axis)
+    }
+
+    /// Component-wise smaller value.
+    #[inline]
+    #[must_use]
+    pub fn min(self, other: Self) -> Self {
+        Self::new(self.x.min(other.x), self.y.min(other.y), self.z.min(other.z))
+    }
+
+    /// Component-wise larger value.
+    #[inline]
+    #[must_use]
+    pub fn max(self, other: Self) -> Self {
+        Self::new(self.x.max(other.x), self.y.max(other.y), self.z.max(other.z))
+    }
+
+    /// Two unit vectors that make a right-handed frame with the unit vector `self`: (e1, e2, self).
+    pub fn frame(self) -> (Self, Self) {
+        let [a, b, c] = self.to_array().map(f64::abs);
+        let helper = if a <= b && a <= c {
+            Self::AXES[0]
+        } else if b <= c {
+            Self::AXES[1]
+        } else {
+            Self::AXES[2]
+        };
+        let first = helper.cross(self).normalized();
+        (first, self.cross(first))
+    }
+
+    /// Turned by `angle` [rad] about the unit vector `axis` (right-hand rule).
+    #[must_use]
+    pub fn rotated_about(self, axis: Self, angle: f64) -> Self {
+        let (sin, cos) = angle.sin_cos();
+        self * cos + axis.cross(self) * sin + axis * (axis.dot(self) * (1.0 - cos))
+    }
+
+    /// The components as an array.
+    #[inline]
+    pub const fn to_array(self) -> [f64; 3] {
+        [self.x, self.y, self.z]
+    }
+}
+
+impl From<[f64; 3]> for Vec3 {
+    #[inline]
+    fn from([x, y, z]: [f64; 3]) -> Self {
+        Self::new(x, y, z)
+    }
+}
+
+impl Index<usize> for Vec3 {
+    type Output = f64;
+    #[inline]
+    fn index(&self, axis: usize) -> &f64 {
+        match axis {
+            0 => &self.x,
+            1 => &self.y,
+            _ => &self.z,
+        }
+    }
+}
+
+impl Add for Vec3 {
+    type Output = Self;
+    #[inline]
+    fn add(self, other: Self) -> Self {
+        Self::new(self.x + other.x, self.y + other.y, self.z + other.z)
+    }
+}
+
+impl Sub for Vec3 {
+    type Output = Self;
+    #[inline]
+    fn sub(self, other: Self) -> Self {
+        Self::new(self.x - other.x, self.y - other.y, self.z - other.z)
+    }
+}
+
+impl Neg for Vec3 {
+    type Output = Self;
+    #[inline]
+    fn neg(self) -> Self {
+        Self::new(-self.x, -self.y, -self.z)
+    }
+}
+
+impl Mul<f64> for Vec3 {
+    type Output = Self;
+    #[inline]
+    fn mul(self, factor: f64) -> Self {
+        Self::new(self.x * factor, self.y * factor, self.z * factor)
+    }
+}
+
+impl Mul<Vec3> for f64 {
+    type Output = Vec3;
+    #[inline]
+    fn mul(self, vector: Vec3) -> Vec3 {
+        vector * self
+    }
+}
+
+impl Div<f64> for Vec3 {
+    type Output = Self;
+    #[inline]
+    fn div(self, divisor: f64) -> Self {
+        self * (1.0 / divisor)
+    }
+}
+
+impl AddAssign for Vec3 {
+    #[inline]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl SubAssign for Vec3 {
+    #[inline]
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}
+
+impl MulAssign<f64> for Vec3 {
+    #[inline]
+    fn mul_assign(&mut self, factor: f64) {
+        *self = *self * factor;
+    }
+}
+
+impl std::iter::Sum for Vec3 {
+    fn sum<I: Iterator<Item = Self>>(vectors: I) -> Self {
+        vectors.fold(Self::ZERO, Add::add)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frame_is_right_handed_and_orthonormal() {
+        for axis in [Vec3::new(0.0, 0.0, 1.0), Vec3::new(1.0, -2.0, 0.5).normalized(), -Vec3::AXES[0]] {
+            let (e1, e2) = axis.frame();
+            assert!((e1.norm() - 1.0).abs() < 1e-15 && (e2.norm() - 1.0).abs() < 1e-15);
+            assert!((e1.cross(e2) - axis).norm() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn rotation_by_a_right_angle() {
+        let turned = Vec3::AXES[0].rotated_about(Vec3::AXES[2], std::f64::consts::FRAC_PI_2);
+        assert!((turned - Vec3::AXES[1]).norm() < 1e-15);
+    }
+}

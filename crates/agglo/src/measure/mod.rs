@@ -1,0 +1,1 @@
+//! Figures taken from a state: moments, clusters, sizes, the ledger. Nothing here changes a state.

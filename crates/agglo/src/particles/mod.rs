@@ -1,0 +1,7 @@
+//! The grains: their state, and the materials they are made of.
+
+mod columns;
+mod material;
+
+pub use columns::{COLUMNS, Column, ColumnValues, OnMerge, Particles, Row};
+pub use material::{Material, Mixture, PairTable, Softening};

@@ -1,0 +1,1 @@
+//! What a run writes: tables, frames, checkpoints, summaries. Recorders see and never change.

@@ -1,0 +1,173 @@
+//! What a scenario file can say. Defaults, the JSON schema and the resolved scenario derive from these types.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::acoustics::{Acoustics, Medium};
+use crate::contact::{Bonds, ContactLaws};
+use crate::engine::soft::{Engine, Limits};
+use crate::fields::Fields;
+use crate::packing::{Placement, Size};
+use crate::particles::{Material, Mixture};
+use crate::units::{Charge, Frequency, Temperature, Time, Triple, Velocity};
+
+/// A whole scenario.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scenario {
+    /// Version of the file format: 1.
+    pub version: u32,
+    /// One line that says what it is.
+    #[serde(default)]
+    pub title: String,
+    /// Seed of all random numbers.
+    #[serde(default = "one")]
+    pub seed: u64,
+    /// How long.
+    pub time: TimeSpan,
+    /// How time is stepped.
+    pub engine: Engine,
+    /// Bounds on motion and overlap.
+    #[serde(default)]
+    pub limits: Limits,
+    /// The fluid around the grains.
+    #[serde(default)]
+    pub medium: Medium,
+    /// Materials by name.
+    pub materials: BTreeMap<String, Material>,
+    /// What pairs of materials have in common, where it differs from the laws.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub mixtures: Vec<Mixture>,
+    /// Groups of grains.
+    pub grains: Vec<GrainGroup>,
+    /// What happens before the clock starts.
+    #[serde(default)]
+    pub start: Start,
+    /// Laws of contact; grains pass through one another if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact: Option<ContactLaws>,
+    /// What holds grains together; nothing if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bonds: Option<Bonds>,
+    /// Fields.
+    #[serde(default)]
+    pub fields: Fields,
+    /// Acoustic beams; none if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub acoustics: Option<Acoustics>,
+    /// What is measured.
+    #[serde(default)]
+    pub measures: Measures,
+    /// What is written, and how often.
+    #[serde(default)]
+    pub output: Output,
+}
+
+fn one() -> u64 {
+    1
+}
+
+/// How long a run lasts.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TimeSpan {
+    /// Simulated time at the end.
+    pub end: Time,
+}
+
+/// Grains of one material, with their sizes and places.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GrainGroup {
+    /// Name of their material.
+    pub material: String,
+    /// How large.
+    pub size: Size,
+    /// Where.
+    pub placement: Placement,
+    /// Velocity of all.
+    #[serde(default)]
+    pub velocity: Triple<Velocity>,
+    /// Angular velocity of all.
+    #[serde(default)]
+    pub spin: Triple<Frequency>,
+    /// Temperature of all.
+    #[serde(default = "room_temperature")]
+    pub temperature: Temperature,
+    /// Electric charge of each.
+    #[serde(default)]
+    pub charge: Charge,
+    /// Sign c of the near field: 1 or -1.
+    #[serde(default = "positive")]
+    pub polarity: f64,
+}
+
+fn room_temperature() -> Temperature {
+    crate::units::Quantity(300.0)
+}
+fn positive() -> f64 {
+    1.0
+}
+
+/// What happens before the clock starts.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Start {
+    /// Lets the grains come to rest first; not if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub relax: Option<Relaxation>,
+}
+
+/// Rest before the clock starts: without rays and drag, with velocities damped away.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Relaxation {
+    /// At rest when no grain is faster.
+    pub speed: Velocity,
+    /// An error if it takes longer (simulated time).
+    pub longest: Time,
+    /// Time in which free motion dies away.
+    pub damping_time: Time,
+}
+
+/// What is measured besides the state.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Measures {
+    /// Grains whose surfaces are closer than this part of their mean radius belong to one cluster.
+    #[serde(default)]
+    pub cluster_gap: f64,
+}
+
+/// What is written, and how often in simulated time; worked out from the run's length if left out.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Output {
+    /// Rows of the tables; a two-hundredth of the run if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub series: Option<Time>,
+    /// Frames for ParaView; a fortieth of the run if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frames: Option<Time>,
+    /// Whether frames have the bonds.
+    #[serde(default = "yes")]
+    pub bonds: bool,
+    /// Whether frames have the rays in flight.
+    #[serde(default = "yes")]
+    pub rays: bool,
+    /// Checkpoints; a twentieth of the run if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub checkpoints: Option<Time>,
+}
+
+fn yes() -> bool {
+    true
+}
+
+impl Default for Output {
+    fn default() -> Self {
+        Self { series: None, frames: None, bonds: true, rays: true, checkpoints: None }
+    }
+}

@@ -1,0 +1,279 @@
+//! Reads `"150 MPa"`, `"0.25 ms"`, `"1e5 Pa s/m"`, `"6000 kg/m3"`.
+//!
+//! A decimal prefix is applied to the exponent in the text, not by multiplication, so that `"100 um"` is
+//! the `f64` nearest to 1e-4 and not 100 times the one nearest to 1e-6.
+
+use thiserror::Error;
+
+use super::{Dimension, kind_of};
+
+/// Why a text is not the quantity that was asked for.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum UnitError {
+    /// There is a number but no unit.
+    #[error("\"{text}\" has no unit; {expected} is wanted, such as \"{example}\"")]
+    NoUnit {
+        /// What stood in the file.
+        text: String,
+        /// The kind that is wanted.
+        expected: &'static str,
+        /// A value of that kind.
+        example: &'static str,
+    },
+    /// The text does not begin with a number.
+    #[error("\"{text}\" does not begin with a number; {expected} is wanted, such as \"{example}\"")]
+    NoNumber {
+        /// What stood in the file.
+        text: String,
+        /// The kind that is wanted.
+        expected: &'static str,
+        /// A value of that kind.
+        example: &'static str,
+    },
+    /// A unit that is not known.
+    #[error("unknown unit \"{unit}\" in \"{text}\"; {expected} is wanted, such as \"{example}\"")]
+    UnknownUnit {
+        /// What stood in the file.
+        text: String,
+        /// The word that is not a unit.
+        unit: String,
+        /// The kind that is wanted.
+        expected: &'static str,
+        /// A value of that kind.
+        example: &'static str,
+    },
+    /// A quantity of another dimension.
+    #[error("\"{text}\" is {found} [{dimension}]; {expected} is wanted, such as \"{example}\"")]
+    WrongDimension {
+        /// What stood in the file.
+        text: String,
+        /// The kind that was found.
+        found: &'static str,
+        /// Its dimension in base units.
+        dimension: Dimension,
+        /// The kind that is wanted.
+        expected: &'static str,
+        /// A value of that kind.
+        example: &'static str,
+    },
+    /// The value is infinite or not a number.
+    #[error("\"{text}\" is not a finite number")]
+    NotFinite {
+        /// What stood in the file.
+        text: String,
+    },
+}
+
+struct Unit {
+    symbol: &'static str,
+    dimension: Dimension,
+    /// Power of ten to SI.
+    decimal: i32,
+    /// Factor that is not a power of ten (a minute, an electronvolt).
+    factor: f64,
+    takes_prefix: bool,
+}
+
+const fn unit(
+    symbol: &'static str,
+    dimension: [i8; 5],
+    decimal: i32,
+    factor: f64,
+    takes_prefix: bool,
+) -> Unit {
+    Unit { symbol, dimension: Dimension(dimension), decimal, factor, takes_prefix }
+}
+
+const UNITS: &[Unit] = &[
+    unit("m", [0, 1, 0, 0, 0], 0, 1.0, true),
+    unit("g", [1, 0, 0, 0, 0], -3, 1.0, true),
+    unit("s", [0, 0, 1, 0, 0], 0, 1.0, true),
+    unit("K", [0, 0, 0, 1, 0], 0, 1.0, true),
+    unit("A", [0, 0, 0, 0, 1], 0, 1.0, true),
+    unit("Hz", [0, 0, -1, 0, 0], 0, 1.0, true),
+    unit("N", [1, 1, -2, 0, 0], 0, 1.0, true),
+    unit("Pa", [1, -1, -2, 0, 0], 0, 1.0, true),
+    unit("J", [1, 2, -2, 0, 0], 0, 1.0, true),
+    unit("W", [1, 2, -3, 0, 0], 0, 1.0, true),
+    unit("C", [0, 0, 1, 0, 1], 0, 1.0, true),
+    unit("V", [1, 2, -3, 0, -1], 0, 1.0, true),
+    unit("T", [1, 0, -2, 0, -1], 0, 1.0, true),
+    unit("bar", [1, -1, -2, 0, 0], 5, 1.0, true),
+    unit("L", [0, 3, 0, 0, 0], -3, 1.0, true),
+    unit("P", [1, -1, -1, 0, 0], -1, 1.0, true),
+    unit("rad", [0, 0, 0, 0, 0], 0, 1.0, true),
+    unit("min", [0, 0, 1, 0, 0], 0, 60.0, false),
+    unit("h", [0, 0, 1, 0, 0], 0, 3600.0, false),
+    unit("deg", [0, 0, 0, 0, 0], 0, std::f64::consts::PI / 180.0, false),
+    unit("eV", [1, 2, -2, 0, 0], 0, crate::constants::ELEMENTARY_CHARGE, true),
+    unit("e", [0, 0, 1, 0, 1], 0, crate::constants::ELEMENTARY_CHARGE, false),
+    unit("t", [1, 0, 0, 0, 0], 3, 1.0, false),
+    unit("1", [0, 0, 0, 0, 0], 0, 1.0, false),
+];
+
+const PREFIXES: &[(&str, i32)] = &[
+    ("T", 12),
+    ("G", 9),
+    ("M", 6),
+    ("k", 3),
+    ("h", 2),
+    ("d", -1),
+    ("c", -2),
+    ("m", -3),
+    ("u", -6),
+    ("\u{b5}", -6),
+    ("\u{3bc}", -6),
+    ("n", -9),
+    ("p", -12),
+    ("f", -15),
+];
+
+/// Finds a unit and the power of ten of its prefix; a symbol as such goes before prefix + symbol (`min`).
+fn find_unit(word: &str) -> Option<(&'static Unit, i32)> {
+    if let Some(plain) = UNITS.iter().find(|unit| unit.symbol == word) {
+        return Some((plain, 0));
+    }
+    PREFIXES.iter().find_map(|(prefix, decimal)| {
+        let rest = word.strip_prefix(prefix)?;
+        UNITS.iter().find(|unit| unit.takes_prefix && unit.symbol == rest).map(|unit| (unit, *decimal))
+    })
+}
+
+/// The value of `text` in SI units.
+///
+/// # Errors
+/// [`UnitError`] where the number or unit is missing or unknown, the dimension is not `wanted`, or the value
+/// is not finite.
+pub fn parse_quantity(text: &str, wanted: Dimension) -> Result<f64, UnitError> {
+    let kind = kind_of(wanted);
+    let trimmed = text.trim();
+    let (expected, example) = (kind.name, kind.example);
+    let owned = || text.to_owned();
+    let (mantissa, exponent, rest) =
+        split_number(trimmed).ok_or_else(|| UnitError::NoNumber { text: owned(), expected, example })?;
+    if rest.trim().is_empty() && wanted != Dimension::default() {
+        return Err(UnitError::NoUnit { text: owned(), expected, example });
+    }
+    let product =
+        read_units(rest).map_err(|unit| UnitError::UnknownUnit { text: owned(), unit, expected, example })?;
+    if product.dimension != wanted {
+        let found = kind_of(product.dimension).name;
+        return Err(UnitError::WrongDimension {
+            text: owned(),
+            found,
+            dimension: product.dimension,
+            expected,
+            example,
+        });
+    }
+    let shifted = format!("{mantissa}e{}", exponent.saturating_add(product.decimal));
+    let value = shifted.parse::<f64>().unwrap_or(f64::NAN) * product.factor;
+    if value.is_finite() { Ok(value) } else { Err(UnitError::NotFinite { text: owned() }) }
+}
+
+/// Splits "1.5e3 kg/m3" into ("1.5", 3, " kg/m3").
+fn split_number(text: &str) -> Option<(&str, i32, &str)> {
+    let mantissa_end =
+        text.find(|c: char| !(c.is_ascii_digit() || matches!(c, '.' | '+' | '-'))).unwrap_or(text.len());
+    let (mantissa, rest) = text.split_at(mantissa_end);
+    mantissa.parse::<f64>().ok()?;
+    if let Some(tail) = rest.strip_prefix(['e', 'E']) {
+        let sign = usize::from(tail.starts_with(['+', '-']));
+        let digits = tail[sign..].find(|c: char| !c.is_ascii_digit()).unwrap_or(tail.len() - sign);
+        if digits > 0 {
+            let exponent = tail[..sign + digits].parse().ok()?;
+            return Some((mantissa, exponent, &tail[sign + digits..]));
+        }
+    }
+    Some((mantissa, 0, rest))
+}
+
+struct Product {
+    dimension: Dimension,
+    decimal: i32,
+    factor: f64,
+}
+
+/// Reads a product of units such as `kg/m3`, `Pa s/m` or `N m^-1`; one slash divides by the next factor only.
+fn read_units(text: &str) -> Result<Product, String> {
+    let mut product = Product { dimension: Dimension::default(), decimal: 0, factor: 1.0 };
+    let mut sign = 1_i8;
+    let spaced = text.replace('/', " / ").replace(['*', '\u{b7}'], " ");
+    for word in spaced.split_whitespace() {
+        if word == "/" {
+            sign = -1;
+            continue;
+        }
+        let start = word.find(|c: char| c.is_ascii_digit() || matches!(c, '^' | '-')).filter(|at| *at > 0);
+        let (symbol, power_text) = word.split_at(start.unwrap_or(word.len()));
+        let power_text = power_text.trim_start_matches('^');
+        let power =
+            if power_text.is_empty() { 1 } else { power_text.parse::<i8>().map_err(|_| word.to_owned())? };
+        let (unit, prefix) = find_unit(symbol).ok_or_else(|| symbol.to_owned())?;
+        let power = power.checked_mul(sign).ok_or_else(|| word.to_owned())?;
+        product.dimension = product.dimension.times(unit.dimension, power).ok_or_else(|| word.to_owned())?;
+        product.decimal += i32::from(power) * (prefix + unit.decimal);
+        product.factor *= unit.factor.powi(i32::from(power));
+        sign = 1;
+    }
+    Ok(product)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::units::KINDS;
+
+    fn si(text: &str, dimension: [i8; 5]) -> f64 {
+        parse_quantity(text, Dimension(dimension)).unwrap()
+    }
+
+    /// Each row is a statement of physics with the value written by hand.
+    #[test]
+    fn units_mean_what_physics_says() {
+        let (length, pressure) = ([0, 1, 0, 0, 0], [1, -1, -2, 0, 0]);
+        assert_eq!(si("100 um", length), 1e-4);
+        assert_eq!(si("100 \u{b5}m", length), 1e-4);
+        assert_eq!(si("40um", length), 4e-5);
+        assert_eq!(si("150 MPa", pressure), 1.5e8);
+        assert_eq!(si("1 bar", pressure), 1e5);
+        assert_eq!(si("1 N/mm2", pressure), 1e6);
+        assert_eq!(si("1 J/m^3", pressure), 1.0);
+        assert_eq!(si("1.5e+3 kg m^-3", [1, -3, 0, 0, 0]), 1500.0);
+        assert_eq!(si("1 g/cm3", [1, -3, 0, 0, 0]), 1000.0);
+        assert_eq!(si("1 mPa s", [1, -1, -1, 0, 0]), 1e-3);
+        assert_eq!(si("1 cP", [1, -1, -1, 0, 0]), 1e-3);
+        assert_eq!(si("2 min", [0, 0, 1, 0, 0]), 120.0);
+        assert_eq!(si("3.6 km/h", [0, 1, -1, 0, 0]), 1.0);
+        assert_eq!(si("1 T", [1, 0, -2, 0, -1]), 1.0);
+        assert_eq!(si("1 mJ/m2", [1, 0, -2, 0, 0]), 1e-3);
+        assert_eq!(si("1 Hz", [0, 0, -1, 0, 0]), si("1 rad/s", [0, 0, -1, 0, 0]));
+        assert_eq!(si("-2 kV/m", [1, 1, -3, 0, -1]), -2000.0);
+    }
+
+    #[test]
+    fn examples_and_symbols_can_be_read_back() {
+        for kind in KINDS {
+            parse_quantity(kind.example, kind.dimension).unwrap();
+            assert_eq!(
+                parse_quantity(&format!("1 {}", kind.symbol), kind.dimension),
+                Ok(1.0),
+                "{}",
+                kind.symbol
+            );
+        }
+    }
+
+    #[test]
+    fn what_is_wrong_is_said() {
+        let length = Dimension([0, 1, 0, 0, 0]);
+        let message = |text: &str| parse_quantity(text, length).unwrap_err().to_string();
+        assert!(message("3").contains("has no unit"));
+        assert!(message("3 Pa").contains("is a pressure"));
+        assert!(message("3 metres").contains("unknown unit \"metres\""));
+        assert!(message("wide").contains("does not begin with a number"));
+        assert!(message("1e999 m").contains("not a finite number"));
+        assert!(message("3 m^200").contains("unknown unit"));
+        assert!(message("").contains("does not begin"));
+    }
+}
