@@ -1,9 +1,50 @@
-//! Attraction beyond a critical overlap strain ([A] 25-26).
+//! Attraction beyond a critical overlap strain.
+//!
+//! # Equation
+//! ```text
+//! E >= E*:  F_i = K_nb E^pb A n   and   K_rb |v_t| A Δt τ                                  [A] 25, 26
+//! U(δ) = -∫ K_nb E^pb A dδ from δ* = E* (R_i + R_j) to δ
+//! ```
+//!
+//! # Source
+//! \[A\] T. I. Zohdi, Comput. Mech. 57, 465 (2016), eqs 25-26.
+//!
+//! # Symbols
+//! | symbol | name in code           | unit | meaning                                            |
+//! |--------|------------------------|------|----------------------------------------------------|
+//! | K_nb   | `stiffness`            | Pa   | normal bonding constant                            |
+//! | p_b    | `exponent`             | -    | power of the strain                                |
+//! | K_rb   | `tangential_stiffness` | Pa/m | tangential bonding constant                        |
+//! | E*     | `threshold_strain`     | -    | overlap strain from which the bond acts            |
+//! | E      | `touch.strain()`       | -    | overlap over the sum of the radii                  |
+//! | A      | `touch.area()`         | m²   | disc in which the spheres cut each other           |
+//! | τ      |                        | -    | direction of j's slip relative to i                |
+//!
+//! # Valid when
+//! To reproduce the paper only. The bond acts while grains overlap, so it cannot resist tension; with
+//! K_nb < K and p_b = p, as in the paper's example, contact and bond together always repel and nothing holds
+//! an agglomerate together. The tangential part carries the time step and vanishes with it. The paper does
+//! not give E*.
+//!
+//! # Compared with others
+//! Not an adhesive: see `beam` for cement that carries tension.
+//!
+//! # Example
+//! ```
+//! use agglo::contact::{Touch, bond::StrainBond};
+//! use agglo::units::Quantity;
+//! let bond = StrainBond {
+//!     stiffness: Quantity(1e6), exponent: 2.0, tangential_stiffness: Quantity(1e3), threshold_strain: 0.05,
+//! };
+//! let touch = Touch::new([1.0, 1.0], [1.0, 1.0], [1e7, 1e7], 1.8);
+//! assert!((bond.attraction(&touch) / (1e6 * 0.01 * touch.area()) - 1.0).abs() < 1e-12);
+//! ```
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::contact::Touch;
+use crate::contact::normal::strain_power::strain_power;
 use crate::units::{AreaStiffness, Pressure};
 
 /// K_nb E^pb A towards the partner, and K_rb |v_t| A dt along the slip, while E >= E*.
@@ -27,26 +68,80 @@ impl StrainBond {
         touch.overlap >= self.threshold_strain * touch.radius_sum
     }
 
-    /// Attraction [N], zero below the threshold.
+    /// Attraction \[N\], zero below the threshold.
     #[inline]
     pub fn attraction(&self, touch: &Touch) -> f64 {
         if !self.acts(touch) {
             return 0.0;
         }
-        let strain = touch.overlap / touch.radius_sum;
-        let power = if self.exponent == 2.0 { strain * strain } else { strain.powf(self.exponent) };
-        self.stiffness.si() * power * touch.area()
+        self.stiffness.si() * strain_power(touch.strain(), self.exponent) * touch.area()
     }
 
-    /// Energy [J] (negative: the bond attracts); zero at the threshold.
+    /// Energy \[J\], zero up to the threshold and negative beyond, since the bond attracts.
     pub fn energy(&self, touch: &Touch) -> f64 {
-        let _ = touch;
-        unimplemented!("quadrature from the threshold")
+        if !self.acts(touch) {
+            return 0.0;
+        }
+        let threshold = Touch { overlap: self.threshold_strain.max(0.0) * touch.radius_sum, ..*touch };
+        let integral = touch.strain_integral(self.exponent) - threshold.strain_integral(self.exponent);
+        -self.stiffness.si() * integral
     }
 
-    /// Tangential force [N] along the relative tangential velocity.
+    /// Tangential force \[N\] along the relative tangential velocity, from the slip speed \[m/s\] and the step
+    /// \[s\]. All of its work is lost.
     #[inline]
     pub fn tangential(&self, touch: &Touch, slip_speed: f64, dt: f64) -> f64 {
         if self.acts(touch) { self.tangential_stiffness.si() * slip_speed * touch.area() * dt } else { 0.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::PairConstants;
+    use crate::contact::check::assert_slope;
+    use crate::contact::normal::StrainPower;
+    use crate::units::Quantity;
+
+    fn bond(exponent: f64) -> StrainBond {
+        let (stiffness, tangential_stiffness) = (Quantity(1e6), Quantity(1e3));
+        StrainBond { stiffness, exponent, tangential_stiffness, threshold_strain: 0.05 }
+    }
+
+    #[test]
+    fn attraction_is_minus_the_slope_of_energy() {
+        for exponent in [1.0, 2.0, 2.5] {
+            for radii in [[1.0, 1.0], [1e-3, 3e-3]] {
+                let touch =
+                    |overlap| Touch { overlap, ..Touch::new(radii, [1.0; 2], [1e7; 2], radii[0] + radii[1]) };
+                let law = bond(exponent);
+                for strain in [0.06, 0.1, 0.2] {
+                    let at = strain * (radii[0] + radii[1]);
+                    assert_slope(at, |x| law.energy(&touch(x)), |x| -law.attraction(&touch(x)));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn threshold() {
+        let at = |overlap| Touch { overlap, ..Touch::new([1.0; 2], [1.0; 2], [1e7; 2], 2.0) };
+        let law = bond(2.0);
+        assert_eq!([law.attraction(&at(0.0999)), law.energy(&at(0.0999))], [0.0, 0.0]);
+        assert_eq!(law.energy(&at(0.1)), 0.0);
+        assert_eq!(law.tangential(&at(0.0999), 1.0, 1.0), 0.0);
+        let area = std::f64::consts::PI * (1.0 - 0.81);
+        assert!((law.tangential(&at(0.2), 2.0, 1e-3) / (1e3 * 2.0 * 1e-3 * area) - 1.0).abs() < 1e-14);
+    }
+
+    /// With the paper's numbers the sum of contact and bond repels at every overlap.
+    #[test]
+    fn the_papers_bond_never_wins() {
+        let contact = StrainPower { exponent: 2.0 };
+        for overlap in [0.1, 0.2, 0.5, 1.0] {
+            let touch = Touch { overlap, ..Touch::new([1.0; 2], [1.0; 2], [1e7; 2], 2.0) };
+            let sum = contact.force(&PairConstants::default(), &touch) - bond(2.0).attraction(&touch);
+            assert!((sum / (9e6 * touch.strain().powi(2) * touch.area()) - 1.0).abs() < 1e-12);
+        }
     }
 }

@@ -6,7 +6,7 @@ mod viscous_area;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use restitution::Restitution;
+pub use restitution::{Restitution, damping_ratio};
 pub use viscous_area::ViscousArea;
 
 use super::{Normal, PairConstants, Touch};
@@ -22,7 +22,7 @@ pub enum Damping {
 }
 
 impl Damping {
-    /// Dashpot coefficient c [N s/m]; the force on the pair is -c times the speed of separation.
+    /// Dashpot coefficient c \[N s/m\]; the force on the pair is -c times the speed of separation.
     #[inline]
     pub fn coefficient(&self, pair: &PairConstants, touch: &Touch, normal: &Normal) -> f64 {
         match self {

@@ -1,4 +1,4 @@
-//! Resistance to sliding.
+//! Resistance to sliding: one law of the paper without memory, one with a spring that each contact keeps.
 
 mod mindlin;
 mod regularised;

@@ -1,4 +1,32 @@
 //! Linear spring along the line of centres.
+//!
+//! # Equation
+//! ```text
+//! F = k δ,   U = k δ²/2                                                                   A4
+//! ```
+//!
+//! # Source
+//! P. A. Cundall and O. D. L. Strack, Géotechnique 29, 47 (1979).
+//!
+//! # Symbols
+//! | symbol | name in code | unit | meaning                              |
+//! |--------|--------------|------|--------------------------------------|
+//! | k      | `stiffness`  | N/m  | spring constant of every contact     |
+//! | δ      | `overlap`    | m    | R_i + R_j - distance, > 0 in contact |
+//!
+//! # Valid when
+//! k is chosen so that δ ≪ R; contact lasts π √(m*/k) without damping, whatever the speed.
+//!
+//! # Compared with others
+//! `hooke` of LAMMPS and LIGGGHTS with the stiffness given directly, not derived from a characteristic speed.
+//!
+//! # Example
+//! ```
+//! use agglo::contact::{PairConstants, Touch, normal::Hooke};
+//! let law = Hooke { stiffness: agglo::units::Quantity(1e3) };
+//! let touch = Touch { overlap: 1e-6, ..Default::default() };
+//! assert_eq!(law.force(&PairConstants::default(), &touch), 1e3 * 1e-6);
+//! ```
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -15,25 +43,49 @@ pub struct Hooke {
 }
 
 impl Hooke {
-    /// Repulsion [N].
+    /// Repulsion \[N\].
     #[inline]
     pub fn force(&self, _: &PairConstants, touch: &Touch) -> f64 {
         self.stiffness.si() * touch.overlap
     }
 
-    /// Energy stored [J].
+    /// Energy stored \[J\].
     pub fn energy(&self, _: &PairConstants, touch: &Touch) -> f64 {
         0.5 * self.stiffness.si() * touch.overlap * touch.overlap
     }
 
-    /// Slope of the force over the overlap [N/m].
+    /// Slope of the force over the overlap \[N/m\].
     #[inline]
     pub fn tangent_stiffness(&self, _: &PairConstants, _: &Touch) -> f64 {
         self.stiffness.si()
     }
 
     /// The force grows like overlap.
+    #[inline]
     pub fn exponent(&self) -> f64 {
         1.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::collision::HeadOn;
+    use crate::contact::normal::Normal;
+    use crate::units::Quantity;
+
+    /// Half a period of the oscillator: π √(m*/k), amplitude v √(m*/k); Runge-Kutta to 1e-8.
+    #[test]
+    fn contact_lasts_half_a_period() {
+        let rebound = HeadOn {
+            pair: PairConstants::default(),
+            touch: Touch::new([1.0, 2.0], [2.0, 2.0], [0.0; 2], 3.0),
+            normal: &Normal::Hooke(Hooke { stiffness: Quantity(100.0) }),
+            damping: None,
+            speed: 0.3,
+        }
+        .integrate(1e-4);
+        assert!((rebound.duration / (std::f64::consts::PI * 0.1) - 1.0).abs() < 1e-8);
+        assert!((rebound.largest_overlap / 0.03 - 1.0).abs() < 1e-6);
     }
 }

@@ -1,8 +1,8 @@
-//! Elastic laws along the line of centres.
+//! Elastic laws along the line of centres; what a law takes away is the business of [`super::damping`].
 
 mod hertz;
 mod hooke;
-mod strain_power;
+pub(in crate::contact) mod strain_power;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -36,18 +36,18 @@ macro_rules! dispatch {
 }
 
 impl Normal {
-    /// Repulsion [N].
+    /// Repulsion \[N\].
     #[inline]
     pub fn force(&self, pair: &PairConstants, touch: &Touch) -> f64 {
         dispatch!(self, law => law.force(pair, touch))
     }
 
-    /// Energy stored [J]; the force is its slope over the overlap.
+    /// Energy stored \[J\]; the force is its slope over the overlap.
     pub fn energy(&self, pair: &PairConstants, touch: &Touch) -> f64 {
         dispatch!(self, law => law.energy(pair, touch))
     }
 
-    /// Slope of the force over the overlap [N/m].
+    /// Slope of the force over the overlap \[N/m\].
     #[inline]
     pub fn tangent_stiffness(&self, pair: &PairConstants, touch: &Touch) -> f64 {
         dispatch!(self, law => law.tangent_stiffness(pair, touch))
@@ -57,5 +57,52 @@ impl Normal {
     #[inline]
     pub fn exponent(&self) -> f64 {
         dispatch!(self, law => law.exponent())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::check::assert_slope;
+    use crate::units::Quantity;
+
+    fn every_law() -> Vec<Normal> {
+        let powers = [1.0, 1.5, 2.0, 3.0].map(|exponent| Normal::StrainPower(StrainPower { exponent }));
+        let mut laws = powers.to_vec();
+        laws.push(Normal::Hertz(Hertz {}));
+        laws.push(Normal::Hooke(Hooke { stiffness: Quantity(2e4) }));
+        laws
+    }
+
+    #[test]
+    fn force_is_the_slope_of_energy_and_stiffness_that_of_force() {
+        let pair = PairConstants { effective_modulus: 3e9, ..Default::default() };
+        for law in every_law() {
+            for radii in [[1.0, 1.0], [1e-3, 4e-3], [5e-6, 1e-4]] {
+                let touch = |overlap| Touch {
+                    overlap,
+                    ..Touch::new(radii, [1.0, 2.0], [1e7, 3e7], radii[0] + radii[1])
+                };
+                for part in [1e-5, 1e-2, 0.2, 0.9] {
+                    let at = part * radii[0];
+                    let force = |x| law.force(&pair, &touch(x));
+                    assert_slope(at, |x| law.energy(&pair, &touch(x)), force);
+                    assert_slope(at, force, |x| law.tangent_stiffness(&pair, &touch(x)));
+                }
+            }
+        }
+    }
+
+    /// At touching all laws give nothing, and at tiny overlap force grows like overlap^exponent (1e-6: O(δ/R)).
+    #[test]
+    fn edges_and_exponents() {
+        let pair = PairConstants { effective_modulus: 3e9, ..Default::default() };
+        for law in every_law() {
+            let touch = |overlap| Touch { overlap, ..Touch::new([1.0, 0.5], [1.0; 2], [1e7; 2], 1.5) };
+            assert_eq!([law.force(&pair, &touch(0.0)), law.energy(&pair, &touch(0.0))], [0.0, 0.0]);
+            assert!(law.tangent_stiffness(&pair, &touch(0.0)).is_finite());
+            let ratio = law.force(&pair, &touch(2e-9)) / law.force(&pair, &touch(1e-9));
+            assert!((ratio.log2() - law.exponent()).abs() < 1e-6);
+        }
     }
 }

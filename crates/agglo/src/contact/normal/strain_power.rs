@@ -1,4 +1,38 @@
-//! Repulsion from the power of an overlap strain over the contact area ([A] 11-15).
+//! Repulsion from the power of an overlap strain over the contact area.
+//!
+//! # Equation
+//! ```text
+//! F = K E^p A,   E = δ/(R_i + R_j),   U = ∫ K E^p A dδ                                    [A] 13-15
+//! ```
+//!
+//! # Source
+//! \[A\] T. I. Zohdi, Comput. Mech. 57, 465 (2016), eqs 11-15; A from eqs 64-69, see [`Touch::area`].
+//!
+//! # Symbols
+//! | symbol | name in code      | unit | meaning                                                    |
+//! |--------|-------------------|------|------------------------------------------------------------|
+//! | K      | `touch.stiffness` | Pa   | mean of the grains' `contact_stiffness`, softened by heat  |
+//! | p      | `exponent`        | -    | power of the strain, > -1                                  |
+//! | E      | `touch.strain()`  | -    | overlap over the sum of the radii                          |
+//! | A      | `touch.area()`    | m²   | disc in which the spheres cut each other                   |
+//!
+//! # Valid when
+//! The contact is a model of a soft coating or of crushed asperities; K is fitted, not a material's modulus.
+//! Nothing in the law itself limits the strain. For unequal spheres the force falls again once the smaller
+//! one is nearly swallowed, and vanishes where it is.
+//!
+//! # Compared with others
+//! The law of the paper and of its author's books; no other public code has it. Near touching
+//! F = 2 π K R* δ^(p+1) / (R_i + R_j)^p: for p = 2 a force that grows like δ³, far softer at first than Hertz.
+//!
+//! # Example
+//! ```
+//! use agglo::contact::{PairConstants, Touch, normal::StrainPower};
+//! let touch = Touch::new([1.0, 1.0], [1.0, 1.0], [1e7, 1e7], 1.8);
+//! let by_hand = 1e7 * 0.1 * 0.1 * std::f64::consts::PI * (1.0 - 0.81);
+//! let force = StrainPower { exponent: 2.0 }.force(&PairConstants::default(), &touch);
+//! assert!((force / by_hand - 1.0).abs() < 1e-14);
+//! ```
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -18,29 +52,53 @@ fn two() -> f64 {
     2.0
 }
 
+/// strain^exponent, with the usual square worked out directly.
+#[inline]
+pub(in crate::contact) fn strain_power(strain: f64, exponent: f64) -> f64 {
+    if exponent == 2.0 { strain * strain } else { strain.powf(exponent) }
+}
+
 impl StrainPower {
-    /// Repulsion [N].
+    /// Repulsion \[N\].
     #[inline]
     pub fn force(&self, _: &PairConstants, touch: &Touch) -> f64 {
-        let strain = touch.overlap / touch.radius_sum;
-        let power = if self.exponent == 2.0 { strain * strain } else { strain.powf(self.exponent) };
-        touch.stiffness * power * touch.area()
+        touch.stiffness * strain_power(touch.strain(), self.exponent) * touch.area()
     }
 
-    /// Energy stored [J].
-    pub fn energy(&self, pair: &PairConstants, touch: &Touch) -> f64 {
-        let _ = (pair, touch);
-        unimplemented!("quadrature")
+    /// Energy stored \[J\].
+    pub fn energy(&self, _: &PairConstants, touch: &Touch) -> f64 {
+        touch.stiffness * touch.strain_integral(self.exponent)
     }
 
-    /// Slope of the force over the overlap [N/m].
+    /// Slope of the force over the overlap \[N/m\]; negative where a much smaller grain is nearly swallowed.
     #[inline]
-    pub fn tangent_stiffness(&self, pair: &PairConstants, touch: &Touch) -> f64 {
-        self.force(pair, touch) * (self.exponent + 1.0) / touch.overlap
+    pub fn tangent_stiffness(&self, _: &PairConstants, touch: &Touch) -> f64 {
+        let growth = self.exponent * touch.area_over_overlap() + touch.area_slope();
+        touch.stiffness * strain_power(touch.strain(), self.exponent) * growth
     }
 
     /// The force grows like overlap^(p+1), since the area grows like the overlap.
+    #[inline]
     pub fn exponent(&self) -> f64 {
         self.exponent + 1.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Near touching F = 2 π K R* δ³ / S² for p = 2; the next term is of relative order δ/R* = 1e-8.
+    #[test]
+    fn limit_near_touching() {
+        let (radii, overlap) = ([0.05, 0.02], 1e-10);
+        let touch = Touch::new(radii, [1.0; 2], [2e7, 4e7], 0.07 - overlap);
+        let effective = 0.05 * 0.02 / 0.07;
+        let delta = touch.overlap;
+        let by_hand = 2.0 * std::f64::consts::PI * 3e7 * effective * delta.powi(3) / (0.07 * 0.07);
+        let law = StrainPower { exponent: 2.0 };
+        assert!((law.force(&PairConstants::default(), &touch) / by_hand - 1.0).abs() < 1e-7);
+        let ratio = law.tangent_stiffness(&PairConstants::default(), &touch) * delta / by_hand;
+        assert!((ratio - 3.0).abs() < 1e-6);
     }
 }
