@@ -11,7 +11,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use drag::{Drag, DragLaw};
-pub use expression::{Expression, FieldVector};
+pub use expression::{Expression, FieldVector, evaluate};
 pub use gravity::Gravity;
 pub use lorentz::Lorentz;
 pub use magnetic::Magnetic;

@@ -1,0 +1,219 @@
+//! Attraction and repulsion between grains at a distance ([A] 28): the laws, and how far they are followed.
+//!
+//! Signs as in contact: a force > 0 repels. Energies are zero at infinity, or at the cut-off where there is one.
+
+mod coulomb;
+mod power_pair;
+mod van_der_waals;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+pub use coulomb::Coulomb;
+pub use power_pair::{PowerPair, Scaling};
+pub use van_der_waals::VanDerWaals;
+
+use crate::units::Length;
+
+/// The near field: a law, and how far it is followed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct NearField {
+    /// The law.
+    pub law: NearFieldLaw,
+    /// Distance of centres beyond which it is left out; all pairs if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cutoff: Option<Length>,
+}
+
+/// The closed set of near-field laws.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum NearFieldLaw {
+    /// a1 d^-b1 - a2 d^-b2.
+    PowerPair(PowerPair),
+    /// Electrostatic force between the grains' charges.
+    Coulomb(Coulomb),
+    /// Hamaker's force between spheres.
+    VanDerWaals(VanDerWaals),
+}
+
+/// What a grain is to the near field.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Source {
+    /// Mass \[kg\].
+    pub mass: f64,
+    /// Radius \[m\].
+    pub radius: f64,
+    /// Charge \[C\].
+    pub charge: f64,
+    /// Sign c of \[A\] 28: 1 or -1.
+    pub polarity: f64,
+}
+
+impl NearFieldLaw {
+    /// Repulsion \[N\] of two grains at a distance of centres \[m\].
+    #[inline]
+    pub fn force(&self, a: &Source, b: &Source, distance: f64) -> f64 {
+        match self {
+            Self::PowerPair(law) => law.force(a, b, distance),
+            Self::Coulomb(law) => law.force(a, b, distance),
+            Self::VanDerWaals(law) => law.force(a, b, distance),
+        }
+    }
+
+    /// Energy \[J\]; minus its slope over the distance is the force.
+    pub fn energy(&self, a: &Source, b: &Source, distance: f64) -> f64 {
+        match self {
+            Self::PowerPair(law) => law.energy(a, b, distance),
+            Self::Coulomb(law) => law.energy(a, b, distance),
+            Self::VanDerWaals(law) => law.energy(a, b, distance),
+        }
+    }
+
+    /// The power b with which the force falls off at least as fast as d^-b beyond any distance.
+    fn slowest_decay(&self) -> f64 {
+        match self {
+            Self::PowerPair(law) => law.slowest_decay(),
+            Self::Coulomb(_) => 2.0,
+            // Nearer than infinity Hamaker's force is steeper than its limit d^-7.
+            Self::VanDerWaals(_) => 7.0,
+        }
+    }
+
+    /// A bound on the size of the force \[N\] at and beyond a distance \[m\] that decays with `slowest_decay`.
+    fn bound(&self, a: &Source, b: &Source, distance: f64) -> f64 {
+        match self {
+            Self::PowerPair(law) => law.bound(a, b, distance),
+            _ => self.force(a, b, distance).abs(),
+        }
+    }
+}
+
+impl NearField {
+    /// Repulsion \[N\] of two grains at a distance of centres \[m\]; 0 beyond the cut-off.
+    #[inline]
+    pub fn force(&self, a: &Source, b: &Source, distance: f64) -> f64 {
+        if self.is_beyond(distance) { 0.0 } else { self.law.force(a, b, distance) }
+    }
+
+    /// Energy \[J\] whose slope the force is: zero at infinity, or from the cut-off on where there is one.
+    pub fn energy(&self, a: &Source, b: &Source, distance: f64) -> f64 {
+        match self.cutoff {
+            Some(cutoff) if distance > cutoff.si() => 0.0,
+            Some(cutoff) => self.law.energy(a, b, distance) - self.law.energy(a, b, cutoff.si()),
+            None => self.law.energy(a, b, distance),
+        }
+    }
+
+    /// Largest force \[N\] that the cut-off takes from one pair: a bound on what it left out at any distance
+    /// beyond, by which the force of a pair jumps there. 0 without a cut-off.
+    pub fn truncation_error(&self, a: &Source, b: &Source) -> f64 {
+        self.cutoff.map_or(0.0, |cutoff| self.law.bound(a, b, cutoff.si()))
+    }
+
+    /// Bound on the force \[N\] that the cut-off takes from a grain at the surface of a uniform cloud of
+    /// `number_density` \[1/m³\] that fills half of space: π n F(r_c) r_c³/(b - 3) for forces that fall off
+    /// like d^-b. Infinite for b <= 3 (charges, masses): such a force needs all pairs.
+    pub fn truncation_error_in_cloud(&self, a: &Source, b: &Source, number_density: f64) -> f64 {
+        let Some(cutoff) = self.cutoff.map(|length| length.si()) else { return 0.0 };
+        let bound = self.law.bound(a, b, cutoff);
+        let margin = self.law.slowest_decay() - 3.0;
+        if bound == 0.0 {
+            return 0.0;
+        }
+        if margin > 0.0 {
+            std::f64::consts::PI * number_density * bound * cutoff * cutoff * cutoff / margin
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    #[inline]
+    fn is_beyond(&self, distance: f64) -> bool {
+        self.cutoff.is_some_and(|cutoff| distance > cutoff.si())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::check::assert_slope;
+    use crate::units::Quantity;
+
+    const A: Source = Source { mass: 2.0, radius: 1e-3, charge: 3e-9, polarity: 1.0 };
+    const B: Source = Source { mass: 5.0, radius: 4e-3, charge: -1e-9, polarity: -1.0 };
+
+    fn every_law() -> Vec<NearFieldLaw> {
+        let mut laws: Vec<NearFieldLaw> =
+            [(Scaling::Mass, 2.0, 4.0), (Scaling::Surface, 1.0, 3.0), (Scaling::Volume, 0.5, 1.0)]
+                .map(|(scaling, attraction_exponent, repulsion_exponent)| {
+                    let (attraction, repulsion) = (2.0, 3e-3);
+                    let pair =
+                        PowerPair { scaling, attraction, attraction_exponent, repulsion, repulsion_exponent };
+                    NearFieldLaw::PowerPair(pair)
+                })
+                .to_vec();
+        laws.push(NearFieldLaw::Coulomb(Coulomb { relative_permittivity: 80.0 }));
+        let (hamaker, smallest_gap) = (Quantity(1e-19), Quantity(4e-7));
+        laws.push(NearFieldLaw::VanDerWaals(VanDerWaals { hamaker, smallest_gap }));
+        laws
+    }
+
+    #[test]
+    fn force_is_minus_the_slope_of_energy_with_and_without_cutoff() {
+        for law in every_law() {
+            for cutoff in [None, Some(Quantity(0.08))] {
+                let near = NearField { law: law.clone(), cutoff };
+                for distance in [0.006, 0.01, 0.05] {
+                    let energy = |d| -near.energy(&A, &B, d);
+                    assert_slope(distance, energy, |d| near.force(&A, &B, d));
+                    assert_eq!(near.force(&A, &B, distance), near.force(&B, &A, distance));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn beyond_the_cutoff_there_is_nothing() {
+        for law in every_law() {
+            let near = NearField { law, cutoff: Some(Quantity(0.02)) };
+            assert_eq!([near.force(&A, &B, 0.021), near.energy(&A, &B, 0.021)], [0.0, 0.0]);
+            assert_eq!(near.energy(&A, &B, 0.02), 0.0);
+            let largest = near.truncation_error(&A, &B);
+            assert!(largest > 0.0);
+            for distance in [0.02, 0.025, 0.1, 1.0] {
+                assert!(near.law.force(&A, &B, distance).abs() <= largest * (1.0 + 1e-14));
+            }
+        }
+    }
+
+    /// The force of the half space beyond r_c, summed in shells: ∫ F π d² n dd; for a pure power it is the bound.
+    #[test]
+    fn clouds_beyond_the_cutoff() {
+        let power = PowerPair {
+            scaling: Scaling::Mass,
+            attraction: 2.0,
+            attraction_exponent: 6.0,
+            repulsion: 0.0,
+            repulsion_exponent: 9.0,
+        };
+        let cutoff = Some(Quantity(0.5));
+        let near = NearField { law: NearFieldLaw::PowerPair(power), cutoff };
+        let by_hand = std::f64::consts::PI * 100.0 * 2.0 * 10.0 / 3.0 / 0.5_f64.powi(3);
+        assert!((near.truncation_error_in_cloud(&A, &B, 100.0) / by_hand - 1.0).abs() < 1e-14);
+        let coulomb =
+            NearField { law: NearFieldLaw::Coulomb(Coulomb { relative_permittivity: 1.0 }), cutoff };
+        assert_eq!(coulomb.truncation_error_in_cloud(&A, &B, 1.0), f64::INFINITY);
+        let (hamaker, smallest_gap) = (Quantity(1e-19), Quantity(1e-7));
+        let law = NearFieldLaw::VanDerWaals(VanDerWaals { hamaker, smallest_gap });
+        let near = NearField { law, cutoff: Some(Quantity(0.006)) };
+        let (mut sum, shells) = (0.0, 200_000);
+        for k in 0..shells {
+            let d = 0.006 + (f64::from(k) + 0.5) * 1e-6;
+            sum += near.law.force(&A, &B, d).abs() * std::f64::consts::PI * d * d * 1e-6;
+        }
+        let bound = near.truncation_error_in_cloud(&A, &B, 1.0);
+        assert!(sum < bound && sum > 0.1 * bound, "{sum} {bound}");
+    }
+}
