@@ -6,7 +6,7 @@ mod strain_bond;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use beam::{Beam, BeamLoad, BeamState, Break};
+pub use beam::{Beam, BeamLoad, BeamPair, BeamState, Break};
 pub use strain_bond::StrainBond;
 
 /// The closed set of bond laws.
