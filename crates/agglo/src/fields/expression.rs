@@ -1,4 +1,18 @@
 //! A field that is a constant with a unit or an expression in x, y, z and t.
+//!
+//! A constant carries its unit (`"0.1 T"`). A formula is in SI units throughout: x, y, z in metres, t in
+//! seconds, the value in the field's SI unit; it must contain at least one of them, so that a bare number is
+//! never taken for a quantity. It knows `+ - * / ^`, parentheses, the usual functions (`sin`, `cos`, `tan`,
+//! `exp`, `ln`, `sqrt`, `abs`, `floor`, ...) and `pi`. Where a formula has no value (1/x at 0) the result is
+//! infinite or not a number, and the run stops at its guard against such states.
+//!
+//! # Example
+//! ```
+//! use agglo::fields::Expression;
+//! use agglo::math::Vec3;
+//! let field: Expression<1, 0, -2, 0, -1> = Expression::new("0.1*sin(2*pi*t) + 3*x").unwrap();
+//! assert!((field.at(Vec3::new(0.2, 0.0, 0.0), 0.25) - 0.7).abs() < 1e-15);
+//! ```
 
 use std::borrow::Cow;
 use std::fmt;
@@ -27,7 +41,9 @@ enum Value {
 pub type FieldVector<const KG: i8, const M: i8, const S: i8, const K: i8, const A: i8> =
     [Expression<KG, M, S, K, A>; 3];
 
-const VARIABLES: [&str; 4] = ["x", "y", "z", "t"];
+/// What a formula may name: where, when, and one constant that is not a reason to call it a formula.
+const VARIABLES: [&str; 5] = ["x", "y", "z", "t", "pi"];
+const PI_SLOT: usize = 4;
 
 impl<const KG: i8, const M: i8, const S: i8, const K: i8, const A: i8> Expression<KG, M, S, K, A> {
     /// Reads a constant with its unit, or a formula in SI units.
@@ -53,20 +69,20 @@ impl<const KG: i8, const M: i8, const S: i8, const K: i8, const A: i8> Expressio
         }
         let arguments: Vec<usize> =
             names.iter().filter_map(|name| VARIABLES.iter().position(|known| known == name)).collect();
-        if arguments.is_empty() {
+        if arguments.iter().all(|&which| which == PI_SLOT) {
             return Err(reason);
         }
         Ok(Self { text: text.to_owned(), value: Value::Formula { formula: Box::new(formula), arguments } })
     }
 
-    /// The value at a point [m] and time [s], in SI units.
+    /// The value at a point \[m\] and time \[s\], in SI units.
     #[inline]
     pub fn at(&self, point: Vec3, time: f64) -> f64 {
         match &self.value {
             Value::Constant(value) => *value,
             Value::Formula { formula, arguments } => {
-                let known = [point.x, point.y, point.z, time];
-                let mut given = [0.0; 4];
+                let known = [point.x, point.y, point.z, time, std::f64::consts::PI];
+                let mut given = [0.0; 5];
                 for (slot, which) in given.iter_mut().zip(arguments) {
                     *slot = known[*which];
                 }
@@ -84,7 +100,7 @@ impl<const KG: i8, const M: i8, const S: i8, const K: i8, const A: i8> Expressio
     }
 }
 
-/// The vector of a field at a point [m] and time [s].
+/// The vector of a field at a point \[m\] and time \[s\].
 #[inline]
 pub fn evaluate<const KG: i8, const M: i8, const S: i8, const K: i8, const A: i8>(
     field: &FieldVector<KG, M, S, K, A>,
@@ -146,5 +162,67 @@ impl<const KG: i8, const M: i8, const S: i8, const K: i8, const A: i8> JsonSchem
             "x-kind": kind.name,
             "examples": [kind.example],
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    type FluxDensity = Expression<1, 0, -2, 0, -1>;
+
+    const AT: Vec3 = Vec3::new(0.2, -0.5, 3.0);
+
+    fn value(text: &str) -> f64 {
+        FluxDensity::new(text).unwrap().at(AT, 0.25)
+    }
+
+    #[test]
+    fn constants_have_units() {
+        assert_eq!(value("0.1 T"), 0.1);
+        assert_eq!(value("-250 mT"), -0.25);
+        assert_eq!(FluxDensity::new("3 T").unwrap().constant(), Some(3.0));
+        assert_eq!(FluxDensity::new("3*x").unwrap().constant(), None);
+    }
+
+    /// Formulas against the same arithmetic in Rust; two roundings may differ in order.
+    #[test]
+    fn formulas_mean_what_they_say() {
+        let rows = [
+            ("x", 0.2),
+            ("2*x - y/4 + z^2", 0.4 + 0.125 + 9.0),
+            ("0.1*sin(6.5*t) + 3*x", 0.1 * (6.5_f64 * 0.25).sin() + 0.6),
+            ("-(z - t)", -2.75),
+            ("exp(-t)*cos(2*pi*y)", (-0.25_f64).exp() * (-std::f64::consts::PI).cos()),
+            ("sqrt(x^2 + y^2)", 0.29_f64.sqrt()),
+            ("2^-t", 2.0_f64.powf(-0.25)),
+            ("z*y*x*t", -0.075),
+        ];
+        for (text, wanted) in rows {
+            assert!((value(text) - wanted).abs() < 1e-14, "{text}: {}", value(text));
+        }
+        assert!(!value("1/(x - 0.2)").is_finite());
+    }
+
+    #[test]
+    fn what_is_wrong_is_said() {
+        let message = |text: &str| FluxDensity::new(text).unwrap_err();
+        assert!(message("3").contains("has no unit"), "{}", message("3"));
+        assert!(message("2*pi").contains("has no unit") || message("2*pi").contains("unknown unit"));
+        assert!(message("3 m").contains("is a length"), "{}", message("3 m"));
+        let stranger = message("3*u + x");
+        assert!(stranger.contains("uses \"u\"") && stranger.contains("x, y, z"), "{stranger}");
+        for broken in ["3*(x", "sin(", "x +", "", "x y"] {
+            assert!(!message(broken).is_empty(), "{broken}");
+        }
+    }
+
+    #[test]
+    fn text_survives_a_round_trip() {
+        for text in ["\"0.1 T\"", "\"3*x + t\""] {
+            let read: FluxDensity = serde_json::from_str(text).unwrap();
+            assert_eq!(serde_json::to_string(&read).unwrap(), text);
+        }
+        assert!(serde_json::from_str::<FluxDensity>("\"3 kg\"").is_err());
     }
 }

@@ -60,7 +60,7 @@ impl Magnetic {
         if field.iter().all(|component| component.constant().is_some()) {
             return Vec3::ZERO;
         }
-        let step = self.difference.map_or(1e-4 * radius, |length| length.si());
+        let step = self.difference.map_or(1e-4 * radius, Length::si);
         let gradient = Vec3::AXES.map(|axis| {
             let ahead = evaluate(field, position + axis * step, time);
             let behind = evaluate(field, position - axis * step, time);

@@ -144,7 +144,7 @@ pub struct BeamPair {
     pub effective_inertia: f64,
 }
 
-/// Forces and moments [N, N m] of a bond on its two grains.
+/// Forces and moments \[N, N m\] of a bond on its two grains.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BeamLoad {
     /// Force on i; on j the opposite.

@@ -350,7 +350,7 @@ fn critical_step_of_a_pair() {
             grain.velocity = if along { n * (1e-12 / grain.mass) } else { grain.velocity * 1e-7 };
             grain.spin = if along { Vec3::ZERO } else { grain.spin * 1e-7 };
         }
-        pair.grains[0].velocity = pair.grains[0].velocity * -1.0;
+        pair.grains[0].velocity *= -1.0;
         let [i, j] = [pair.grains[0], pair.grains[1]];
         let (masses, inertias) = ([i.mass, j.mass], [i.inertia(), j.inertia()]);
         let step = pair.law.critical_step(&pair.bonds[0], masses, inertias, [1.1e-3, 1.4e-3]);

@@ -13,7 +13,7 @@ pub use strain_bond::StrainBond;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Bonds {
-    /// The bond of [A] 25-26, which acts in contact only and cannot resist tension.
+    /// The paper's bond (Zohdi 2016, eqs 25-26), which acts in contact only and cannot resist tension.
     StrainBond(StrainBond),
     /// Parallel-bond beam (Potyondy and Cundall 2004).
     Beam(Beam),

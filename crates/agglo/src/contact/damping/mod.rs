@@ -15,7 +15,7 @@ use super::{Normal, PairConstants, Touch};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Damping {
-    /// Coefficient times contact area ([A] 19).
+    /// Coefficient times contact area (Zohdi 2016, eq. 19).
     ViscousArea(ViscousArea),
     /// Coefficient from a coefficient of restitution (Tsuji; Antypov and Elliott).
     Restitution(Restitution),

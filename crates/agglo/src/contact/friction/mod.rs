@@ -13,7 +13,7 @@ pub use regularised::Regularised;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Friction {
-    /// The regularised law of [A] 20-24; its stick force carries the time step and does not converge.
+    /// The paper's regularised law (Zohdi 2016, eqs 20-24); its stick force carries the time step and does not converge.
     Regularised(Regularised),
     /// Mindlin / Cundall-Strack: a tangential spring kept per contact.
     Mindlin(Mindlin),

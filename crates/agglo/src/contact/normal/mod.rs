@@ -17,7 +17,7 @@ use super::{PairConstants, Touch};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Normal {
-    /// Force from the power of a strain over the contact area ([A] 11-15).
+    /// Force from the power of a strain over the contact area (Zohdi 2016, eqs 11-15).
     StrainPower(StrainPower),
     /// Hertz.
     Hertz(Hertz),

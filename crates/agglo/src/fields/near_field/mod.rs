@@ -1,4 +1,4 @@
-//! Attraction and repulsion between grains at a distance ([A] 28): the laws, and how far they are followed.
+//! Attraction and repulsion between grains at a distance (\[A\] 28): the laws, and how far they are followed.
 //!
 //! Signs as in contact: a force > 0 repels. Energies are zero at infinity, or at the cut-off where there is one.
 
@@ -116,7 +116,7 @@ impl NearField {
     /// `number_density` \[1/m³\] that fills half of space: π n F(r_c) r_c³/(b - 3) for forces that fall off
     /// like d^-b. Infinite for b <= 3 (charges, masses): such a force needs all pairs.
     pub fn truncation_error_in_cloud(&self, a: &Source, b: &Source, number_density: f64) -> f64 {
-        let Some(cutoff) = self.cutoff.map(|length| length.si()) else { return 0.0 };
+        let Some(cutoff) = self.cutoff.map(Length::si) else { return 0.0 };
         let bound = self.law.bound(a, b, cutoff);
         let margin = self.law.slowest_decay() - 3.0;
         if bound == 0.0 {
