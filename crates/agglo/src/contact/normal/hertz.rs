@@ -74,8 +74,7 @@ mod tests {
     use crate::contact::collision::HeadOn;
     use crate::contact::normal::Normal;
 
-    /// Chung and Ooi (2011), test 1: two equal spheres of radius 10 mm at +-10 m/s. The published figures have
-    /// five digits; contact time is 2.8683 (m*²/(R* E*² v))^(1/5)-like and follows from the same integration.
+    /// Chung and Ooi (2011), test 1: two equal spheres of radius 10 mm at +-10 m/s; overlap, force and duration.
     #[test]
     fn val_chung_ooi_2011_two_spheres() {
         let cases = [
