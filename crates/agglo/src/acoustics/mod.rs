@@ -1,16 +1,20 @@
 //! An acoustic pulse as thousands of rays: how it is launched, reflected and absorbed, and how it pushes grains.
 
 mod beam;
+mod flight;
 pub mod fresnel;
 mod medium;
 mod ray_force;
+mod tracer;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use beam::{Beam, Gaussian, Pattern, Profile, Pulses, Strength};
+pub use beam::{Beam, Gaussian, Pattern, Profile, Pulses, RayStart, Strength, default_region};
+pub use flight::{Flight, PulseCount, Ray};
 pub use medium::Medium;
 pub use ray_force::{Impulse, PublishedStep, RadiationPressure, RayForce};
+pub use tracer::{Hit, Tracer};
 
 use crate::domain::Region;
 

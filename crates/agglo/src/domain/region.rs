@@ -103,4 +103,114 @@ impl Region {
             }
         }
     }
+
+    /// Distance [m] from a point inside, along a unit vector, to the surface; 0 where the ray does not get back in.
+    pub fn exit_distance(&self, origin: Vec3, direction: Vec3) -> f64 {
+        match self {
+            Self::Sphere(ball) => {
+                farther_root(origin - vector(ball.center), direction, ball.radius.si()).max(0.0)
+            }
+            Self::Box(block) => {
+                let (low, high) = (vector(block.lower) - origin, vector(block.upper) - origin);
+                let leave = |axis: usize| leaving_slab(low[axis], high[axis], direction[axis]);
+                leave(0).min(leave(1)).min(leave(2)).max(0.0)
+            }
+            Self::Cylinder(cylinder) => {
+                let axis = Vec3::from(cylinder.axis).normalized();
+                let from = origin - vector(cylinder.center);
+                let half = 0.5 * cylinder.length.si();
+                let (along, speed) = (from.dot(axis), direction.dot(axis));
+                let caps = leaving_slab(-half - along, half - along, speed);
+                let across = direction.rejected_from(axis);
+                let turn = across.norm();
+                if turn == 0.0 {
+                    return caps.max(0.0);
+                }
+                let mantle =
+                    farther_root(from.rejected_from(axis), across / turn, cylinder.radius.si()) / turn;
+                caps.min(mantle).max(0.0)
+            }
+        }
+    }
+
+    /// Lower and upper corner [m] of the box with faces along the axes that encloses the region.
+    pub fn bounds(&self) -> (Vec3, Vec3) {
+        let half = match self {
+            Self::Sphere(ball) => Vec3::new(1.0, 1.0, 1.0) * ball.radius.si(),
+            Self::Box(block) => (vector(block.upper) - vector(block.lower)) * 0.5,
+            Self::Cylinder(cylinder) => {
+                let axis = Vec3::from(cylinder.axis).normalized();
+                let half = axis.to_array().map(|part| {
+                    let flat = (1.0 - part * part).max(0.0).sqrt();
+                    0.5 * cylinder.length.si() * part.abs() + cylinder.radius.si() * flat
+                });
+                Vec3::from(half)
+            }
+        };
+        (self.center() - half, self.center() + half)
+    }
+}
+
+/// Where a ray leaves a slab whose faces lie at `low` and `high` from its start along an axis.
+fn leaving_slab(low: f64, high: f64, speed: f64) -> f64 {
+    if speed == 0.0 { f64::INFINITY } else { (low / speed).max(high / speed) }
+}
+
+/// Where a ray that starts at `from` seen from the centre leaves a ball (or, in two dimensions, a circle).
+fn farther_root(from: Vec3, direction: Vec3, radius: f64) -> f64 {
+    let nearest = -from.dot(direction);
+    let offset = from + direction * nearest;
+    let half_chord_squared = radius * radius - offset.norm_squared();
+    if half_chord_squared < 0.0 { 0.0 } else { nearest + half_chord_squared.sqrt() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::rng::{Purpose, Stream};
+    use crate::units::Quantity;
+
+    fn regions() -> [Region; 3] {
+        let center = [0.3, -0.2, 0.1].map(Quantity);
+        [
+            Region::Sphere(Ball { center, radius: Quantity(0.8) }),
+            Region::Box(Block {
+                lower: [-0.4, -0.9, -0.6].map(Quantity),
+                upper: [1.0, 0.4, 0.9].map(Quantity),
+            }),
+            Region::Cylinder(Cylinder {
+                center,
+                axis: [1.0, 2.0, -1.0],
+                radius: Quantity(0.5),
+                length: Quantity(1.6),
+            }),
+        ]
+    }
+
+    /// Just before the exit a point is inside, just behind it outside, and inside the bounds.
+    #[test]
+    fn exit_lies_on_the_surface() {
+        let mut stream = Stream::new(1, Purpose::Sampling, 0);
+        for region in regions() {
+            let (lower, upper) = region.bounds();
+            for k in 0..2000 {
+                let origin = region.center() + stream.direction() * (0.45 * stream.uniform());
+                let direction = if k % 7 == 0 { Vec3::AXES[k % 3] } else { stream.direction() };
+                let distance = region.exit_distance(origin, direction);
+                assert!(region.contains(origin + direction * (distance - 1e-12), 0.0));
+                assert!(!region.contains(origin + direction * (distance + 1e-12), 0.0));
+                let exit = origin + direction * distance;
+                let slack = Vec3::new(1e-12, 1e-12, 1e-12);
+                assert_eq!(exit.max(lower - slack).min(upper + slack), exit);
+            }
+        }
+    }
+
+    #[test]
+    fn exit_distances_by_hand() {
+        let ball = Region::Sphere(Ball { center: [Quantity(0.0); 3], radius: Quantity(1.0) });
+        assert_eq!(ball.exit_distance(Vec3::new(-1.0, 0.0, 0.0), Vec3::AXES[0]), 2.0);
+        assert!((ball.exit_distance(Vec3::new(0.0, 0.6, 0.0), Vec3::AXES[0]) - 0.8).abs() < 1e-15);
+        assert_eq!(ball.exit_distance(Vec3::new(0.0, 2.0, 0.0), Vec3::AXES[0]), 0.0);
+    }
 }

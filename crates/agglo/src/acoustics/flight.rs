@@ -1,0 +1,214 @@
+//! The rays in flight and the books of every pulse: all that a restart needs of the acoustics.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Beam, Medium};
+use crate::math::Vec3;
+use crate::neighbors::ray_grid::NO_SPHERE;
+
+/// A ray in flight.
+///
+/// It remembers where its straight segment began and how far it has come since, not where it is: so what it
+/// hits does not depend on the number of steps in between, to the last bit.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Ray {
+    /// Where the segment began: its start or its last bounce [m].
+    pub origin: Vec3,
+    /// Unit vector.
+    pub direction: Vec3,
+    /// Way since the segment began [m].
+    pub travelled: f64,
+    /// Power now [W].
+    pub power: f64,
+    /// Power at the start [W].
+    pub first_power: f64,
+    /// Area in the beam [m²].
+    pub area: f64,
+    /// Index of the grain hit last; [`NO_SPHERE`] at the start.
+    pub last_hit: u32,
+    /// Bounces so far.
+    pub bounces: u32,
+    /// Place of its pulse in [`Flight::pulses`].
+    pub pulse: u32,
+}
+
+/// The books of one pulse. Powers obey in = absorbed + escaped + truncated + in flight.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PulseCount {
+    /// Number of the beam in the scenario.
+    pub beam: u32,
+    /// Number of the pulse within its beam, from 0.
+    pub number: u32,
+    /// When it started [s].
+    pub start_s: f64,
+    /// Rays at the start.
+    pub rays: u32,
+    /// Bounces.
+    pub reflections: u64,
+    /// Straight pieces that are finished: bounces and the leaving legs of rays that escaped.
+    pub segments: u64,
+    /// Power at the start [W].
+    pub power_in: f64,
+    /// Power that grains took [W].
+    pub power_absorbed: f64,
+    /// Power that left the region [W].
+    pub power_escaped: f64,
+    /// Power of rays that were dropped [W].
+    pub power_truncated: f64,
+    /// Bounces of the ray that bounced most.
+    pub longest_chain: u32,
+    /// Rays in flight.
+    pub in_flight: u32,
+}
+
+/// All rays in flight, of all pulses, and the books of the pulses.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Flight {
+    pub(super) rays: Vec<Ray>,
+    pub(super) pulses: Vec<PulseCount>,
+}
+
+impl Ray {
+    /// Where the ray is [m].
+    #[inline]
+    pub fn position(&self) -> Vec3 {
+        self.origin + self.direction * self.travelled
+    }
+}
+
+impl Flight {
+    /// Launches a pulse: `pulse` counts those of its beam from 0, `number` is the beam's in the scenario.
+    ///
+    /// Whether the rays start inside their region is checked before: [`Beam::starts_inside`].
+    pub fn launch(&mut self, beam: &Beam, medium: &Medium, seed: u64, number: u32, pulse: u32) {
+        let place = self.pulses.len() as u32;
+        let (direction, area) = (beam.axis(), beam.ray_area());
+        let starts = beam.ray_starts(medium, seed, number, pulse);
+        self.pulses.push(PulseCount {
+            beam: number,
+            number: pulse,
+            start_s: beam.pulses.start_time(pulse),
+            rays: beam.rays,
+            in_flight: beam.rays,
+            power_in: starts.iter().map(|start| start.power).sum(),
+            ..PulseCount::default()
+        });
+        self.rays.extend(starts.iter().map(|start| Ray {
+            origin: start.position,
+            direction,
+            travelled: 0.0,
+            power: start.power,
+            first_power: start.power,
+            area,
+            last_hit: NO_SPHERE,
+            bounces: 0,
+            pulse: place,
+        }));
+    }
+
+    /// Rays in flight, those of the earliest pulse first.
+    pub fn rays(&self) -> &[Ray] {
+        &self.rays
+    }
+
+    /// The pulses in the order of their launch.
+    pub fn pulses(&self) -> &[PulseCount] {
+        &self.pulses
+    }
+
+    /// Tells the rays that grains were put into another order: `new_index_of_old` [n].
+    pub fn reindex(&mut self, new_index_of_old: &[u32]) {
+        for ray in &mut self.rays {
+            // A grain that is gone, and "none", stay none.
+            ray.last_hit = new_index_of_old.get(ray.last_hit as usize).copied().unwrap_or(NO_SPHERE);
+        }
+    }
+
+    /// Power [W] of the rays of a pulse that are in flight.
+    pub fn power_in_flight(&self, pulse: usize) -> f64 {
+        self.rays.iter().filter(|ray| ray.pulse as usize == pulse).map(|ray| ray.power).sum()
+    }
+
+    /// Power left in a pulse over its power at the start: components along x, y, z, and magnitude ([A] 39).
+    ///
+    /// The components are the sums of I_q d_q. The magnitude is the sum of |I_q|: the part of the power that is
+    /// still in flight, 1 at the start. The paper's Fig. 10 d prints the root of the sum of squares there, which is
+    /// 1/sqrt(rays) at the start and depends on the number of rays for ever; that is not offered.
+    pub fn pulse_power(&self, pulse: usize) -> [f64; 4] {
+        let power_in = self.pulses.get(pulse).map_or(0.0, |count| count.power_in);
+        normalised(self.rays.iter().filter(|ray| ray.pulse as usize == pulse), power_in)
+    }
+
+    /// [`Flight::pulse_power`] of all rays in flight, over the power of the latest pulse of each beam.
+    ///
+    /// With one beam whose pulses do not overlap it is that of the pulse in flight; rays of earlier pulses that are
+    /// still about add to it.
+    pub fn beam_power(&self) -> [f64; 4] {
+        let is_latest = |(place, pulse): &(usize, &PulseCount)| {
+            self.pulses[place + 1..].iter().all(|later| later.beam != pulse.beam)
+        };
+        let latest = self.pulses.iter().enumerate().filter(is_latest);
+        normalised(self.rays.iter(), latest.map(|(_, pulse)| pulse.power_in).sum())
+    }
+}
+
+fn normalised<'a>(rays: impl Iterator<Item = &'a Ray>, power_in: f64) -> [f64; 4] {
+    if power_in <= 0.0 {
+        return [0.0; 4];
+    }
+    let (mut sum, mut magnitude) = (Vec3::ZERO, 0.0);
+    for ray in rays {
+        sum += ray.direction * ray.power;
+        magnitude += ray.power;
+    }
+    [sum.x, sum.y, sum.z, magnitude].map(|value| value / power_in)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::acoustics::{Pattern, Profile, Pulses, Strength};
+    use crate::units::Quantity;
+
+    fn beam(direction: [f64; 3], power: f64) -> Beam {
+        Beam {
+            start: [Quantity(0.0); 3],
+            direction,
+            radius: Quantity(1.0),
+            rays: 64,
+            strength: Strength::Power(Quantity(power)),
+            pattern: Pattern::Sunflower,
+            profile: Profile::Uniform,
+            pulses: Pulses { first: Quantity(1.0), period: Some(Quantity(0.5)), count: 4 },
+            frequency: None,
+        }
+    }
+
+    #[test]
+    fn power_of_fresh_pulses() {
+        let mut flight = Flight::default();
+        assert_eq!(flight.beam_power(), [0.0; 4]);
+        let medium = Medium::default();
+        flight.launch(&beam([0.0, 3.0, 4.0], 2.0), &medium, 1, 0, 2);
+        let close = |found: [f64; 4], known: [f64; 4]| (0..4).all(|k| (found[k] - known[k]).abs() < 1e-14);
+        assert!(close(flight.beam_power(), [0.0, 0.6, 0.8, 1.0]));
+        flight.launch(&beam([-1.0, 0.0, 0.0], 6.0), &medium, 1, 1, 0);
+        assert!(close(flight.beam_power(), [-0.75, 0.15, 0.2, 1.0]));
+        assert!(close(flight.pulse_power(0), [0.0, 0.6, 0.8, 1.0]));
+        // A second pulse of beam 0 while all of its first is about: (2 + 2 + 6)/(2 + 6).
+        flight.launch(&beam([0.0, 3.0, 4.0], 2.0), &medium, 1, 0, 3);
+        assert!(close(flight.beam_power(), [-0.75, 0.3, 0.4, 1.25]));
+        assert_eq!([0, 1, 2].map(|k| flight.pulses()[k].start_s), [2.0, 1.0, 2.5]);
+    }
+
+    #[test]
+    fn rays_follow_grains_into_another_order() {
+        let mut flight = Flight::default();
+        flight.launch(&beam([1.0, 0.0, 0.0], 1.0), &Medium::default(), 1, 0, 0);
+        for (place, last) in [(0, 0), (1, 2), (2, 5)] {
+            flight.rays[place].last_hit = last;
+        }
+        flight.reindex(&[2, 0, 1]);
+        assert_eq!([0, 1, 2, 3].map(|k| flight.rays[k].last_hit), [2, 1, NO_SPHERE, NO_SPHERE]);
+    }
+}
