@@ -100,3 +100,21 @@ fn grid_build(bencher: divan::Bencher<'_, '_>, count: usize) {
         grid.builds()
     });
 }
+
+/// The same pulse in steps of a tenth of a radius, as a run takes them, until all but one ray in a hundred is gone.
+#[divan::bench]
+fn pulse_in_steps(bencher: divan::Bencher<'_, '_>) {
+    let (positions, radii, material) = packing(2000);
+    let region = default_region(&positions, &radii, &[beam()]);
+    let mut tracer = Tracer::new(region, vec![CERAMIC], 0.0);
+    let mut start = Flight::default();
+    start.launch(&beam(), &Medium::default(), 1, 0, 0);
+    bencher.with_inputs(|| start.clone()).bench_local_refs(|flight| {
+        let mut steps = 0;
+        while flight.rays().len() > 100 {
+            tracer.advance(flight, &positions, &radii, &material, 0.1 * radii[0]);
+            steps += 1;
+        }
+        steps
+    });
+}

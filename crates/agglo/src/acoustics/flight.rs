@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Beam, Medium};
 use crate::math::Vec3;
-use crate::neighbors::ray_grid::NO_SPHERE;
+use crate::neighbors::ray_grid::{Clear, NO_SPHERE};
 
 /// A ray in flight.
 ///
@@ -30,6 +30,9 @@ pub struct Ray {
     pub bounces: u32,
     /// Place of its pulse in [`Flight::pulses`].
     pub pulse: u32,
+    /// How far the way is known to be clear; not part of the state.
+    #[serde(skip)]
+    pub(super) clear: Clear,
 }
 
 /// The books of one pulse. Powers obey in = absorbed + escaped + truncated + in flight.
@@ -103,6 +106,7 @@ impl Flight {
             last_hit: NO_SPHERE,
             bounces: 0,
             pulse: place,
+            clear: Clear::default(),
         }));
     }
 
@@ -121,6 +125,7 @@ impl Flight {
         for ray in &mut self.rays {
             // A grain that is gone, and "none", stay none.
             ray.last_hit = new_index_of_old.get(ray.last_hit as usize).copied().unwrap_or(NO_SPHERE);
+            ray.clear = Clear::default();
         }
     }
 

@@ -210,6 +210,10 @@ impl Scene<'_> {
     /// Flies one ray; false if it ended.
     fn fly(&self, ray: &mut Ray, tally: &mut Tally, hits: &mut Vec<Hit>) -> bool {
         let mut end = ray.travelled + self.distance;
+        if self.grid.is_clear(&ray.clear, end) {
+            ray.travelled = end;
+            return true;
+        }
         let (mut bounces, mut in_place) = (0, 0);
         loop {
             let exit = self.region.exit_distance(ray.origin, ray.direction);
@@ -223,6 +227,7 @@ impl Scene<'_> {
             let Some(met) = self.grid.nearest(&span) else {
                 if exit > end {
                     ray.travelled = end;
+                    ray.clear = self.grid.clear_until(&RaySpan { from: end, to: exit, ..span });
                     return true;
                 }
                 tally.escapes += 1;

@@ -4,19 +4,34 @@
 //! one has moved by the margin. What a ray hits never depends on when the grid was built: the cells only say
 //! which spheres are tested. Spheres that do not touch the box of the rays are not binned.
 //!
+//! The margin also tells how far a ray can fly unhindered while the grid stays valid ([`RayGrid::clear_until`]), so
+//! that short steps need not look again.
+//!
 //! Source: J. Amanatides and A. Woo, *A fast voxel traversal algorithm for ray tracing*, Eurographics (1987).
 
+#[cfg(test)]
+mod tests;
+mod walk;
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use crate::math::Vec3;
+use walk::Walk;
 
 /// In place of a sphere's number: none.
 pub const NO_SPHERE: u32 = u32::MAX;
 
 /// Cells per sphere that a new grid aims at; twice as many are allowed for awkward boxes.
-const CELLS_PER_SPHERE: f64 = 4.0;
+const CELLS_PER_SPHERE: f64 = 2.0;
 /// How far a sphere may move before the grid is built anew, as a part of the mean radius.
 const MARGIN: f64 = 0.1;
 /// Spheres are binned with a little more than the margin, so that rounding in the walk cannot miss one.
 const BINNED_MARGIN: f64 = 1.01 * MARGIN;
+/// What a ray must stay clear of is between the two: safe against rounding on both sides.
+const CLEAR_MARGIN: f64 = 1.005 * MARGIN;
+
+/// Counts the builds of all grids, so that no two have the same [`Clear::build`].
+static BUILDS: AtomicU64 = AtomicU64::new(0);
 
 /// A straight piece of a ray: points `origin + t direction` with `from <= t <= to`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,6 +57,20 @@ pub struct SphereHit {
     pub sphere: u32,
 }
 
+/// How far a ray can fly unhindered while one build of a grid is valid. A shortcut, no part of any state: without
+/// it the same hits are found, only later; so all values are equal.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Clear {
+    until: f64,
+    build: u64,
+}
+
+impl PartialEq for Clear {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
 /// A sphere, packed for the exact test.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Sphere {
@@ -65,6 +94,7 @@ pub struct RayGrid {
     /// As they were when the grid was built; a negative radius marks those that are not binned.
     built: Vec<Sphere>,
     builds: u64,
+    build: u64,
 }
 
 impl RaySpan {
@@ -86,6 +116,14 @@ impl RaySpan {
         let entry = outside / (nearest + half_chord_squared.sqrt());
         Some(entry.max(self.from))
     }
+
+    /// Where the ray first touches a ball that a moving sphere may be anywhere in: unlike [`RaySpan::meets`] also on
+    /// its way out, since the sphere's own centre may lie ahead.
+    #[inline]
+    fn touches(&self, ball: Sphere) -> Option<f64> {
+        let now = self.origin + self.direction * self.from - ball.center;
+        if now.norm_squared() <= ball.radius * ball.radius { Some(self.from) } else { self.meets(ball) }
+    }
 }
 
 impl RayGrid {
@@ -104,6 +142,7 @@ impl RayGrid {
             spheres: Vec::new(),
             built: Vec::new(),
             builds: 0,
+            build: 0,
         }
     }
 
@@ -143,6 +182,7 @@ impl RayGrid {
 
     fn build(&mut self) {
         self.builds += 1;
+        self.build = BUILDS.fetch_add(1, Ordering::Relaxed) + 1;
         let mean = self.spheres.iter().map(|sphere| sphere.radius).sum::<f64>() / self.spheres.len() as f64;
         self.margin = MARGIN * mean;
         let mut built = std::mem::take(&mut self.built);
@@ -251,6 +291,27 @@ impl RayGrid {
     /// The nearest sphere that the ray meets; of several at the same distance the one with the lowest number.
     #[inline]
     pub fn nearest(&self, span: &RaySpan) -> Option<SphereHit> {
+        self.first(span, |sphere| span.meets(self.spheres[sphere]))
+    }
+
+    /// How far the ray meets none of the spheres, wherever they move while this build of the grid is valid.
+    pub fn clear_until(&self, span: &RaySpan) -> Clear {
+        let margin = self.margin * (CLEAR_MARGIN / MARGIN);
+        let ball = |sphere: Sphere| Sphere { radius: sphere.radius + margin, ..sphere };
+        let first = self.first(span, |sphere| span.touches(ball(self.built[sphere])));
+        let until = first.map_or(span.to, |hit| hit.at);
+        Clear { until, build: self.build }
+    }
+
+    /// Whether the ray is known to meet nothing up to `end` [m].
+    #[inline]
+    pub fn is_clear(&self, clear: &Clear, end: f64) -> bool {
+        clear.build == self.build && end < clear.until
+    }
+
+    /// The first of the spheres along the ray's way by the distance that `test` finds for a number.
+    #[inline]
+    fn first(&self, span: &RaySpan, test: impl Fn(usize) -> Option<f64>) -> Option<SphereHit> {
         let (enter, leave) = self.clip(span)?;
         let mut walk = Walk::new(self, span, enter);
         let mut best = SphereHit { at: span.to, sphere: NO_SPHERE };
@@ -258,7 +319,7 @@ impl RayGrid {
             let first = self.starts[walk.cell] as usize;
             let last = self.starts[walk.cell + 1] as usize;
             for &sphere in &self.entries[first..last] {
-                if let Some(at) = span.meets(self.spheres[sphere as usize])
+                if let Some(at) = test(sphere as usize)
                     && (at < best.at || (at == best.at && sphere < best.sphere))
                     && sphere != span.skip
                 {
@@ -293,174 +354,5 @@ impl RayGrid {
             leave = leave.min(a.max(b));
         }
         (enter <= leave).then_some((enter, leave))
-    }
-}
-
-/// A ray's walk from cell to cell.
-struct Walk {
-    cell: usize,
-    /// Distance at which the ray crosses the next face across each axis.
-    next: [f64; 3],
-    /// From face to face.
-    between: [f64; 3],
-    stride: [isize; 3],
-    /// Cells left before the box ends.
-    left: [usize; 3],
-}
-
-impl Walk {
-    #[inline]
-    fn new(grid: &RayGrid, span: &RaySpan, enter: f64) -> Self {
-        let start = span.origin + span.direction * enter;
-        let mut walk =
-            Self { cell: 0, next: [f64::INFINITY; 3], between: [0.0; 3], stride: [0; 3], left: [0; 3] };
-        let mut row = 1;
-        for axis in 0..3 {
-            let dims = grid.dims[axis];
-            let place = (((start[axis] - grid.lower[axis]) / grid.cell).max(0.0) as usize).min(dims - 1);
-            walk.cell += row * place;
-            let d = span.direction[axis];
-            if d != 0.0 {
-                let ahead = d > 0.0;
-                let face = grid.lower[axis] + (place + usize::from(ahead)) as f64 * grid.cell;
-                walk.next[axis] = (face - span.origin[axis]) / d;
-                walk.between[axis] = grid.cell / d.abs();
-                walk.stride[axis] = if ahead { row.cast_signed() } else { -row.cast_signed() };
-                walk.left[axis] = if ahead { dims - 1 - place } else { place };
-            }
-            row *= dims;
-        }
-        walk
-    }
-
-    #[inline]
-    fn axis(&self) -> usize {
-        let [x, y, z] = self.next;
-        if x <= y && x <= z {
-            0
-        } else if y <= z {
-            1
-        } else {
-            2
-        }
-    }
-
-    #[inline]
-    fn next_face(&self) -> f64 {
-        self.next[self.axis()]
-    }
-
-    /// Goes into the next cell; false if the box ends here.
-    #[inline]
-    fn step(&mut self) -> bool {
-        let axis = self.axis();
-        if self.left[axis] == 0 {
-            return false;
-        }
-        self.left[axis] -= 1;
-        self.next[axis] += self.between[axis];
-        self.cell = self.cell.wrapping_add_signed(self.stride[axis]);
-        true
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::math::rng::{Purpose, Stream};
-
-    fn point(stream: &mut Stream, scale: f64) -> Vec3 {
-        Vec3::new(stream.uniform() - 0.5, stream.uniform() - 0.5, stream.uniform() - 0.5) * (2.0 * scale)
-    }
-
-    fn brute_force(span: &RaySpan, positions: &[Vec3], radii: &[f64]) -> Option<SphereHit> {
-        let mut best: Option<SphereHit> = None;
-        for (number, (&center, &radius)) in positions.iter().zip(radii).enumerate() {
-            let number = number as u32;
-            if let Some(at) = span.meets(Sphere { center, radius })
-                && number != span.skip
-                && at <= span.to
-                && best.is_none_or(|hit| at < hit.at)
-            {
-                best = Some(SphereHit { at, sphere: number });
-            }
-        }
-        best
-    }
-
-    /// Spheres of size ratio 10 that overlap, move and partly lie outside; results are equal to the last bit.
-    #[test]
-    fn grid_finds_what_brute_force_finds_while_spheres_move() {
-        let mut stream = Stream::new(3, Purpose::Sampling, 0);
-        for count in [1, 2, 40, 700] {
-            let corner = Vec3::new(1.0, 1.0, 1.0);
-            let mut grid = RayGrid::new(-corner, corner);
-            let mut positions: Vec<Vec3> = (0..count).map(|_| point(&mut stream, 1.3)).collect();
-            let radii: Vec<f64> = (0..count).map(|_| 0.02 * 10.0_f64.powf(stream.uniform())).collect();
-            let mut hits = 0;
-            for _ in 0..25 {
-                grid.update(&positions, &radii);
-                for _ in 0..400 {
-                    let mut direction = stream.direction();
-                    if stream.uniform() < 0.2 {
-                        direction = Vec3::AXES[(stream.uniform() * 3.0) as usize];
-                    }
-                    let from = if stream.uniform() < 0.5 { 0.0 } else { 0.3 * stream.uniform() };
-                    let origin = point(&mut stream, 1.0) - direction * from;
-                    let inside = crate::domain::Region::Box(crate::domain::Block {
-                        lower: (-corner).to_array().map(crate::units::Quantity),
-                        upper: corner.to_array().map(crate::units::Quantity),
-                    });
-                    let to = inside.exit_distance(origin, direction).min(from + 3.0 * stream.uniform());
-                    let skip = (stream.uniform() * count as f64) as u32;
-                    let span = RaySpan { origin, direction, from, to, skip };
-                    let found = grid.nearest(&span);
-                    assert_eq!(found, brute_force(&span, &positions, &radii), "{span:?}");
-                    hits += usize::from(found.is_some());
-                }
-                for position in &mut positions {
-                    *position += stream.direction() * (0.002 * stream.uniform());
-                }
-            }
-            assert!(grid.builds() < 25 && (count < 700 || hits > 5000), "{} {hits}", grid.builds());
-        }
-    }
-
-    #[test]
-    fn distance_and_limits_by_hand() {
-        let mut grid = RayGrid::new(Vec3::new(-9.0, -9.0, -9.0), Vec3::new(9.0, 9.0, 9.0));
-        grid.update(&[Vec3::new(3.0, 0.6, 0.0), Vec3::new(3.0, 0.6, 0.0)], &[1.0, 1.0]);
-        let span =
-            RaySpan { origin: Vec3::ZERO, direction: Vec3::AXES[0], from: 0.0, to: 9.0, skip: NO_SPHERE };
-        // 3 - sqrt(1 - 0.36) = 2.2; of two equal spheres the first is hit.
-        let hit = grid.nearest(&span).unwrap();
-        assert!((hit.at - 2.2).abs() < 1e-15 && hit.sphere == 0);
-        assert_eq!(grid.nearest(&RaySpan { skip: 0, ..span }).unwrap().sphere, 1);
-        assert_eq!(grid.nearest(&RaySpan { to: 2.19, ..span }), None);
-        assert_eq!(grid.nearest(&RaySpan { to: hit.at, ..span }), Some(hit));
-    }
-
-    #[test]
-    fn a_sphere_that_swept_over_the_ray_is_hit_at_once_or_never() {
-        let mut grid = RayGrid::new(Vec3::new(-9.0, -9.0, -9.0), Vec3::new(9.0, 9.0, 9.0));
-        grid.update(&[Vec3::new(3.0, 0.0, 0.0)], &[1.0]);
-        let span =
-            RaySpan { origin: Vec3::ZERO, direction: Vec3::AXES[0], from: 2.5, to: 9.0, skip: NO_SPHERE };
-        assert_eq!(grid.nearest(&span).unwrap().at, 2.5);
-        assert_eq!(grid.nearest(&RaySpan { from: 3.5, ..span }), None);
-    }
-
-    #[test]
-    fn far_spheres_cost_no_rebuild_until_they_come_near() {
-        let mut grid = RayGrid::new(Vec3::new(-1.0, -1.0, -1.0), Vec3::new(1.0, 1.0, 1.0));
-        let mut positions = [Vec3::ZERO, Vec3::new(50.0, 0.0, 0.0)];
-        for _ in 0..48 {
-            grid.update(&positions, &[0.1, 0.1]);
-            assert_eq!(grid.builds(), 1);
-            positions[1].x -= 1.0;
-        }
-        positions[1].x = 1.0;
-        grid.update(&positions, &[0.1, 0.1]);
-        assert_eq!(grid.builds(), 2);
     }
 }
