@@ -1,0 +1,87 @@
+//! What can go wrong when grains are placed.
+
+use std::path::PathBuf;
+
+/// Solid fraction at which random sequential addition of equal spheres comes to its end.
+pub const SATURATION: f64 = 0.382;
+
+/// Why the grains could not be placed. `group` is the place in the scenario's list `grains`, from 0.
+#[derive(Debug, thiserror::Error)]
+pub enum PackingError {
+    /// Random sequential addition found no more room.
+    #[error(
+        "grains[{group}]: no room left after {placed} of {wanted} grains (solid fraction {reached:.3}, asked for \
+         {solid_fraction:.3}); random placement of equal spheres ends at {limit}. Ask for fewer grains, give a \
+         larger region, or use `lattice` placement",
+        limit = SATURATION
+    )]
+    Saturated {
+        /// Which group.
+        group: usize,
+        /// Grains of the group that found a place; 0 where the request was hopeless from the start.
+        placed: usize,
+        /// Grains that were asked for.
+        wanted: usize,
+        /// Volume of the grains asked for over that of the region.
+        solid_fraction: f64,
+        /// Volume of the grains placed over that of the region.
+        reached: f64,
+    },
+    /// A grain is larger than the region it should lie in.
+    #[error(
+        "grains[{group}]: a grain of radius {radius:e} m does not fit into the region, whose largest inner sphere \
+         has radius {room:e} m; give smaller grains or a larger region"
+    )]
+    TooLarge {
+        /// Which group.
+        group: usize,
+        /// Radius of the grain [m].
+        radius: f64,
+        /// Radius of the largest sphere in the region [m].
+        room: f64,
+    },
+    /// A value in the scenario that cannot be.
+    #[error("grains[{group}].{key}: {reason}")]
+    Value {
+        /// Which group.
+        group: usize,
+        /// The key below the group.
+        key: &'static str,
+        /// What is wrong.
+        reason: String,
+    },
+    /// A table that cannot be opened or read.
+    #[error("cannot read the table {file}: {source}", file = .file.display())]
+    Unreadable {
+        /// The table.
+        file: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// A table with a bad header or entry.
+    #[error("{file}, line {line}, column {column}: {reason}", file = .file.display())]
+    Table {
+        /// The table.
+        file: PathBuf,
+        /// Line, from 1.
+        line: u64,
+        /// Name of the column, or its number from 1 where it has no good name.
+        column: String,
+        /// What is wrong.
+        reason: String,
+    },
+    /// Two grains at exactly the same place.
+    #[error("grains {first} and {second} are at exactly the same place, ({x} m, {y} m, {z} m)")]
+    Coincident {
+        /// Name of one grain.
+        first: u32,
+        /// Name of the other.
+        second: u32,
+        /// Their place [m].
+        x: f64,
+        /// Their place [m].
+        y: f64,
+        /// Their place [m].
+        z: f64,
+    },
+}

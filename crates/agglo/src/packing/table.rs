@@ -1,0 +1,170 @@
+//! Grains from a CSV table.
+//!
+//! The first line names the columns: `x_m`, `y_m`, `z_m`, and optionally `radius_m` and the three `vx_m_s`, `vy_m_s`,
+//! `vz_m_s`, in any order. Lines that begin with `#` are passed over.
+
+use std::path::Path;
+
+use super::error::PackingError;
+use crate::math::Vec3;
+
+/// A row of a table: what it does not say is `None`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct TableGrain {
+    /// Centre [m].
+    pub position: Vec3,
+    /// Radius [m].
+    pub radius: Option<f64>,
+    /// Velocity [m/s].
+    pub velocity: Option<Vec3>,
+}
+
+const COLUMNS: [&str; 7] = ["x_m", "y_m", "z_m", "radius_m", "vx_m_s", "vy_m_s", "vz_m_s"];
+
+/// Reads the table.
+///
+/// # Errors
+/// [`PackingError::Unreadable`] or [`PackingError::Table`] with line and column.
+pub(super) fn read(file: &Path) -> Result<Vec<TableGrain>, PackingError> {
+    let unreadable = |source| PackingError::Unreadable { file: file.to_owned(), source };
+    parse(&std::fs::read_to_string(file).map_err(unreadable)?, file)
+}
+
+/// Reads a table; `file` is for messages.
+///
+/// Numbers need none of the finer points of CSV, and messages need exact lines, so lines are split here.
+fn parse(text: &str, file: &Path) -> Result<Vec<TableGrain>, PackingError> {
+    let fault = |line, column: String, reason| {
+        Err(PackingError::Table { file: file.to_owned(), line, column, reason })
+    };
+    let lines = text.trim_start_matches('\u{feff}').lines().zip(1_u64..);
+    let mut lines = lines.filter(|(line, _)| !line.trim().is_empty() && !line.starts_with('#'));
+    let Some((header, line)) = lines.next() else {
+        return fault(1, "x_m".to_owned(), "the table is empty".to_owned());
+    };
+    let header = entries(header);
+    let places = columns(&header, file, line)?;
+    let mut grains = Vec::new();
+    for (row, line) in lines {
+        let row = entries(row);
+        if row.len() != header.len() {
+            let reason = format!("{} entries where the header has {}", row.len(), header.len());
+            return fault(line, row.len().min(header.len()).to_string(), reason);
+        }
+        grains.push(Entries { row: &row, places: &places, file, line }.grain()?);
+    }
+    if grains.is_empty() {
+        return fault(line, "x_m".to_owned(), "the table has no rows".to_owned());
+    }
+    Ok(grains)
+}
+
+fn entries(line: &str) -> Vec<&str> {
+    line.split(',').map(|entry| entry.trim().trim_matches('"')).collect()
+}
+
+/// Where each known column stands in the table.
+fn columns(header: &[&str], file: &Path, line: u64) -> Result<[Option<usize>; 7], PackingError> {
+    let fault = |column: String, reason: String| {
+        Err(PackingError::Table { file: file.to_owned(), line, column, reason })
+    };
+    let mut places = [None; 7];
+    for (at, name) in header.iter().enumerate() {
+        match COLUMNS.iter().position(|known| known == name) {
+            Some(known) if places[known].is_none() => places[known] = Some(at),
+            Some(_) => return fault((at + 1).to_string(), format!("the column `{name}` is there twice")),
+            None => {
+                let reason = format!("`{name}` is not known; known are {}", COLUMNS.join(", "));
+                return fault((at + 1).to_string(), reason);
+            }
+        }
+    }
+    let velocities = places[4..].iter().any(Option::is_some);
+    let missing = (0..7).find(|&at| places[at].is_none() && (at < 3 || (at > 3 && velocities)));
+    match missing {
+        Some(at) => fault(COLUMNS[at].to_owned(), "the column is missing".to_owned()),
+        None => Ok(places),
+    }
+}
+
+/// One line of the table on its way to a grain.
+struct Entries<'a> {
+    row: &'a [&'a str],
+    places: &'a [Option<usize>; 7],
+    file: &'a Path,
+    line: u64,
+}
+
+impl Entries<'_> {
+    fn grain(&self) -> Result<TableGrain, PackingError> {
+        let vector = |first: usize| -> Result<Option<Vec3>, PackingError> {
+            let [x, y, z] = [self.number(first)?, self.number(first + 1)?, self.number(first + 2)?];
+            Ok(x.zip(y).zip(z).map(|((x, y), z)| Vec3::new(x, y, z)))
+        };
+        let radius = self.number(3)?;
+        if radius.is_some_and(|radius| radius <= 0.0) {
+            return Err(self.fault(3, "a radius must be above zero".to_owned()));
+        }
+        // The header has been checked: positions are there.
+        Ok(TableGrain { position: vector(0)?.unwrap_or_default(), radius, velocity: vector(4)? })
+    }
+
+    fn number(&self, column: usize) -> Result<Option<f64>, PackingError> {
+        let Some(text) = self.places[column].and_then(|at| self.row.get(at)) else { return Ok(None) };
+        match text.parse::<f64>() {
+            Ok(value) if value.is_finite() => Ok(Some(value)),
+            _ => Err(self.fault(column, format!("`{text}` is not a finite number"))),
+        }
+    }
+
+    fn fault(&self, column: usize, reason: String) -> PackingError {
+        let column = COLUMNS[column].to_owned();
+        PackingError::Table { file: self.file.to_owned(), line: self.line, column, reason }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse_text(text: &str) -> Result<Vec<TableGrain>, String> {
+        parse(text, Path::new("grains.csv")).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn reads_columns_in_any_order() {
+        let text = "# two grains\nz_m, x_m,y_m,radius_m\n3,1,2e0,0.5\n# between\n-3.5,0,0,1e-6\n";
+        let grains = parse_text(text).unwrap();
+        let grain = |x, y, z, radius| TableGrain {
+            position: Vec3::new(x, y, z),
+            radius: Some(radius),
+            velocity: None,
+        };
+        assert_eq!(grains, [grain(1.0, 2.0, 3.0, 0.5), grain(0.0, 0.0, -3.5, 1e-6)]);
+        let moving = parse_text("x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s\n0,0,0,4,5,6\n").unwrap();
+        assert_eq!(moving[0].velocity, Some(Vec3::new(4.0, 5.0, 6.0)));
+        assert_eq!(moving[0].radius, None);
+    }
+
+    #[test]
+    fn faults_have_line_and_column() {
+        let cases = [
+            ("x_m,y_m,z_m\n1,2,3\n1,two,3\n", "grains.csv, line 3, column y_m: `two` is not a finite number"),
+            ("x_m,y_m,z_m\n1,2,nan\n", "line 2, column z_m"),
+            ("x_m,y_m,z_m,radius_m\n1,2,3,-1\n", "line 2, column radius_m: a radius must be above zero"),
+            ("x_m,y_m,z_m\n\n1,2\n", "line 3, column 2: 2 entries where the header has 3"),
+            ("x_m,y_m\n1,2\n", "line 1, column z_m: the column is missing"),
+            ("x_m,y_m,z_m,vx_m_s\n1,2,3,4\n", "line 1, column vy_m_s: the column is missing"),
+            ("x,y_m,z_m\n1,2,3\n", "line 1, column 1: `x` is not known; known are x_m, y_m"),
+            ("x_m,y_m,z_m,x_m\n1,2,3,4\n", "line 1, column 4: the column `x_m` is there twice"),
+            ("x_m,y_m,z_m\n", "no rows"),
+            ("", "line 1, column x_m: the table is empty"),
+        ];
+        for (text, message) in cases {
+            let found = parse_text(text).unwrap_err();
+            assert!(found.contains(message), "{text:?}: {found}");
+        }
+        let missing = read(Path::new("/nowhere/grains.csv")).unwrap_err().to_string();
+        assert!(missing.starts_with("cannot read the table /nowhere/grains.csv"), "{missing}");
+    }
+}
