@@ -1,1 +1,11 @@
 //! Figures taken from a state: moments, clusters, sizes, the ledger. Nothing here changes a state.
+
+mod clusters;
+mod moments;
+mod pairs;
+mod shape;
+
+pub use clusters::{Clusters, Joiner};
+pub use moments::{Moments, moment_about, moments};
+pub use pairs::close_pairs;
+pub use shape::{ClusterSummary, center_of_mass, fractal_dimension, radius_of_gyration, summarize};

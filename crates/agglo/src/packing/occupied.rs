@@ -83,7 +83,8 @@ impl Occupied {
             x * x + y * y + z * z < least * least
         };
         self.classes.iter().any(|class| {
-            let reach = radius + class.largest + self.gap;
+            // A sphere that covers the cube reaches at least half an edge past its middle.
+            let reach = (radius + class.largest + self.gap - half_edge).max(0.0);
             !class.spheres.is_empty() && !class.all_near(middle, reach, |other| !covers_cube(other))
         })
     }

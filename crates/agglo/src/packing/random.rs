@@ -25,10 +25,10 @@ const PATIENCE: u64 = 2000;
 const LONGEST_SEARCH: u64 = 1_000_000;
 /// Draws per grain after which unequal grains are given up.
 const DRAWS_PER_GRAIN: u64 = 2000;
-/// Rounds of halving the cubes that cover the gaps; an edge is then 2^-30 of a radius.
-const ROUNDS: u32 = 30;
-/// Draws per cube in each round.
-const DRAWS_PER_CUBE: usize = 4;
+/// Rounds of draws, one per cube, from the cubes that cover the gaps.
+const ROUNDS: u32 = 100;
+/// Cubes are halved once no more than this part of the draws finds room.
+const WORN_OUT: f64 = 0.02;
 /// Above this number cubes are not halved.
 const MOST_CUBES: usize = 4_000_000;
 /// More grains than this are refused: they would not fit into memory.
@@ -182,9 +182,10 @@ impl Search<'_> {
     fn fill_gaps(&self, occupied: &mut Occupied, stream: &mut Stream, placed: &mut Vec<(Vec3, f64)>) {
         let radius = self.radii[0];
         let mut cubes = Cubes::about(&self.addition.region.bounds(), radius);
-        self.drop_full(&mut cubes, occupied);
+        cubes.middles.retain(|&middle| self.may_have_room(middle, cubes.half_edge, occupied));
         for _ in 0..ROUNDS {
-            for _ in 0..DRAWS_PER_CUBE * cubes.middles.len() {
+            let (draws, before) = (cubes.middles.len(), placed.len());
+            for _ in 0..draws {
                 if placed.len() == self.radii.len() {
                     return;
                 }
@@ -194,25 +195,24 @@ impl Search<'_> {
                     placed.push((place, radius));
                 }
             }
-            self.drop_full(&mut cubes, occupied);
-            if cubes.middles.is_empty() || placed.len() == self.radii.len() {
-                return;
+            // While draws succeed there is no need for smaller cubes.
+            let worn_out = (placed.len() - before) as f64 <= WORN_OUT * draws as f64;
+            if worn_out && draws < MOST_CUBES {
+                cubes.halve(|middle, half_edge| self.may_have_room(middle, half_edge, occupied));
+            } else {
+                cubes.middles.retain(|&middle| self.may_have_room(middle, cubes.half_edge, occupied));
             }
-            if cubes.middles.len() < MOST_CUBES / 8 {
-                cubes.halve();
-                self.drop_full(&mut cubes, occupied);
+            if cubes.middles.is_empty() {
+                return;
             }
         }
     }
 
-    /// Drops cubes that leave no room: outside the region, or covered by one grain.
-    fn drop_full(&self, cubes: &mut Cubes, occupied: &Occupied) {
-        let (half, radius) = (cubes.half_edge, self.radii[0]);
-        let half_diagonal = half * 3.0_f64.sqrt();
-        cubes.middles.retain(|&middle| {
-            self.addition.region.contains(middle, radius - half_diagonal * (1.0 + 1e-9))
-                && !occupied.covers(middle, half, radius)
-        });
+    /// Whether a cube is neither outside the region nor covered by one grain.
+    fn may_have_room(&self, middle: Vec3, half_edge: f64, occupied: &Occupied) -> bool {
+        let (radius, half_diagonal) = (self.radii[0], half_edge * 3.0_f64.sqrt());
+        self.addition.region.contains(middle, radius - half_diagonal * (1.0 + 1e-9))
+            && !occupied.covers(middle, half_edge, radius)
     }
 }
 
@@ -250,13 +250,13 @@ impl Cubes {
         self.middles[cube] + offset
     }
 
-    fn halve(&mut self) {
+    /// Puts the eight halves of each cube in its place, those that `may_have_room` (middle, half edge).
+    fn halve(&mut self, may_have_room: impl Fn(Vec3, f64) -> bool) {
         self.half_edge *= 0.5;
         let half = self.half_edge;
         let side = |corner: u32, axis: u32| if corner >> axis & 1 == 0 { -half } else { half };
-        let eighths = (0..8).map(|corner| Vec3::new(side(corner, 0), side(corner, 1), side(corner, 2)));
-        let eighths: Vec<Vec3> = eighths.collect();
-        self.middles =
-            self.middles.iter().flat_map(|&middle| eighths.iter().map(move |&by| middle + by)).collect();
+        let eighths = [0, 1, 2, 3, 4, 5, 6, 7].map(|corner| [0, 1, 2].map(|axis| side(corner, axis)).into());
+        let smaller = self.middles.iter().flat_map(|&middle| eighths.map(|by: Vec3| middle + by));
+        self.middles = smaller.filter(|&middle| may_have_room(middle, half)).collect();
     }
 }

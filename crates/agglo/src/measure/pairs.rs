@@ -1,0 +1,132 @@
+//! Grains whose surfaces are close to one another.
+
+use crate::math::Vec3;
+
+/// Bits of a cell's number along one axis.
+const BITS: u32 = 20;
+/// Most cells along one axis: room is left for neighbours on both sides.
+const MOST: f64 = ((1_u32 << BITS) - 3) as f64;
+
+/// Calls `found(i, j)`, i < j, once for every pair of grains whose surfaces are closer than `gap` times their mean
+/// radius: |r_i - r_j| < (R_i + R_j) (1 + gap/2). With `gap` 0 that is every pair that overlaps.
+///
+/// `positions` [n] and `radii` [n] in m. The order of the calls depends on the positions alone. Grains are sorted by
+/// the cell they are in, so that memory is in proportion to n however far the cloud has spread; a cell is as wide as
+/// the largest grain's reach, so that very different sizes make this slow.
+pub fn close_pairs(positions: &[Vec3], radii: &[f64], gap: f64, found: &mut impl FnMut(u32, u32)) {
+    let stretch = 1.0 + 0.5 * gap;
+    let largest = radii.iter().copied().fold(0.0, f64::max);
+    let Some(grid) = Grid::over(positions, 2.0 * largest * stretch) else { return };
+    let mut cells: Vec<(u64, u32)> =
+        positions.iter().zip(0..).map(|(&position, k)| (grid.cell(position), k)).collect();
+    cells.sort_unstable();
+    let mut check = |a: u32, b: u32| {
+        let (i, j) = (a.min(b), a.max(b));
+        let (i_at, j_at) = (i as usize, j as usize);
+        let reach = (radii[i_at] + radii[j_at]) * stretch;
+        if (positions[i_at] - positions[j_at]).norm_squared() < reach * reach {
+            found(i, j);
+        }
+    };
+    // Rows of cells that follow in the order: each pair of cells is met once. The starts move on with the cell.
+    let rows = [(1, 0), (-1, 1), (0, 1), (1, 1)].map(|(y, z): (i64, i64)| (z << (2 * BITS)) + (y << BITS));
+    let mut starts = [0; 4];
+    for (at, &(cell, a)) in cells.iter().enumerate() {
+        let ahead = &cells[at + 1..];
+        ahead.iter().take_while(|&&(other, _)| other <= cell + 1).for_each(|&(_, b)| check(a, b));
+        for (start, row) in starts.iter_mut().zip(rows) {
+            // Numbers along an axis begin at 1, so that no neighbour's is below zero.
+            let middle = cell.wrapping_add_signed(row);
+            while *start < cells.len() && cells[*start].0 + 1 < middle {
+                *start += 1;
+            }
+            let row = cells[*start..].iter().take_while(|&&(other, _)| other <= middle + 1);
+            row.for_each(|&(_, b)| check(a, b));
+        }
+    }
+}
+
+/// Cells numbered along x, then y, then z.
+struct Grid {
+    lower: Vec3,
+    per_length: f64,
+}
+
+impl Grid {
+    /// Cells at least `edge` wide over the points; nothing where there is no point or no edge.
+    fn over(positions: &[Vec3], edge: f64) -> Option<Self> {
+        let first = *positions.first()?;
+        let (lower, upper) = positions
+            .iter()
+            .fold((first, first), |(lower, upper), &position| (lower.min(position), upper.max(position)));
+        let extent = upper - lower;
+        let edge = edge.max(extent.x.max(extent.y).max(extent.z) / MOST);
+        (edge > 0.0).then(|| Self { lower, per_length: 1.0 / edge })
+    }
+
+    fn cell(&self, position: Vec3) -> u64 {
+        let from = (position - self.lower) * self.per_length;
+        let [x, y, z] = from.to_array().map(|along| (along as u64).min(MOST as u64) + 1);
+        x | y << BITS | z << (2 * BITS)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::rng::{Purpose, Stream};
+
+    fn close(positions: &[Vec3], radii: &[f64], gap: f64) -> Vec<(u32, u32)> {
+        let mut pairs = Vec::new();
+        close_pairs(positions, radii, gap, &mut |i, j| pairs.push((i, j)));
+        let count = pairs.len();
+        pairs.sort_unstable();
+        pairs.dedup();
+        assert_eq!(pairs.len(), count, "a pair came twice");
+        pairs
+    }
+
+    /// Against all pairs, for clouds in one, two and three dimensions, dense ones and widely spread ones.
+    #[test]
+    fn agrees_with_brute_force() {
+        let mut stream = Stream::new(4, Purpose::Sampling, 0);
+        for spread in
+            [[8.0, 8.0, 8.0], [40.0, 40.0, 0.0], [900.0, 0.0, 0.0], [1.0, 1.0, 1.0], [1e9, 5.0, 5.0]]
+        {
+            for gap in [0.0, 0.3] {
+                let mut signed = || 2.0 * stream.uniform() - 1.0;
+                let n = 600;
+                let positions: Vec<Vec3> = (0..n)
+                    .map(|_| Vec3::new(spread[0] * signed(), spread[1] * signed(), spread[2] * signed()))
+                    .collect();
+                let radii: Vec<f64> = (0..n).map(|_| 0.6 + 0.4 * signed()).collect();
+                let mut brute = Vec::new();
+                for i in 0..n {
+                    for j in i + 1..n {
+                        let (a, b) = (radii[i], radii[j]);
+                        if (positions[i] - positions[j]).norm() - a - b < gap * 0.5 * (a + b) {
+                            brute.push((i as u32, j as u32));
+                        }
+                    }
+                }
+                assert_eq!(close(&positions, &radii, gap), brute, "{spread:?} {gap}");
+                assert!(!brute.is_empty() || spread[0] > 1e8);
+            }
+        }
+    }
+
+    #[test]
+    fn a_gap_is_a_part_of_the_mean_radius() {
+        // Radii 1 and 3, surfaces 0.2 apart: a tenth of the mean radius.
+        let (positions, radii) = ([Vec3::ZERO, Vec3::new(4.2, 0.0, 0.0)], [1.0, 3.0]);
+        assert_eq!(close(&positions, &radii, 0.101), [(0, 1)]);
+        assert_eq!(close(&positions, &radii, 0.099), []);
+    }
+
+    #[test]
+    fn no_grains_and_grains_at_one_place() {
+        assert_eq!(close(&[], &[], 0.1), []);
+        assert_eq!(close(&[Vec3::ZERO; 3], &[1.0; 3], 0.0), [(0, 1), (0, 2), (1, 2)]);
+        assert_eq!(close(&[Vec3::ZERO; 2], &[0.0; 2], 0.0), []);
+    }
+}
