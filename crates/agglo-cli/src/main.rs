@@ -1,1 +1,81 @@
-fn main() {}
+//! The program `agglo`: arguments, progress, messages and exit codes. All physics is in the library.
+//!
+//! Exit codes: 0 done, 1 a run failed or was interrupted, 2 bad input.
+
+mod arguments;
+mod explain;
+mod progress;
+mod read;
+mod run;
+
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use agglo::scenario::{Plan, TEMPLATES, nearest_template, schema, template};
+use clap::Parser;
+
+use arguments::{Arguments, Verb};
+
+/// Why the program ends early: the message for the user and the exit code.
+#[derive(Debug)]
+pub(crate) struct Failure {
+    message: String,
+    code: u8,
+}
+
+impl Failure {
+    /// Something that the user asked for cannot be done.
+    pub(crate) fn bad_input(message: impl Into<String>) -> Self {
+        Self { message: message.into(), code: 2 }
+    }
+
+    /// Something went wrong on the way.
+    pub(crate) fn failed(message: impl Into<String>) -> Self {
+        Self { message: message.into(), code: 1 }
+    }
+}
+
+fn main() -> ExitCode {
+    let outcome = match Arguments::parse().verb {
+        Verb::New { template } => new(&template),
+        Verb::Check { scenario, settings } => check(&scenario, &settings),
+        Verb::Explain { law } => explain::explain(law.as_deref()),
+        Verb::Schema => print(&format!("{:#}", schema())),
+        Verb::Run(orders) => run::run(&orders),
+        Verb::Resume { folder, threads } => run::resume(&folder, threads),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            // Nothing is left to do where even this message cannot be written.
+            let _ = writeln!(io::stderr(), "{}", failure.message);
+            ExitCode::from(failure.code)
+        }
+    }
+}
+
+/// Writes to the standard output; a reader that closed the pipe has seen enough.
+pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    match writeln!(io::stdout(), "{}", text.trim_end()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(Failure::failed(format!("error: cannot write: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn new(name: &str) -> Result<(), Failure> {
+    if let Some(found) = template(name) {
+        return print(found.text);
+    }
+    let known: Vec<String> =
+        TEMPLATES.iter().map(|known| format!("  {:<16}{}", known.name, known.title)).collect();
+    let advice = nearest_template(name).map(|near| format!("; did you mean \"{near}\"?")).unwrap_or_default();
+    let known = known.join("\n");
+    Err(Failure::bad_input(format!("error: there is no template \"{name}\"{advice}\n{known}")))
+}
+
+fn check(file: &std::path::Path, settings: &[String]) -> Result<(), Failure> {
+    let read = read::scenario(file, settings)?;
+    print(&format!("{} is sound\n{}", file.display(), Plan::new(&read.scenario, &read.base)))
+}

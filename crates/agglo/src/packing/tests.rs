@@ -179,7 +179,7 @@ fn hopeless_requests_end_soon_with_a_reason() {
         let error = placed(vec![group("ink", size, random(region, None, Some(fraction)))]).unwrap_err();
         assert!(matches!(error, PackingError::Saturated { .. }), "{error}");
     };
-    saturated(radius(0.001), ball(1.0), 0.6);
+    saturated(radius(0.002), ball(1.0), 0.6);
     saturated(radius(0.1), ball(1.0), 0.5);
     saturated(
         Size::Uniform(UniformSize { smallest: Quantity(0.1), largest: Quantity(0.11) }),

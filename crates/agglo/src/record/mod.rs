@@ -1,1 +1,12 @@
 //! What a run writes: tables, frames, checkpoints, summaries. Recorders see and never change.
+//!
+//! Nothing here knows how a run is computed: plain data in, files out.
+
+pub mod atomic;
+pub mod checkpoint;
+mod error;
+pub mod frames;
+mod series;
+
+pub use error::RecordError;
+pub use series::Series;

@@ -1,5 +1,25 @@
 //! From a file to a checked, typed scenario in SI units.
+//!
+//! A text goes through three stages, and each collects all of its faults: syntax (TOML), form (keys, kinds, words and
+//! units against the schema that derives from the types), and the rules between keys.
 
+mod check;
+mod enums;
+mod explain;
+mod fault;
+mod figures;
+mod parse;
+mod plan;
+mod scalars;
+mod settings;
+mod templates;
+mod tree;
 mod types;
+mod walk;
 
+pub use explain::{PAGES, Page, explain, nearest_law};
+pub use fault::{Fault, Faults};
+pub use parse::{LoadError, schema};
+pub use plan::Plan;
+pub use templates::{TEMPLATES, Template, nearest_template, template};
 pub use types::{GrainGroup, Measures, Output, Relaxation, Scenario, Start, TimeSpan};

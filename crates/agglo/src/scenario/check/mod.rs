@@ -1,0 +1,144 @@
+//! The rules between the keys of a scenario, and the bounds of single values; all faults at once.
+
+mod acoustics;
+mod contact;
+mod fields;
+mod grains;
+mod materials;
+mod time;
+
+pub(super) use grains::{SATURATION, largest_radius, mean_volume, smallest_radius};
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use super::fault::Fault;
+use super::figures::readable;
+use super::types::Scenario;
+use crate::domain::Region;
+use crate::math::Vec3;
+use crate::units::{Dimension, Quantity};
+
+/// Everything that is wrong with a scenario whose form is right; the keys are paths in it.
+///
+/// With `base`, the folder that tables are relative to, tables must be there too.
+pub(super) fn faults(scenario: &Scenario, base: Option<&Path>) -> Vec<Fault> {
+    let mut check = Check::default();
+    time::check(&mut check, scenario);
+    materials::check(&mut check, scenario);
+    grains::check(&mut check, scenario);
+    if let Some(base) = base {
+        grains::tables(&mut check, scenario, base);
+    }
+    contact::check(&mut check, scenario);
+    fields::check(&mut check, scenario);
+    acoustics::check(&mut check, scenario);
+    check.faults
+}
+
+/// What was found so far.
+#[derive(Default)]
+struct Check {
+    faults: Vec<Fault>,
+}
+
+impl Check {
+    fn fail(&mut self, key: &str, message: String) {
+        self.faults.push(Fault::new(key, message));
+    }
+
+    fn fail_with(&mut self, key: &str, message: String, help: impl Into<String>) {
+        self.faults.push(Fault::new(key, message).with_help(help));
+    }
+
+    /// A quantity above zero.
+    fn positive<const KG: i8, const M: i8, const S: i8, const K: i8, const A: i8>(
+        &mut self,
+        key: &str,
+        value: Quantity<KG, M, S, K, A>,
+    ) {
+        if value.si() <= 0.0 {
+            let found = shown(value.si(), Quantity::<KG, M, S, K, A>::DIMENSION);
+            self.fail(key, format!("found {found}; more than 0 is wanted"));
+        }
+    }
+
+    /// A quantity not below zero.
+    fn not_negative<const KG: i8, const M: i8, const S: i8, const K: i8, const A: i8>(
+        &mut self,
+        key: &str,
+        value: Quantity<KG, M, S, K, A>,
+    ) {
+        if value.si() < 0.0 {
+            let found = shown(value.si(), Quantity::<KG, M, S, K, A>::DIMENSION);
+            self.fail(key, format!("found {found}; 0 or more is wanted"));
+        }
+    }
+
+    /// A pure number above zero.
+    fn above_zero(&mut self, key: &str, value: f64) {
+        if value <= 0.0 {
+            self.fail(key, format!("found {value}; more than 0 is wanted"));
+        }
+    }
+
+    /// A pure number not below zero.
+    fn zero_or_more(&mut self, key: &str, value: f64) {
+        if value < 0.0 {
+            self.fail(key, format!("found {value}; 0 or more is wanted"));
+        }
+    }
+
+    /// A count above zero.
+    fn at_least_one(&mut self, key: &str, count: u32) {
+        if count == 0 {
+            self.fail(key, "found 0; 1 or more is wanted".to_owned());
+        }
+    }
+
+    /// A pure number between two bounds, both allowed.
+    fn within(&mut self, key: &str, value: f64, least: f64, most: f64) {
+        if !(least..=most).contains(&value) {
+            self.fail(key, format!("found {value}; a number from {least} to {most} is wanted"));
+        }
+    }
+
+    /// A region with a volume.
+    fn region(&mut self, key: &str, region: &Region) -> bool {
+        let before = self.faults.len();
+        match region {
+            Region::Sphere(ball) => self.positive(&format!("{key}.sphere.radius"), ball.radius),
+            Region::Box(block) => {
+                for (axis, name) in ["x", "y", "z"].iter().enumerate() {
+                    let (low, high) = (block.lower[axis].si(), block.upper[axis].si());
+                    if high <= low {
+                        let (low, high) = (readable(low, "m"), readable(high, "m"));
+                        self.fail(
+                            &format!("{key}.box.upper.{axis}"),
+                            format!("upper {name} = {high} is not above lower {name} = {low}"),
+                        );
+                    }
+                }
+            }
+            Region::Cylinder(cylinder) => {
+                self.positive(&format!("{key}.cylinder.radius"), cylinder.radius);
+                self.positive(&format!("{key}.cylinder.length"), cylinder.length);
+                if Vec3::from(cylinder.axis).norm() == 0.0 {
+                    let message = "has no direction: all components are 0".to_owned();
+                    self.fail_with(&format!("{key}.cylinder.axis"), message, "for example [0, 0, 1]");
+                }
+            }
+        }
+        self.faults.len() == before
+    }
+}
+
+/// A quantity as a message shows it.
+fn shown(value: f64, dimension: Dimension) -> String {
+    readable(value, &dimension.symbol())
+}
+
+/// Names of the materials that grains are made of.
+fn used_materials(scenario: &Scenario) -> BTreeSet<&str> {
+    scenario.grains.iter().map(|group| group.material.as_str()).collect()
+}

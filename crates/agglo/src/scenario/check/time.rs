@@ -1,0 +1,77 @@
+//! Rules of time, stepping, limits, start, medium and output.
+
+use super::Check;
+use crate::engine::soft::Engine;
+use crate::scenario::figures::readable;
+use crate::scenario::types::Scenario;
+
+pub(super) fn check(check: &mut Check, scenario: &Scenario) {
+    if scenario.version != 1 {
+        let message = format!("found {}; this program reads version 1", scenario.version);
+        check.fail_with("version", message, "write version = 1");
+    }
+    if i64::try_from(scenario.seed).is_err() {
+        check.fail("seed", format!("found {}; at most {} is allowed", scenario.seed, i64::MAX));
+    }
+    check.positive("time.end", scenario.time.end);
+    engine(check, &scenario.engine);
+    check.above_zero("limits.displacement", scenario.limits.displacement);
+    check.above_zero("limits.strain", scenario.limits.strain);
+    check.zero_or_more("measures.cluster_gap", scenario.measures.cluster_gap);
+    if let Some(relax) = &scenario.start.relax {
+        check.positive("start.relax.speed", relax.speed);
+        check.positive("start.relax.longest", relax.longest);
+        check.positive("start.relax.damping_time", relax.damping_time);
+    }
+    let output = &scenario.output;
+    let intervals =
+        [("series", output.series), ("frames", output.frames), ("checkpoints", output.checkpoints)];
+    for (name, interval) in intervals {
+        if let Some(interval) = interval {
+            check.positive(&format!("output.{name}"), interval);
+        }
+    }
+    medium(check, scenario);
+}
+
+fn engine(check: &mut Check, engine: &Engine) {
+    match engine {
+        Engine::Staggered(law) => {
+            let key = |name: &str| format!("engine.staggered.{name}");
+            check.positive(&key("initial_step"), law.initial_step);
+            check.positive(&key("largest_step"), law.largest_step);
+            if law.initial_step > law.largest_step {
+                let (first, largest) =
+                    (readable(law.initial_step.si(), "s"), readable(law.largest_step.si(), "s"));
+                check.fail(&key("initial_step"), format!("{first} is longer than largest_step = {largest}"));
+            }
+            if law.tolerance <= 0.0 || law.tolerance >= 1.0 {
+                let message = format!("found {}; a number above 0 and below 1 is wanted", law.tolerance);
+                check.fail(&key("tolerance"), message);
+            }
+            check.at_least_one(&key("target_iterations"), law.target_iterations);
+            check.within(&key("implicitness"), law.implicitness, 0.0, 1.0);
+        }
+        Engine::Verlet(law) => {
+            if let Some(step) = law.step {
+                check.positive("engine.verlet.step", step);
+            }
+            if law.safety <= 0.0 || law.safety > 1.0 {
+                let message = format!("found {}; a number above 0 and up to 1 is wanted", law.safety);
+                check.fail("engine.verlet.safety", message);
+            }
+        }
+    }
+}
+
+fn medium(check: &mut Check, scenario: &Scenario) {
+    let medium = &scenario.medium;
+    check.positive("medium.sound_speed", medium.sound_speed);
+    check.not_negative("medium.viscosity", medium.viscosity);
+    if scenario.acoustics.is_some() && medium.density.si() == 0.0 {
+        let message = "found 0 kg/m^3, but sound needs a medium".to_owned();
+        check.fail_with("medium.density", message, "give a density above 0, or leave out [acoustics]");
+    } else {
+        check.not_negative("medium.density", medium.density);
+    }
+}

@@ -1,0 +1,112 @@
+//! How many grains, rays and pulses, and the memory that they take.
+
+use std::fs::File;
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+
+use super::Plan;
+use crate::domain::Region;
+use crate::packing::{Lattice, LatticeKind, Placement, RandomAddition};
+use crate::scenario::check::{SATURATION, largest_radius, mean_volume};
+use crate::scenario::types::{GrainGroup, Scenario};
+
+const BYTES_PER_GRAIN: f64 = 400.0;
+const BYTES_PER_CONTACT: f64 = 200.0;
+const BYTES_PER_RAY: f64 = 120.0;
+/// Contacts and bonds per grain: a random packing has about six neighbours each, shared by two.
+const CONTACTS_PER_GRAIN: f64 = 3.0;
+
+pub(super) fn grains(plan: &mut Plan, scenario: &Scenario, base: &Path) {
+    for (index, group) in scenario.grains.iter().enumerate() {
+        let count = match &group.placement {
+            Placement::Table(table) => rows(&base.join(&table.file)).unwrap_or_else(|reason| {
+                let file = table.file.display();
+                plan.notes.push(format!("grains.{index}: cannot count the rows of {file}: {reason}"));
+                0
+            }),
+            _ => count_of(group),
+        };
+        plan.grains += count;
+    }
+    plan.memory = plan.grains as f64 * (BYTES_PER_GRAIN + CONTACTS_PER_GRAIN * BYTES_PER_CONTACT);
+}
+
+pub(super) fn pulses(plan: &mut Plan, scenario: &Scenario) {
+    for beam in scenario.acoustics.iter().flat_map(|acoustics| &acoustics.beams) {
+        plan.rays_per_pulse += u64::from(beam.rays);
+        plan.pulses += u64::from(pulses_before(beam, scenario.time.end.si()));
+    }
+    plan.memory += plan.rays_per_pulse as f64 * BYTES_PER_RAY;
+}
+
+/// Pulses of a beam that start before the end of the run [s].
+pub(super) fn pulses_before(beam: &crate::acoustics::Beam, end: f64) -> u32 {
+    let pulses = &beam.pulses;
+    let room = end - pulses.first.si();
+    match pulses.period {
+        _ if room <= 0.0 => 0,
+        Some(period) => pulses.count.min((room / period.si()).ceil() as u32),
+        None => pulses.count.min(1),
+    }
+}
+
+/// Expected number of grains of a group that is not read from a table.
+pub(super) fn count_of(group: &GrainGroup) -> u64 {
+    match &group.placement {
+        Placement::Random(law) => random(law, mean_volume(&group.size)),
+        Placement::Lattice(law) => lattice(law, largest_radius(&group.size)),
+        Placement::List(list) => list.positions.len() as u64,
+        Placement::Table(_) => 0,
+    }
+}
+
+fn random(law: &RandomAddition, volume: f64) -> u64 {
+    match (law.count, law.solid_fraction) {
+        (Some(count), _) => u64::from(count),
+        (None, fraction) => (fraction.unwrap_or(0.0) * law.region.volume() / volume).round() as u64,
+    }
+}
+
+/// Lattice points per volume, in a region smaller by a grain's radius on all sides.
+fn lattice(law: &Lattice, radius: f64) -> u64 {
+    let points_per_cube = match law.kind {
+        LatticeKind::Cubic => 1.0,
+        LatticeKind::Fcc | LatticeKind::Hcp => std::f64::consts::SQRT_2,
+        LatticeKind::Bcc => 0.75 * 3.0_f64.sqrt(),
+    };
+    let found = (volume_inside(&law.region, radius) * points_per_cube / law.spacing.si().powi(3)).round();
+    law.count.map_or(found as u64, |most| u64::from(most).min(found as u64)).max(1)
+}
+
+fn volume_inside(region: &Region, margin: f64) -> f64 {
+    use std::f64::consts::PI;
+    match region {
+        Region::Sphere(ball) => 4.0 / 3.0 * PI * (ball.radius.si() - margin).max(0.0).powi(3),
+        Region::Box(block) => (0..3)
+            .map(|axis| (block.upper[axis].si() - block.lower[axis].si() - 2.0 * margin).max(0.0))
+            .product(),
+        Region::Cylinder(cylinder) => {
+            PI * (cylinder.radius.si() - margin).max(0.0).powi(2)
+                * (cylinder.length.si() - 2.0 * margin).max(0.0)
+        }
+    }
+}
+
+/// Rows of a table below its header.
+fn rows(path: &Path) -> std::io::Result<u64> {
+    let mut count = 0_u64;
+    for line in BufReader::new(File::open(path)?).lines() {
+        let line = line?;
+        count += u64::from(!line.trim().is_empty() && !line.starts_with('#'));
+    }
+    Ok(count.saturating_sub(1))
+}
+
+/// Solid fraction that a random addition is asked for.
+pub(super) fn asked_fraction(law: &RandomAddition, volume: f64) -> f64 {
+    law.count
+        .map_or(law.solid_fraction.unwrap_or(0.0), |count| f64::from(count) * volume / law.region.volume())
+}
+
+/// Solid fraction from which random addition becomes slow.
+pub(super) const SLOW_FRACTION: f64 = 0.9 * SATURATION;

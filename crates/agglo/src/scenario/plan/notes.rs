@@ -1,0 +1,158 @@
+//! What to keep in mind: where the models do not hold, laws that do not converge, settings without effect.
+
+use std::f64::consts::TAU;
+
+use super::Plan;
+use super::counts::{SLOW_FRACTION, asked_fraction, pulses_before};
+use super::push::Push;
+use crate::acoustics::RayForce;
+use crate::contact::{Bonds, Friction, Normal};
+use crate::fields::DragLaw;
+use crate::fields::near_field::{NearFieldLaw, Scaling};
+use crate::math::Vec3;
+use crate::packing::Placement;
+use crate::scenario::check::mean_volume;
+use crate::scenario::figures::{digits, readable};
+use crate::scenario::types::{GrainGroup, Scenario};
+use crate::units::vector;
+
+/// Below this wave number times radius, sound goes around grains instead of being reflected as rays.
+const SMALLEST_KA: f64 = 10.0;
+
+pub(super) fn collect(plan: &mut Plan, scenario: &Scenario, pushes: &[Push]) {
+    let notes = &mut plan.notes;
+    wavelengths(notes, scenario, pushes);
+    published_laws(notes, scenario);
+    motion(notes, scenario, pushes);
+    without_effect(notes, scenario);
+    packing(notes, scenario);
+}
+
+fn wavelengths(notes: &mut Vec<String>, scenario: &Scenario, pushes: &[Push]) {
+    let Some(acoustics) = &scenario.acoustics else { return };
+    let smallest = pushes.iter().map(|push| push.radius).fold(f64::INFINITY, f64::min);
+    let sound = scenario.medium.sound_speed.si();
+    let needed = readable(SMALLEST_KA * sound / (TAU * smallest), "Hz");
+    for (index, beam) in acoustics.beams.iter().enumerate() {
+        let Some(frequency) = beam.frequency else {
+            notes.push(format!(
+                "beam {index} has no frequency: rays hold where the wavelength is far below a grain, here from about {needed} (k a = 10)"
+            ));
+            continue;
+        };
+        let ka = TAU * frequency.si() * smallest / sound;
+        if ka < SMALLEST_KA {
+            notes.push(format!(
+                "beam {index}: k a = {} at {}: rays do not hold below 10, here {needed}; the sound would go around the grains",
+                digits(ka),
+                readable(frequency.si(), "Hz")
+            ));
+        }
+    }
+}
+
+fn published_laws(notes: &mut Vec<String>, scenario: &Scenario) {
+    let laws = scenario.contact.as_ref();
+    if let Some(Friction::Regularised(_)) = laws.and_then(|laws| laws.friction.as_ref()) {
+        notes.push("contact.friction.regularised: its stick force is proportional to the step and does not converge; mindlin does".to_owned());
+    }
+    match &scenario.bonds {
+        Some(Bonds::StrainBond(_)) => notes.push(
+            "bonds.strain_bond acts only between overlapping grains, cannot resist tension, and its tangential part is proportional to the step; beam bonds hold grains together"
+                .to_owned(),
+        ),
+        Some(Bonds::Beam(law)) if law.gap == 0.0 => {
+            notes.push("bonds.beam.gap is 0: only grains that overlap at the start are bonded".to_owned());
+        }
+        _ => {}
+    }
+    if let Some(RayForce::PublishedStep(_)) = scenario.acoustics.as_ref().map(|acoustics| &acoustics.force) {
+        notes.push("acoustics.force.published_step: the impulse of a hit is proportional to the step and does not converge; impulse does".to_owned());
+    }
+    if laws.is_none() {
+        notes.push("there is no [contact]: grains pass through one another".to_owned());
+    }
+}
+
+fn motion(notes: &mut Vec<String>, scenario: &Scenario, pushes: &[Push]) {
+    let drag = scenario.fields.drag.as_ref().map(|drag| drag.law);
+    let limit = scenario.limits.strain;
+    for push in pushes {
+        let (beam, group, reynolds) = (push.beam, push.group, digits(push.reynolds));
+        match drag {
+            Some(DragLaw::Stokes) if push.reynolds > 1.0 => notes.push(format!(
+                "beam {beam} makes grains {group} so fast that their Reynolds number is about {reynolds}; stokes holds below 1, schiller_naumann up to 1000"
+            )),
+            Some(DragLaw::SchillerNaumann) if push.reynolds > 1000.0 => notes.push(format!(
+                "beam {beam} makes grains {group} so fast that their Reynolds number is about {reynolds}; schiller_naumann holds up to 1000"
+            )),
+            _ => {}
+        }
+        if push.strain.is_some_and(|strain| strain > limit) {
+            notes.push(format!(
+                "beam {beam} makes grains {group} so fast that they overlap by more than limits.strain = {limit} when they meet"
+            ));
+        }
+    }
+    if let Some(Normal::Hooke(_)) = scenario.contact.as_ref().map(|laws| &laws.normal)
+        && scenario.grains.len() > 1
+    {
+        notes.push("contact.normal.hooke: one stiffness for all sizes of grains".to_owned());
+    }
+}
+
+fn without_effect(notes: &mut Vec<String>, scenario: &Scenario) {
+    let end = scenario.time.end.si();
+    for (index, beam) in scenario.acoustics.iter().flat_map(|acoustics| &acoustics.beams).enumerate() {
+        let (fired, wanted) = (pulses_before(beam, end), beam.pulses.count);
+        if fired < wanted {
+            notes.push(format!("beam {index}: only {fired} of {wanted} pulses start before the end"));
+        }
+    }
+    passing_by(notes, scenario);
+    let charged = scenario.grains.iter().any(|group| group.charge.si() != 0.0);
+    let by_charge = match scenario.fields.near_field.as_ref().map(|field| &field.law) {
+        Some(NearFieldLaw::Coulomb(_)) => true,
+        Some(NearFieldLaw::PowerPair(law)) => law.scaling == Scaling::Charge,
+        _ => false,
+    };
+    if !charged && (by_charge || scenario.fields.lorentz.is_some()) {
+        notes.push("no grain carries a charge: fields that act on charges do nothing".to_owned());
+    }
+    for name in scenario.materials.keys() {
+        if !scenario.grains.iter().any(|group| group.material == *name) {
+            notes.push(format!("no grain is made of {name}"));
+        }
+    }
+}
+
+/// Beams whose straight way does not meet the region of any group.
+fn passing_by(notes: &mut Vec<String>, scenario: &Scenario) {
+    for (index, beam) in scenario.acoustics.iter().flat_map(|acoustics| &acoustics.beams).enumerate() {
+        let (start, axis) = (vector(beam.start), Vec3::from(beam.direction).normalized());
+        let meets = |group: &GrainGroup| {
+            let region = match &group.placement {
+                Placement::Random(law) => &law.region,
+                Placement::Lattice(law) => &law.region,
+                Placement::Table(_) | Placement::List(_) => return true,
+            };
+            let (way, reach) = (region.center() - start, region.enclosing_radius());
+            way.rejected_from(axis).norm() < reach + beam.radius.si() && way.dot(axis) > -reach
+        };
+        if !scenario.grains.iter().any(meets) {
+            notes.push(format!("beam {index} misses all grains: it passes by or flies away from them"));
+        }
+    }
+}
+
+fn packing(notes: &mut Vec<String>, scenario: &Scenario) {
+    for (index, group) in scenario.grains.iter().enumerate() {
+        if let Placement::Random(law) = &group.placement {
+            let fraction = asked_fraction(law, mean_volume(&group.size));
+            if fraction > SLOW_FRACTION {
+                let fraction = digits(fraction);
+                notes.push(format!("grains.{index}: a solid fraction of {fraction} is close to saturation; placing takes long"));
+            }
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! Files that must be read, and files that must be refused with the words written beside their faults.
+//!
+//! A bad file says what it must be refused with: `#^ text` below a line stands for a fault of that line, `#! text` for
+//! a fault without a line. The text is the key, the message and the advice.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot read its files has failed")]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use agglo::scenario::{Fault, Plan, Scenario};
+
+fn files(folder: &str) -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+    let mut files: Vec<PathBuf> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.sort();
+    files
+}
+
+/// Line (0 where there is none) and text of the faults that a bad file announces.
+fn announced(text: &str) -> Vec<(usize, String)> {
+    let mut line = 0;
+    let mut faults = Vec::new();
+    for (index, words) in text.lines().enumerate() {
+        if let Some(words) = words.strip_prefix("#^ ") {
+            faults.push((line, words.to_owned()));
+        } else if let Some(words) = words.strip_prefix("#! ") {
+            faults.push((0, words.to_owned()));
+        } else {
+            line = index + 1;
+        }
+    }
+    faults.sort();
+    faults
+}
+
+fn found(fault: &Fault) -> (usize, String) {
+    let help = fault.help.as_ref().map(|help| format!("; {help}")).unwrap_or_default();
+    (fault.line.unwrap_or(0), format!("{}{help}", fault.headline()))
+}
+
+#[test]
+fn bad_files_are_refused_with_the_words_beside_their_faults() {
+    let files = files("tests/scenario/bad");
+    assert!(files.len() >= 45, "only {} bad files", files.len());
+    let mut wrong = Vec::new();
+    for path in files {
+        let text = fs::read_to_string(&path).unwrap();
+        let mut faults: Vec<(usize, String)> = match Scenario::from_toml(&text) {
+            Ok(_) => Vec::new(),
+            Err(faults) => faults.iter().map(found).collect(),
+        };
+        faults.sort();
+        let wanted = announced(&text);
+        if faults != wanted || wanted.is_empty() {
+            wrong.push(format!("{}\n  found  {faults:#?}\n  wanted {wanted:#?}", path.display()));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn good_and_shipped_files_are_read_and_written_back_the_same() {
+    let is_scenario = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "toml");
+    for path in
+        [files("tests/scenario/good"), files("../../scenarios")].concat().into_iter().filter(is_scenario)
+    {
+        let scenario = Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"));
+        let written = scenario.to_toml().unwrap();
+        let again = Scenario::from_toml(&written).unwrap_or_else(|error| panic!("{error}\n{written}"));
+        assert_eq!(scenario, again, "{}", path.display());
+    }
+}
+
+#[test]
+fn every_default_is_written_out() {
+    let text = fs::read_to_string(&files("tests/scenario/good")[0]).unwrap();
+    let written = Scenario::from_toml(&text).unwrap().to_toml().unwrap();
+    for line in ["viscosity = \"0.001 Pa s\"", "temperature = \"300 K\"", "on_breach = \"stop\"", "seed = 1"]
+    {
+        assert!(written.contains(line), "{line} in\n{written}");
+    }
+}
+
+const SHORT: &str = include_str!("scenario/good/a_single_grain.toml");
+
+#[test]
+fn settings_replace_values_by_path() {
+    let settings =
+        ["time.end=2 s", "grains.0.size.constant.radius = \"1 mm\"", "seed=7", "limits.on_breach=warn"];
+    let scenario = Scenario::with_overrides(SHORT, &settings).unwrap();
+    let by_hand = SHORT
+        .replace("time.end = \"1 ms\"", "time.end = \"2 s\"\nseed = 7\nlimits.on_breach = \"warn\"")
+        .replace("40 um", "1 mm");
+    assert_eq!(scenario, Scenario::from_toml(&by_hand).unwrap());
+}
+
+#[test]
+fn faults_of_settings_show_the_setting() {
+    let refused = |setting: &str| Scenario::with_overrides(SHORT, &[setting]).unwrap_err().to_string();
+    assert!(refused("time.end=2 m").starts_with("--set time.end=2 m: time.end: \"2 m\" is a length"));
+    assert!(refused("time.ende=2 s").contains("did you mean \"end\"?"));
+    assert!(refused("grains.1.charge=1 pC").contains("no entry of a list of 1"));
+    assert!(refused("time.end").contains("key.path=value is wanted"));
+    assert!(refused("time..end=1 s").contains("not a path of keys"));
+    assert!(refused("seed.x=1").contains("unknown key") || refused("seed.x=1").contains("found a table"));
+    assert!(refused("title.x=1").contains("found a table"), "{}", refused("title.x=1"));
+    assert!(refused("time.end=-1 s").contains("more than 0"), "rules hold for settings too");
+    let page = Scenario::with_overrides(SHORT, &["time.end=2 m"]).unwrap_err().render(SHORT, "x.toml", false);
+    assert!(page.contains("--set:1:10"), "{page}");
+}
+
+#[test]
+fn tables_that_are_not_there_are_faults_of_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("my.toml");
+    let list = "placement.list.positions = [[\"0 m\", \"0 m\", \"0 m\"]]";
+    fs::write(&path, SHORT.replace(list, "placement.table.file = \"grains.csv\"")).unwrap();
+    let refused = Scenario::load(&path).unwrap_err().to_string();
+    assert!(refused.contains("grains.0.placement.table.file: cannot open \"grains.csv\""), "{refused}");
+    fs::write(folder.path().join("grains.csv"), "x_m,y_m,z_m\n0,0,0\n1,0,0\n").unwrap();
+    let scenario = Scenario::load(&path).unwrap();
+    assert_eq!(Plan::new(&scenario, folder.path()).grains, 2);
+}
+
+#[test]
+fn choices_left_to_the_program_are_made() {
+    let resolved = Scenario::from_toml(SHORT).unwrap().resolved();
+    // 1 ms / 200, / 40 and / 20.
+    let intervals = [resolved.output.series, resolved.output.frames, resolved.output.checkpoints];
+    assert_eq!(intervals.map(|interval| interval.unwrap().si()), [5e-6, 2.5e-5, 5e-5]);
+    assert_eq!(resolved, resolved.resolved());
+    let again = Scenario::from_toml(&resolved.to_toml().unwrap()).unwrap();
+    assert_eq!(resolved, again);
+}
+
+/// Spoiled files are refused or read, but never end the program.
+#[test]
+fn spoiled_files_do_no_harm() {
+    let text = include_str!("scenario/good/every_choice.toml");
+    let lines: Vec<&str> = text.lines().collect();
+    for left_out in 0..lines.len() {
+        let rest = [&lines[..left_out], &lines[left_out + 1..]].concat().join("\n");
+        survive(&rest);
+    }
+    for end in (0..text.len()).step_by(7) {
+        survive(&text[..end]);
+    }
+    for (old, new) in
+        [("1", "-1"), ("1", "0"), ("\"", ""), ("um", "m"), ("=", "."), ("0", "9e999"), ("[", "[[")]
+    {
+        survive(&text.replace(old, new));
+        for at in text.match_indices(old).map(|(at, _)| at) {
+            survive(&format!("{}{new}{}", &text[..at], &text[at + old.len()..]));
+        }
+    }
+}
+
+fn survive(text: &str) {
+    match Scenario::from_toml(text) {
+        Ok(scenario) => {
+            let plan = Plan::new(&scenario, Path::new("tests/scenario/good"));
+            assert!(plan.steps > 0.0 && !plan.seconds.is_nan(), "{plan}\n{text}");
+        }
+        Err(faults) => {
+            assert!(!faults.is_empty() && faults.iter().all(|fault| !fault.message.is_empty()));
+            assert!(faults.render(text, "spoiled.toml", true).contains("nothing was run"));
+        }
+    }
+}
