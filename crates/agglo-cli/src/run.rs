@@ -81,7 +81,7 @@ fn go(
             Err(Failure::failed(message))
         }
         Err(error) => {
-            Err(Failure { message: format!("error: {error}\n({closing})"), code: exit_code(&error) })
+            Err(Failure { message: format!("error: {error}\n({closing})"), code: error.exit_code() })
         }
     }
 }
@@ -95,19 +95,9 @@ fn interrupt(asked: &AtomicBool) {
 
 /// The rows of a summary, in two columns.
 fn table(summary: &Summary) -> String {
-    let rows = rows(summary);
+    let rows = summary.table();
     let width = rows.iter().map(|(label, _)| label.chars().count()).max().unwrap_or(0);
     let lines: Vec<String> =
         rows.iter().map(|(label, value)| format!("  {label:<width$}  {value}")).collect();
     lines.join("\n")
-}
-
-/// Label and value of each row.
-fn rows(_: &Summary) -> Vec<(String, String)> {
-    Vec::new()
-}
-
-/// 2 where the input was at fault, 1 where the run was.
-fn exit_code(_: &RunError) -> u8 {
-    1
 }

@@ -6,7 +6,9 @@
 pub mod bond;
 pub mod damping;
 pub mod friction;
+pub mod network;
 pub mod normal;
+pub mod pass;
 mod touch;
 
 #[cfg(test)]

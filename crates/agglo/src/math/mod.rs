@@ -1,5 +1,6 @@
 //! Vectors, random numbers and statistics. No physics.
 
+pub mod parallel;
 pub mod rng;
 mod vec3;
 

@@ -1,11 +1,15 @@
 //! Figures taken from a state: moments, clusters, sizes, the ledger. Nothing here changes a state.
 
 mod clusters;
+mod ledger;
 mod moments;
+mod nearest;
 mod pairs;
 mod shape;
 
 pub use clusters::{Clusters, Joiner};
+pub use ledger::{Balance, Flows, Ledger, Momentum, Stores};
 pub use moments::{Moments, moment_about, moments};
+pub use nearest::mean_nearest_distance;
 pub use pairs::close_pairs;
 pub use shape::{ClusterSummary, center_of_mass, fractal_dimension, radius_of_gyration, summarize};

@@ -2,6 +2,8 @@
 
 mod columns;
 mod material;
+mod motion;
 
 pub use columns::{COLUMNS, Column, ColumnValues, OnMerge, Particles, Row};
 pub use material::{Material, Mixture, PairTable, Softening};
+pub use motion::Motion;

@@ -62,21 +62,31 @@ impl Series {
     /// # Errors
     /// [`RecordError::Shape`] where the row does not fit the header, [`RecordError::File`].
     pub fn row(&mut self, values: &[f64]) -> Result<(), RecordError> {
-        if values.len() != self.columns {
-            let (found, expected) = (values.len(), self.columns);
-            return Err(RecordError::Shape {
-                path: self.path.clone(),
-                what: "a row".to_owned(),
-                found,
-                expected,
-            });
-        }
+        self.check_length(values.len())?;
         for (k, value) in values.iter().enumerate() {
             let comma = if k == 0 { "" } else { "," };
             // Writing to a string cannot fail. The debug form turns to exponents where plain digits get long.
             let _ = write!(self.line, "{comma}{value:?}");
         }
         self.end_line()
+    }
+
+    /// Adds a row of words without commas, such as a mixture of numbers and names.
+    ///
+    /// # Errors
+    /// [`RecordError::Shape`] where the row does not fit the header, [`RecordError::File`].
+    pub fn words(&mut self, words: &[&str]) -> Result<(), RecordError> {
+        self.check_length(words.len())?;
+        self.line.push_str(&words.join(","));
+        self.end_line()
+    }
+
+    fn check_length(&self, found: usize) -> Result<(), RecordError> {
+        if found == self.columns {
+            return Ok(());
+        }
+        let (path, what) = (self.path.clone(), "a row".to_owned());
+        Err(RecordError::Shape { path, what, found, expected: self.columns })
     }
 
     fn end_line(&mut self) -> Result<(), RecordError> {

@@ -46,6 +46,8 @@ pages! {
     "drag" "fields" "drag" ["stokes" "schiller_naumann"];
     "beams" "acoustics" "beam" [];
     "fresnel" "acoustics" "fresnel" [];
+    "staggered" "engine/soft" "staggered" [];
+    "verlet" "engine/soft" "verlet" [];
     "ray_force" "acoustics" "ray_force" ["impulse" "published_step" "radiation_pressure"];
 }
 

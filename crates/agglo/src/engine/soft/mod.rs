@@ -1,5 +1,22 @@
 //! Soft spheres: forces, and the schemes that integrate them.
 
+mod advance;
+mod books;
+mod laws;
+mod loads;
+mod pulses;
+mod relax;
+mod simulation;
+mod skin;
+pub mod staggered;
+pub mod step_size;
+mod system;
 mod types;
+pub mod verlet;
 
+pub use laws::Laws;
+pub use loads::{Loads, Rates, Supplies, Supply};
+pub use pulses::Pulses;
+pub use simulation::{Clock, Simulation, SimulationState};
+pub use system::System;
 pub use types::{Breach, Engine, Limits, Staggered, Verlet};

@@ -1,0 +1,280 @@
+//! The bonds of all grains: their memory, their loads, and which of them break.
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::arms;
+use super::bond::{Beam, BeamLoad, BeamPair, BeamState, Break};
+use crate::math::{Vec3, parallel};
+use crate::neighbors::PairList;
+use crate::particles::{Motion, Particles};
+
+/// Bonds per leaf of the parallel loop.
+const LEAF: usize = 256;
+
+/// A bond between two grains.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Bond {
+    /// Stable names of the grains, the lower first.
+    pub ids: [u32; 2],
+    /// Their places.
+    pub grains: [u32; 2],
+    /// What the bond remembers.
+    pub state: BeamState,
+}
+
+/// A bond that broke or was made.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BondEvent {
+    /// Simulated time [s].
+    pub time: f64,
+    /// Stable names of the grains.
+    pub ids: [u32; 2],
+    /// How it broke; nothing if it was made.
+    pub broke: Option<Break>,
+    /// Energy [J] that the bond held.
+    pub energy: f64,
+}
+
+/// All bonds, sorted by the grains' names.
+#[derive(Clone, Debug, Default)]
+pub struct Network {
+    law: Option<Beam>,
+    bonds: Vec<Bond>,
+    trial: Vec<(BeamState, BeamLoad)>,
+    /// Bonds of grain k, as 2 * bond + side: `entries[starts[k]..starts[k + 1]]`.
+    starts: Vec<u32>,
+    entries: Vec<u32>,
+    made_at_start: usize,
+}
+
+impl Network {
+    /// Bonds all grains whose surfaces are closer than the law's gap.
+    pub fn bond_neighbours(law: Option<&Beam>, grains: &Particles) -> Self {
+        let mut network = Self { law: law.cloned(), ..Self::default() };
+        if let Some(law) = law {
+            let largest = grains.radius.iter().copied().fold(0.0, f64::max);
+            let mut list = PairList::default();
+            list.build(&grains.position, &grains.radius, 0.0, law.gap * largest);
+            for (a, b) in list.pairs() {
+                let (i, j) = (a as usize, b as usize);
+                let gap =
+                    (grains.position[i] - grains.position[j]).norm() - grains.radius[i] - grains.radius[j];
+                if gap <= law.gap * grains.radius[i].min(grains.radius[j]) {
+                    network.bonds.push(bond_between(law, grains, a, b));
+                }
+            }
+        }
+        network.made_at_start = network.bonds.len();
+        network.settle(grains.len());
+        network
+    }
+
+    /// Puts saved bonds back.
+    pub fn restored(law: Option<&Beam>, bonds: Vec<Bond>, made_at_start: usize, grains: usize) -> Self {
+        let mut network = Self { law: law.cloned(), bonds, made_at_start, ..Self::default() };
+        network.settle(grains);
+        network
+    }
+
+    /// The bonds that hold.
+    pub fn bonds(&self) -> &[Bond] {
+        &self.bonds
+    }
+
+    /// How many bonds the start had.
+    pub fn made_at_start(&self) -> usize {
+        self.made_at_start
+    }
+
+    /// Largest share of its strength that a bond bears.
+    pub fn worst_use(&self) -> f64 {
+        self.trial.iter().map(|(_, load)| load.tensile_use.max(load.shear_use)).fold(0.0, f64::max)
+    }
+
+    /// Sorts the bonds and works out which belong to each grain.
+    fn settle(&mut self, grains: usize) {
+        self.bonds.sort_unstable_by_key(|bond| bond.ids);
+        self.trial = self.bonds.iter().map(|bond| (bond.state, BeamLoad::default())).collect();
+        self.starts.clear();
+        self.starts.resize(grains + 1, 0);
+        let ends = || {
+            self.bonds.iter().enumerate().flat_map(|(at, bond)| {
+                bond.grains
+                    .into_iter()
+                    .zip(0..)
+                    .map(move |(grain, side)| (grain as usize, 2 * at as u32 + side))
+            })
+        };
+        for (grain, _) in ends() {
+            self.starts[grain + 1] += 1;
+        }
+        for grain in 0..grains {
+            self.starts[grain + 1] += self.starts[grain];
+        }
+        let mut place = self.starts.clone();
+        let mut entries = vec![0; 2 * self.bonds.len()];
+        for (grain, entry) in ends() {
+            entries[place[grain] as usize] = entry;
+            place[grain] += 1;
+        }
+        self.entries = entries;
+    }
+
+    /// Computes all bonds' loads at the end of a step of `dt` [s]; returns the power lost in their dashpots [W].
+    pub fn compute(&mut self, grains: &Particles, before: &Motion<'_>, now: &Motion<'_>, dt: f64) -> f64 {
+        let Some(law) = &self.law else { return 0.0 };
+        let bonds = &self.bonds;
+        parallel::over(
+            0..bonds.len(),
+            LEAF,
+            &mut self.trial[..],
+            &|range, trial: &mut [(BeamState, BeamLoad)]| {
+                let mut lost = 0.0;
+                for (bond, place) in bonds[range].iter().zip(trial) {
+                    let (load, state) = law.advance(&bond.state, &pair_of(bond, grains, before, now, dt));
+                    lost += load.damping_power;
+                    *place = (state, load);
+                }
+                lost
+            },
+            &|a, b| a + b,
+        )
+    }
+
+    /// Adds the bonds' loads on one grain.
+    #[inline]
+    pub fn gather(&self, grain: usize, force: &mut Vec3, moment: &mut Vec3) {
+        if self.bonds.is_empty() {
+            return;
+        }
+        for &entry in &self.entries[self.starts[grain] as usize..self.starts[grain + 1] as usize] {
+            let load = &self.trial[entry as usize / 2].1;
+            if entry % 2 == 0 {
+                *force += load.force;
+                *moment += load.moment_i;
+            } else {
+                *force -= load.force;
+                *moment += load.moment_j;
+            }
+        }
+    }
+
+    /// Keeps the memory of the last computation.
+    pub fn commit(&mut self) {
+        for (bond, (state, _)) in self.bonds.iter_mut().zip(&self.trial) {
+            bond.state = *state;
+        }
+    }
+
+    /// Takes out the bonds that bear more than their strength.
+    pub fn break_overloaded(&mut self, grains: &Particles, time: f64) -> Vec<BondEvent> {
+        let Some(law) = &self.law else { return Vec::new() };
+        if self.trial.iter().all(|(_, load)| load.breaks().is_none()) {
+            return Vec::new();
+        }
+        let mut events = Vec::new();
+        let mut kept = Vec::with_capacity(self.bonds.len());
+        for (bond, (_, load)) in self.bonds.iter().zip(&self.trial) {
+            let broke = load.breaks();
+            if broke.is_some() {
+                let energy = law.energy(&bond.state, distance_of(bond, grains));
+                events.push(BondEvent { time, ids: bond.ids, broke, energy });
+            } else {
+                kept.push((*bond, *load));
+            }
+        }
+        let loads: Vec<BeamLoad> = kept.iter().map(|(_, load)| *load).collect();
+        self.bonds = kept.into_iter().map(|(bond, _)| bond).collect();
+        self.settle(grains.len());
+        self.trial.iter_mut().zip(loads).for_each(|(place, load)| place.1 = load);
+        events
+    }
+
+    /// Bonds grains that overlap by more than the law's forming strain and are not bonded yet.
+    pub fn bond_pressed(&mut self, grains: &Particles, list: &PairList, time: f64) -> Vec<BondEvent> {
+        let Some(law) = &self.law else { return Vec::new() };
+        let Some(strain) = law.forming_strain else { return Vec::new() };
+        let pressed = list.pairs().filter(|(a, b)| {
+            let (i, j) = (*a as usize, *b as usize);
+            let reach = (grains.radius[i] + grains.radius[j]) * (1.0 - strain);
+            (grains.position[i] - grains.position[j]).norm_squared() <= reach * reach
+        });
+        let fresh: Vec<Bond> = pressed
+            .map(|(a, b)| bond_between(law, grains, a, b))
+            .filter(|bond| self.bonds.binary_search_by_key(&bond.ids, |known| known.ids).is_err())
+            .collect();
+        let events =
+            fresh.iter().map(|bond| BondEvent { time, ids: bond.ids, broke: None, energy: 0.0 }).collect();
+        if !fresh.is_empty() {
+            self.bonds.extend(fresh);
+            self.settle(grains.len());
+        }
+        events
+    }
+
+    /// Energy [J] stored in all bonds.
+    pub fn energy(&self, grains: &Particles) -> f64 {
+        let Some(law) = &self.law else { return 0.0 };
+        let energies: Vec<f64> =
+            self.bonds.par_iter().map(|bond| law.energy(&bond.state, distance_of(bond, grains))).collect();
+        energies.iter().sum()
+    }
+
+    /// The grains came to new places.
+    pub fn reindex(&mut self, place: &[u32]) {
+        for bond in &mut self.bonds {
+            bond.grains = bond.grains.map(|grain| place[grain as usize]);
+        }
+        self.settle(place.len());
+    }
+}
+
+fn distance_of(bond: &Bond, grains: &Particles) -> f64 {
+    let [i, j] = bond.grains.map(|grain| grains.position[grain as usize]);
+    (j - i).norm()
+}
+
+fn bond_between(law: &Beam, grains: &Particles, a: u32, b: u32) -> Bond {
+    let (a, b) = if grains.id[a as usize] < grains.id[b as usize] { (a, b) } else { (b, a) };
+    let (i, j) = (a as usize, b as usize);
+    let apart = grains.position[j] - grains.position[i];
+    let distance = apart.norm();
+    let state = law.new_state(grains.radius[i], grains.radius[j], distance, apart / distance);
+    Bond { ids: [grains.id[i], grains.id[j]], grains: [a, b], state }
+}
+
+/// The motion of a bond's two ends over a step.
+fn pair_of(bond: &Bond, grains: &Particles, before: &Motion<'_>, now: &Motion<'_>, dt: f64) -> BeamPair {
+    let [i, j] = bond.grains.map(|grain| grain as usize);
+    let apart = now.position[j] - now.position[i];
+    let distance = apart.norm();
+    let normal = apart * (1.0 / distance);
+    // Slip over the step is taken across the normal of its middle, so that a turning pair slips by nothing.
+    let apart_before = before.position[j] - before.position[i];
+    let middle = (apart + apart_before).normalized();
+    let arms = arms([grains.radius[i], grains.radius[j]], distance);
+    let ends = |motion: &Motion<'_>| {
+        let rolling = motion.spin[i] * arms[0] + motion.spin[j] * arms[1];
+        (motion.velocity[j] - motion.velocity[i], rolling, motion.spin[j] - motion.spin[i])
+    };
+    let ((parting_before, rolling_before, turn_before), (parting, rolling, turn)) = (ends(before), ends(now));
+    let velocity = parting - rolling.cross(normal);
+    let mean = (parting_before + parting - (rolling_before + rolling).cross(middle)) * 0.5;
+    let spins = before.spin[i] + before.spin[j] + now.spin[i] + now.spin[j];
+    let (mi, mj) = (grains.mass[i], grains.mass[j]);
+    let (ii, ij) = (grains.inertia(i), grains.inertia(j));
+    BeamPair {
+        distance,
+        normal,
+        arms,
+        displacement: mean.rejected_from(middle) * dt,
+        rotation: (turn_before + turn) * (0.5 * dt),
+        spin_angle: spins.dot(normal) * (0.25 * dt),
+        separation_speed: velocity.dot(normal),
+        slip: velocity.rejected_from(normal),
+        spin_difference: turn,
+        effective_mass: mi * mj / (mi + mj),
+        effective_inertia: ii * ij / (ii + ij),
+    }
+}

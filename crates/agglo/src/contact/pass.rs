@@ -1,0 +1,380 @@
+//! The one loop over pairs: which touch, and what the contact laws make of it.
+//!
+//! Each touching pair is computed once. Its load stands at the pair's number until the grains gather theirs, in a
+//! fixed order. Memory of contacts (tangential springs) is committed only when a step is accepted, so a step can
+//! be tried again.
+
+use std::ops::Range;
+
+use super::bond::{Bonds, StrainBond};
+use super::friction::{Friction, Sliding, TangentialSpring};
+use super::{ContactLaws, PairConstants, Touch, arms};
+use crate::math::{Vec3, parallel};
+use crate::neighbors::PairList;
+use crate::particles::{Motion, PairTable, Particles};
+
+/// Owners per leaf of the parallel loop.
+const LEAF: usize = 256;
+
+/// Force and moments of one contact.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ContactLoad {
+    /// Force on the owner [N]; on the partner the opposite.
+    pub force: Vec3,
+    /// Moment per arm [N]: n x F_t, the same for both grains.
+    pub couple: Vec3,
+    /// Distances from the two centres to the contact [m]: owner's and partner's.
+    pub arms: [f64; 2],
+}
+
+/// What one pass over the contacts adds up.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ContactRates {
+    /// Power lost in normal dashpots [W].
+    pub damping: f64,
+    /// Power that tangential forces take from the motion [W].
+    pub tangential: f64,
+    /// Largest overlap over the sum of radii, with the pair's grains.
+    pub worst_strain: f64,
+    /// The grains of that pair.
+    pub worst_pair: [u32; 2],
+    /// How many pairs touch.
+    pub touching: u32,
+}
+
+impl ContactRates {
+    fn join(a: Self, b: Self) -> Self {
+        let worst = if b.worst_strain > a.worst_strain { b } else { a };
+        Self {
+            damping: a.damping + b.damping,
+            tangential: a.tangential + b.tangential,
+            touching: a.touching + b.touching,
+            ..worst
+        }
+    }
+}
+
+/// Loads and memory of all candidate pairs.
+#[derive(Debug, Default)]
+pub struct Contacts {
+    loads: Vec<ContactLoad>,
+    committed: Memory,
+    trial: Memory,
+}
+
+/// What contacts remember, by the pair's number.
+#[derive(Debug, Default)]
+struct Memory {
+    touching: Vec<bool>,
+    springs: Vec<TangentialSpring>,
+}
+
+impl Memory {
+    fn resize(&mut self, pairs: usize, with_springs: bool) {
+        self.touching.clear();
+        self.touching.resize(pairs, false);
+        self.springs.clear();
+        self.springs.resize(if with_springs { pairs } else { 0 }, TangentialSpring::default());
+    }
+}
+
+/// One remembered contact, named by its grains: for checkpoints and for lists that are built anew.
+pub type Remembered = (u32, u32, TangentialSpring);
+
+/// What a pass needs to know besides the pairs.
+pub struct ContactWorld<'a> {
+    /// The grains' constant columns.
+    pub grains: &'a Particles,
+    /// Laws of contact, if any.
+    pub laws: Option<&'a ContactLaws>,
+    /// Bond law, of which only the one that acts in contact concerns this pass.
+    pub bonds: Option<&'a Bonds>,
+    /// Constants of pairs of materials.
+    pub pairs: &'a PairTable,
+    /// Candidate pairs.
+    pub list: &'a PairList,
+    /// Motion at the start of the step.
+    pub before: Motion<'a>,
+    /// Motion at which forces are wanted.
+    pub now: Motion<'a>,
+    /// Step between the two [s].
+    pub dt: f64,
+}
+
+struct Slot<'a> {
+    loads: &'a mut [ContactLoad],
+    touching: &'a mut [bool],
+    springs: &'a mut [TangentialSpring],
+    starts: &'a [u32],
+}
+
+impl parallel::Split for Slot<'_> {
+    fn split(self, range: &Range<usize>, at: usize) -> (Self, Self) {
+        let cut = (self.starts[at] - self.starts[range.start]) as usize;
+        let (loads, loads_after) = self.loads.split_at_mut(cut);
+        let (touching, touching_after) = self.touching.split_at_mut(cut);
+        let (springs, springs_after) = self.springs.split_at_mut(cut.min(self.springs.len()));
+        (
+            Self { loads, touching, springs, starts: self.starts },
+            Self {
+                loads: loads_after,
+                touching: touching_after,
+                springs: springs_after,
+                starts: self.starts,
+            },
+        )
+    }
+}
+
+impl Contacts {
+    /// Makes room for the pairs of a new list and puts the remembered contacts in their new places.
+    pub fn relist(&mut self, list: &PairList, remembered: &[Remembered], laws: Option<&ContactLaws>) {
+        let with_springs = matches!(laws, Some(ContactLaws { friction: Some(Friction::Mindlin(_)), .. }));
+        self.loads.clear();
+        self.loads.resize(list.len(), ContactLoad::default());
+        self.committed.resize(list.len(), with_springs);
+        self.trial.resize(list.len(), with_springs);
+        for (a, b, spring) in remembered {
+            let mirrored = TangentialSpring { force: -spring.force, ..*spring };
+            let place = list.find(*a, *b).map(|pair| (pair, *spring));
+            if let Some((pair, spring)) = place.or_else(|| list.find(*b, *a).map(|pair| (pair, mirrored))) {
+                self.committed.touching[pair] = true;
+                if with_springs {
+                    self.committed.springs[pair] = spring;
+                }
+            }
+        }
+    }
+
+    /// The committed contacts with their memory.
+    pub fn remembered(&self, list: &PairList) -> Vec<Remembered> {
+        let spring = |pair: usize| self.committed.springs.get(pair).copied().unwrap_or_default();
+        let touching =
+            list.pairs().zip(&self.committed.touching).enumerate().filter(|(_, (_, touching))| **touching);
+        touching.map(|(pair, ((a, b), _))| (a, b, spring(pair))).collect()
+    }
+
+    /// Keeps the memory of the last pass.
+    pub fn commit(&mut self) {
+        std::mem::swap(&mut self.committed, &mut self.trial);
+    }
+
+    /// Whether a pair touched in the last pass, and its load.
+    #[inline]
+    pub fn load(&self, pair: usize) -> Option<&ContactLoad> {
+        if self.trial.touching[pair] { Some(&self.loads[pair]) } else { None }
+    }
+
+    /// Energy [J] of the committed tangential springs.
+    pub fn spring_energy(&self) -> f64 {
+        let springs = self.committed.springs.iter().zip(&self.committed.touching);
+        springs.filter(|(_, touching)| **touching).map(|(spring, _)| spring.energy()).sum()
+    }
+
+    /// Computes the loads of all touching pairs.
+    pub fn compute(&mut self, world: &ContactWorld<'_>) -> ContactRates {
+        let owners = world.now.position.len();
+        let slot = Slot {
+            loads: &mut self.loads,
+            touching: &mut self.trial.touching,
+            springs: &mut self.trial.springs,
+            starts: world.list.starts(),
+        };
+        let committed = &self.committed;
+        parallel::over(
+            0..owners,
+            LEAF,
+            slot,
+            &|range, slot| compute_owners(world, committed, range, slot),
+            &ContactRates::join,
+        )
+    }
+}
+
+fn compute_owners(
+    world: &ContactWorld<'_>,
+    committed: &Memory,
+    range: Range<usize>,
+    slot: Slot<'_>,
+) -> ContactRates {
+    let mut rates = ContactRates::default();
+    let grains = world.grains;
+    let base = world.list.starts()[range.start] as usize;
+    for owner in range {
+        let (at, radius) = (world.now.position[owner], grains.radius[owner]);
+        for pair in world.list.owned(owner) {
+            let partner = world.list.partners()[pair] as usize;
+            let apart = world.now.position[partner] - at;
+            let reach = radius + grains.radius[partner];
+            let squared = apart.norm_squared();
+            let touching = squared < reach * reach;
+            let here = pair - base;
+            slot.touching[here] = touching;
+            if touching {
+                let contact = Contact::new(world, [owner, partner], apart, squared.sqrt());
+                let was = committed.touching[pair].then(|| committed.springs.get(pair)).flatten();
+                let (load, spring) = contact.load(world, was, &mut rates);
+                slot.loads[here] = load;
+                if let Some(place) = slot.springs.get_mut(here) {
+                    *place = spring;
+                }
+            }
+        }
+    }
+    rates
+}
+
+/// One touching pair.
+struct Contact<'a> {
+    grains: [usize; 2],
+    constants: &'a PairConstants,
+    touch: Touch,
+    normal: Vec3,
+    arms: [f64; 2],
+}
+
+impl<'a> Contact<'a> {
+    #[inline]
+    fn new(world: &'a ContactWorld<'_>, grains: [usize; 2], apart: Vec3, distance: f64) -> Self {
+        let [i, j] = grains;
+        let columns = world.grains;
+        let radii = grains.map(|k| columns.radius[k]);
+        let touch = Touch::new(
+            radii,
+            grains.map(|k| columns.mass[k]),
+            grains.map(|k| columns.contact_stiffness[k]),
+            distance,
+        );
+        // Two centres in one point have no normal; any will do, since the next step parts them.
+        let normal = if distance > 0.0 { apart * (1.0 / distance) } else { Vec3::AXES[0] };
+
+        Self {
+            grains,
+            constants: world.pairs.of(columns.material[i], columns.material[j]),
+            touch,
+            normal,
+            arms: if distance > 0.0 { arms(radii, distance) } else { [0.0; 2] },
+        }
+    }
+
+    /// Velocity [m/s] of the partner's surface relative to the owner's at the contact.
+    #[inline]
+    fn relative_velocity(&self, motion: &Motion<'_>) -> Vec3 {
+        let [i, j] = self.grains;
+        let rolling = motion.spin[i] * self.arms[0] + motion.spin[j] * self.arms[1];
+        motion.velocity[j] - motion.velocity[i] - rolling.cross(self.normal)
+    }
+
+    /// Angle [rad] by which the pair turned about its normal over the step.
+    #[inline]
+    fn spin_angle(&self, world: &ContactWorld<'_>) -> f64 {
+        let [i, j] = self.grains;
+        let spins = world.before.spin[i] + world.before.spin[j] + world.now.spin[i] + world.now.spin[j];
+        spins.dot(self.normal) * (0.25 * world.dt)
+    }
+
+    #[inline]
+    fn load(
+        &self,
+        world: &ContactWorld<'_>,
+        before: Option<&TangentialSpring>,
+        rates: &mut ContactRates,
+    ) -> (ContactLoad, TangentialSpring) {
+        let Self { constants, touch, normal, .. } = self;
+        let velocity = self.relative_velocity(&world.now);
+        let separation = velocity.dot(*normal);
+        let slip = velocity - *normal * separation;
+        let (mut repulsion, mut tangential, mut spring) = (0.0, Vec3::ZERO, TangentialSpring::default());
+        if let Some(laws) = world.laws {
+            let dashpot =
+                laws.damping.as_ref().map_or(0.0, |law| law.coefficient(constants, touch, &laws.normal));
+            repulsion = laws.normal.force(constants, touch) - dashpot * separation;
+            rates.damping += dashpot * separation * separation;
+            match &laws.friction {
+                None => {}
+                Some(Friction::Regularised(law)) => {
+                    let speed = slip.norm();
+                    if speed > 0.0 {
+                        let size = law.force(constants, touch.area(), speed, world.dt, repulsion);
+                        tangential = slip * (size / speed);
+                    }
+                }
+                Some(Friction::Mindlin(law)) => {
+                    let slip_before = self.relative_velocity(&world.before).rejected_from(*normal);
+                    let sliding = Sliding {
+                        normal: *normal,
+                        displacement: (slip_before + slip) * (0.5 * world.dt),
+                        velocity: slip,
+                        spin_angle: self.spin_angle(world),
+                        normal_stiffness: laws.normal.tangent_stiffness(constants, touch),
+                        normal_dashpot: dashpot,
+                        normal_force: repulsion,
+                    };
+                    let nothing = TangentialSpring::default();
+                    (tangential, spring) = law.advance(constants, before.unwrap_or(&nothing), &sliding);
+                }
+            }
+        }
+        if let Some(Bonds::StrainBond(bond)) = world.bonds {
+            repulsion -= bond.attraction(touch);
+            tangential += self.strain_bond_slip(bond, slip, world.dt);
+        }
+        rates.tangential += tangential.dot(slip);
+        rates.touching += 1;
+        let strain = touch.strain();
+        if strain > rates.worst_strain {
+            rates.worst_strain = strain;
+            rates.worst_pair = self.grains.map(|k| k as u32);
+        }
+        let load = ContactLoad {
+            force: tangential - *normal * repulsion,
+            couple: normal.cross(tangential),
+            arms: self.arms,
+        };
+        (load, spring)
+    }
+
+    #[inline]
+    fn strain_bond_slip(&self, bond: &StrainBond, slip: Vec3, dt: f64) -> Vec3 {
+        let speed = slip.norm();
+        if speed > 0.0 { slip * (bond.tangential(&self.touch, speed, dt) / speed) } else { Vec3::ZERO }
+    }
+}
+
+/// Energies of all touching pairs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ContactEnergy {
+    /// Elastic energy of normal contact [J].
+    pub normal: f64,
+    /// Energy of bonds that act in contact [J], negative where they attract.
+    pub bond: f64,
+}
+
+/// Adds up the normal energies at the present positions; for records, not for steps.
+pub fn contact_energy(world: &ContactWorld<'_>) -> ContactEnergy {
+    let owners = world.now.position.len();
+    let leaf = |range: Range<usize>, ()| {
+        let mut sum = ContactEnergy::default();
+        for owner in range {
+            for pair in world.list.owned(owner) {
+                let partner = world.list.partners()[pair] as usize;
+                let apart = world.now.position[partner] - world.now.position[owner];
+                let reach = world.grains.radius[owner] + world.grains.radius[partner];
+                if apart.norm_squared() < reach * reach {
+                    let contact = Contact::new(world, [owner, partner], apart, apart.norm());
+                    if let Some(laws) = world.laws {
+                        sum.normal += laws.normal.energy(contact.constants, &contact.touch);
+                    }
+                    if let Some(Bonds::StrainBond(bond)) = world.bonds {
+                        sum.bond += bond.energy(&contact.touch);
+                    }
+                }
+            }
+        }
+        sum
+    };
+    parallel::over(0..owners, LEAF, (), &leaf, &|a, b| ContactEnergy {
+        normal: a.normal + b.normal,
+        bond: a.bond + b.bond,
+    })
+}

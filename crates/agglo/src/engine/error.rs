@@ -1,0 +1,94 @@
+//! Numeric trouble during a run: what, when, where, and what to do about it.
+
+use thiserror::Error;
+
+/// When and where a step went wrong.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Moment {
+    /// Number of the step.
+    pub step: u64,
+    /// Simulated time at its start [s].
+    pub time: f64,
+    /// Length of the step [s].
+    pub dt: f64,
+}
+
+impl std::fmt::Display for Moment {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "step {} at t = {:.6e} s (step size {:.3e} s)", self.step, self.time, self.dt)
+    }
+}
+
+/// Why a run cannot go on.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum SimError {
+    /// A motion is infinite or not a number.
+    #[error("{at}: the motion of grain {grain} is not finite under {laws}; make the step smaller")]
+    NotFinite {
+        /// When.
+        at: Moment,
+        /// Stable name of the grain.
+        grain: u32,
+        /// The laws that act on it.
+        laws: String,
+    },
+    /// A grain moves too far in one step.
+    #[error(
+        "{at}: grain {grain} moves {radii:.3} of its radius in one step under {laws}, more than limits.displacement = \
+         {limit}; make the step smaller, or the pulse weaker, or set limits.on_breach = \"warn\""
+    )]
+    TooFar {
+        /// When.
+        at: Moment,
+        /// Stable name of the grain.
+        grain: u32,
+        /// Motion over radius.
+        radii: f64,
+        /// What is allowed.
+        limit: f64,
+        /// The laws that act on it.
+        laws: String,
+    },
+    /// Two grains overlap too much for the law.
+    #[error(
+        "{at}: grains {} and {} overlap by {strain:.3} of the sum of their radii, more than limits.strain = {limit}, \
+         under {laws}; make the contact stiffer, or the pulse weaker, or set limits.on_breach = \"warn\"",
+        grains[0], grains[1]
+    )]
+    TooDeep {
+        /// When.
+        at: Moment,
+        /// Stable names of the grains.
+        grains: [u32; 2],
+        /// Overlap over the sum of the radii.
+        strain: f64,
+        /// What is allowed.
+        limit: f64,
+        /// The contact law.
+        laws: String,
+    },
+    /// The iteration of the staggered scheme does not converge.
+    #[error(
+        "{at}: the staggered iteration does not converge (error {error:.3e}); the contact or bond is too stiff for it, \
+         or the damping too strong: raise target_iterations, or use engine.verlet"
+    )]
+    NotConverged {
+        /// When.
+        at: Moment,
+        /// The last iteration error.
+        error: f64,
+    },
+    /// The grains do not come to rest before the clock starts.
+    #[error(
+        "start.relax: after {time:.3e} s the fastest grain still moves at {speed:.3e} m/s, more than {limit:.3e} m/s; \
+         allow a longer relaxation, a shorter damping_time or a higher speed"
+    )]
+    NoRest {
+        /// Simulated time of the relaxation [s].
+        time: f64,
+        /// Speed of the fastest grain [m/s].
+        speed: f64,
+        /// What counts as rest [m/s].
+        limit: f64,
+    },
+}

@@ -1,0 +1,93 @@
+//! What the ledger's stores hold at the committed state.
+
+use std::ops::Range;
+
+use crate::contact::pass::contact_energy;
+use crate::math::parallel;
+use crate::measure::{Balance, Momentum, Stores};
+
+use super::laws::source;
+use super::simulation::Simulation;
+use super::system::LEAF;
+
+impl Simulation {
+    /// Energy in the stores.
+    pub fn stores(&self) -> Stores {
+        let system = &self.system;
+        let contact = system.with_contacts(contact_energy);
+        let grains = &system.grains;
+        let (kinetic, spin) = self.sum(
+            |at| {
+                (
+                    0.5 * system.inertial_mass[at] * grains.velocity[at].norm_squared(),
+                    0.5 * grains.inertia(at) * grains.spin[at].norm_squared(),
+                )
+            },
+            |a, b| (a.0 + b.0, a.1 + b.1),
+            (0.0, 0.0),
+        );
+        Stores {
+            kinetic,
+            spin,
+            elastic: contact.normal,
+            tangential_spring: system.spring_energy(),
+            bonds: contact.bond + system.network.energy(grains),
+            near_field: self.near_field_energy(),
+        }
+    }
+
+    /// Linear and angular momentum.
+    pub fn momentum(&self) -> Momentum {
+        let system = &self.system;
+        let grains = &system.grains;
+        self.sum(
+            |at| {
+                let linear = grains.velocity[at] * system.inertial_mass[at];
+                let angular = grains.position[at].cross(linear) + grains.spin[at] * grains.inertia(at);
+                Momentum { linear, angular }
+            },
+            |a, b| Momentum { linear: a.linear + b.linear, angular: a.angular + b.angular },
+            Momentum::default(),
+        )
+    }
+
+    /// Sum of all grains' momenta without regard to direction [kg m/s].
+    pub fn momentum_size(&self) -> f64 {
+        let system = &self.system;
+        self.sum(|at| system.inertial_mass[at] * system.grains.velocity[at].norm(), |a, b| a + b, 0.0)
+    }
+
+    /// The ledger's balance now.
+    pub fn balance(&self) -> Balance {
+        self.ledger.balance(self.stores())
+    }
+
+    /// Relative drift of linear momentum now.
+    pub fn momentum_drift_relative(&self) -> f64 {
+        self.ledger.momentum_drift_relative(&self.momentum(), self.momentum_size())
+    }
+
+    fn near_field_energy(&self) -> f64 {
+        let grains = &self.system.grains;
+        let Some(law) = &self.system.laws.fields.near_field else { return 0.0 };
+        let bound = law.cutoff.map_or(f64::INFINITY, |cutoff| cutoff.si());
+        let of_grain = |a: usize| {
+            let others = a + 1..grains.len();
+            let distances = others.map(|b| (b, (grains.position[b] - grains.position[a]).norm()));
+            let near = distances.filter(|(_, distance)| *distance <= bound);
+            near.map(|(b, distance)| law.energy(&source(grains, a), &source(grains, b), distance))
+                .sum::<f64>()
+        };
+        self.sum(of_grain, |a, b| a + b, 0.0)
+    }
+
+    fn sum<T: Send + Sync + Copy>(
+        &self,
+        of_grain: impl Fn(usize) -> T + Sync,
+        join: impl Fn(T, T) -> T + Sync,
+        nothing: T,
+    ) -> T {
+        let leaf = |range: Range<usize>, ()| range.map(&of_grain).fold(nothing, &join);
+        parallel::over(0..self.system.grains.len(), LEAF, (), &leaf, &join)
+    }
+}

@@ -1,0 +1,161 @@
+//! The laws of a scenario, ready for use: what every evaluation of forces reads and none changes.
+
+use crate::acoustics::Medium;
+use crate::contact::{Bonds, ContactLaws, Damping, Friction, Normal};
+use crate::fields::Fields;
+use crate::fields::near_field::{NearField, Source};
+use crate::math::Vec3;
+use crate::particles::{Motion, PairTable, Particles};
+use crate::scenario::Scenario;
+
+use super::loads::{Supplies, Supply};
+
+/// The laws of a scenario.
+#[derive(Clone, Debug)]
+pub struct Laws {
+    /// Contact.
+    pub contact: Option<ContactLaws>,
+    /// Bonds.
+    pub bonds: Option<Bonds>,
+    /// Fields.
+    pub fields: Fields,
+    /// The fluid around the grains.
+    pub medium: Medium,
+    /// Constants of pairs of materials.
+    pub pairs: PairTable,
+    /// Densities of the materials [kg/m³], by number.
+    densities: Vec<f64>,
+}
+
+impl Laws {
+    /// The laws of a checked scenario.
+    pub fn new(scenario: &Scenario) -> Self {
+        Self {
+            contact: scenario.contact.clone(),
+            bonds: scenario.bonds.clone(),
+            fields: scenario.fields.clone(),
+            medium: scenario.medium.clone(),
+            pairs: PairTable::new(&scenario.materials, &scenario.mixtures),
+            densities: scenario.materials.values().map(|material| material.density.si()).collect(),
+        }
+    }
+
+    /// Mass that resists acceleration [kg]: the grain's and, if wanted, that of the fluid it moves.
+    pub fn inertial_mass(&self, grains: &Particles, at: usize) -> f64 {
+        let added =
+            self.fields.drag.as_ref().map_or(0.0, |drag| drag.added_mass(&self.medium, grains.radius[at]));
+        grains.mass[at] + added
+    }
+
+    /// Force [N] of gravity, drag and fields on one grain, and what it supplies.
+    #[inline]
+    pub fn on_single(
+        &self,
+        grains: &Particles,
+        motion: &Motion<'_>,
+        at: usize,
+        time: f64,
+    ) -> (Vec3, Supplies) {
+        let (position, velocity, radius) = (motion.position[at], motion.velocity[at], grains.radius[at]);
+        let supply = |force: Vec3| Supply::of(force, position, velocity);
+        let mut supplies = Supplies::default();
+        if let Some(gravity) = &self.fields.gravity {
+            let ratio = self.medium.density.si() / self.densities[grains.material[at] as usize];
+            supplies.gravity = supply(gravity.acceleration_on(ratio) * grains.mass[at]);
+        }
+        if let Some(drag) = &self.fields.drag {
+            supplies.drag = supply(drag.force(&self.medium, radius, velocity, position, time));
+        }
+        let mut field = Vec3::ZERO;
+        if let Some(lorentz) = &self.fields.lorentz {
+            field += lorentz.force(grains.charge[at], velocity, position, time);
+        }
+        if let Some(magnetic) = &self.fields.magnetic {
+            field += magnetic.force(radius, position, time);
+        }
+        supplies.field = supply(field);
+        (supplies.gravity.force + supplies.drag.force + field, supplies)
+    }
+
+    /// Whether any force acts on single grains.
+    pub fn has_single(&self) -> bool {
+        let fields = &self.fields;
+        fields.gravity.is_some()
+            || fields.drag.is_some()
+            || fields.lorentz.is_some()
+            || fields.magnetic.is_some()
+    }
+
+    /// The scenario's words for the laws that act.
+    pub fn names(&self) -> Vec<&'static str> {
+        let mut names = Vec::new();
+        if let Some(laws) = &self.contact {
+            names.push(match laws.normal {
+                Normal::StrainPower(_) => "contact.normal.strain_power",
+                Normal::Hertz(_) => "contact.normal.hertz",
+                Normal::Hooke(_) => "contact.normal.hooke",
+            });
+            names.extend(laws.damping.as_ref().map(|law| match law {
+                Damping::ViscousArea(_) => "contact.damping.viscous_area",
+                Damping::Restitution(_) => "contact.damping.restitution",
+            }));
+            names.extend(laws.friction.as_ref().map(|law| match law {
+                Friction::Regularised(_) => "contact.friction.regularised",
+                Friction::Mindlin(_) => "contact.friction.mindlin",
+            }));
+        }
+        names.extend(self.bonds.as_ref().map(|law| match law {
+            Bonds::StrainBond(_) => "bonds.strain_bond",
+            Bonds::Beam(_) => "bonds.beam",
+        }));
+        let fields = &self.fields;
+        names.extend(fields.gravity.as_ref().map(|_| "fields.gravity"));
+        names.extend(fields.drag.as_ref().map(|_| "fields.drag"));
+        names.extend(fields.lorentz.as_ref().map(|_| "fields.lorentz"));
+        names.extend(fields.magnetic.as_ref().map(|_| "fields.magnetic"));
+        names.extend(fields.near_field.as_ref().map(|_| "fields.near_field"));
+        names
+    }
+
+    /// Warnings that hold for the whole run: published laws that do not do what their names say.
+    pub fn standing_warnings(&self) -> Vec<&'static str> {
+        let mut warnings = Vec::new();
+        if let Some(ContactLaws { friction: Some(Friction::Regularised(_)), .. }) = &self.contact {
+            warnings.push(
+                "contact.friction.regularised: the stick force carries the time step (halving the step halves it), so \
+                 the answer does not converge",
+            );
+        }
+        if let Some(Bonds::StrainBond(_)) = &self.bonds {
+            warnings.push(
+                "bonds.strain_bond acts in contact only: it cannot resist tension, and its tangential force carries \
+                 the time step",
+            );
+        }
+        warnings
+    }
+}
+
+/// What the near field sees of a grain.
+#[inline]
+pub fn source(grains: &Particles, at: usize) -> Source {
+    Source {
+        mass: grains.mass[at],
+        radius: grains.radius[at],
+        charge: grains.charge[at],
+        polarity: grains.polarity[at],
+    }
+}
+
+/// Near-field force [N] of grain `b` on grain `a`.
+#[inline]
+pub fn near_force(law: &NearField, grains: &Particles, positions: &[Vec3], a: usize, b: usize) -> Vec3 {
+    let apart = positions[b] - positions[a];
+    let squared = apart.norm_squared();
+    let within = law.cutoff.is_none_or(|cutoff| squared < cutoff.si() * cutoff.si());
+    if !within || squared == 0.0 {
+        return Vec3::ZERO;
+    }
+    let distance = squared.sqrt();
+    apart * (-law.force(&source(grains, a), &source(grains, b), distance) / distance)
+}

@@ -1,0 +1,135 @@
+//! Forces and moments on all grains, and the rates at which they feed or drain the ledger.
+
+use std::ops::{Add, Range};
+
+use serde::{Deserialize, Serialize};
+
+use crate::contact::pass::ContactRates;
+use crate::math::{Vec3, parallel::Split};
+
+/// Force [N] and moment about the centre [N m] on every grain; [n] each.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Loads {
+    /// Forces [N].
+    pub force: Vec<Vec3>,
+    /// Moments [N m].
+    pub moment: Vec<Vec3>,
+}
+
+impl Loads {
+    /// No load on `n` grains.
+    pub fn none(n: usize) -> Self {
+        Self { force: vec![Vec3::ZERO; n], moment: vec![Vec3::ZERO; n] }
+    }
+
+    /// Takes all loads away.
+    pub fn clear(&mut self) {
+        self.force.fill(Vec3::ZERO);
+        self.moment.fill(Vec3::ZERO);
+    }
+
+    /// Puts the grains into another order.
+    pub fn reorder(&mut self, order: &[u32]) {
+        self.force = order.iter().map(|&at| self.force[at as usize]).collect();
+        self.moment = order.iter().map(|&at| self.moment[at as usize]).collect();
+    }
+
+    /// Views that can be cut between grains.
+    pub fn views(&mut self) -> LoadViews<'_> {
+        LoadViews { force: &mut self.force, moment: &mut self.moment }
+    }
+}
+
+/// Mutable views of loads that can be cut between grains.
+pub struct LoadViews<'a> {
+    /// Forces [N].
+    pub force: &'a mut [Vec3],
+    /// Moments [N m].
+    pub moment: &'a mut [Vec3],
+}
+
+impl Split for LoadViews<'_> {
+    fn split(self, range: &Range<usize>, at: usize) -> (Self, Self) {
+        let (force, force_after) = self.force.split(range, at);
+        let (moment, moment_after) = self.moment.split(range, at);
+        (Self { force, moment }, Self { force: force_after, moment: moment_after })
+    }
+}
+
+/// What an outer agent does to all grains together, per second.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Supply {
+    /// Power put in [W].
+    pub power: f64,
+    /// Force [N].
+    pub force: Vec3,
+    /// Moment about the origin [N m].
+    pub moment: Vec3,
+}
+
+impl Supply {
+    /// A force at a point of a grain with this position and velocity.
+    #[inline]
+    pub fn of(force: Vec3, position: Vec3, velocity: Vec3) -> Self {
+        Self { power: force.dot(velocity), force, moment: position.cross(force) }
+    }
+
+    /// The weighted sum with another.
+    #[must_use]
+    pub fn plus(self, other: Self, weight: f64) -> Self {
+        Self {
+            power: self.power + weight * other.power,
+            force: self.force + other.force * weight,
+            moment: self.moment + other.moment * weight,
+        }
+    }
+}
+
+impl Add for Supply {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        self.plus(other, 1.0)
+    }
+}
+
+/// Supplies of single-grain forces, by channel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Supplies {
+    /// Drag of the medium (its power is mostly negative).
+    pub drag: Supply,
+    /// Weight and buoyancy.
+    pub gravity: Supply,
+    /// Electric and magnetic forces.
+    pub field: Supply,
+}
+
+impl Add for Supplies {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self {
+            drag: self.drag + other.drag,
+            gravity: self.gravity + other.gravity,
+            field: self.field + other.field,
+        }
+    }
+}
+
+/// All rates at one moment.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Rates {
+    /// Power lost in contact dashpots [W].
+    pub damping: f64,
+    /// Power that friction and tangential springs take from the motion [W].
+    pub tangential: f64,
+    /// Power lost in the dashpots of bonds [W].
+    pub bond_damping: f64,
+    /// Single-grain forces.
+    pub supplies: Supplies,
+}
+
+impl Rates {
+    /// Puts the parts together.
+    pub fn new(contact: &ContactRates, bond_damping: f64, supplies: Supplies) -> Self {
+        Self { damping: contact.damping, tangential: contact.tangential, bond_damping, supplies }
+    }
+}

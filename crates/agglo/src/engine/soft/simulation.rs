@@ -1,0 +1,319 @@
+//! A simulation of soft spheres: one step after another, with rays, bonds, the ledger and the guards.
+
+use serde::{Deserialize, Serialize};
+
+use crate::contact::network::{BondEvent, Network};
+use crate::contact::pass::Remembered;
+use crate::contact::{Bonds, network::Bond};
+use crate::engine::{Moment, SimError, Warnings};
+use crate::measure::Ledger;
+use crate::particles::Particles;
+use crate::scenario::Scenario;
+
+use super::advance::Change;
+use super::laws::Laws;
+use super::loads::{Loads, Rates};
+use super::pulses::{PulseState, Pulses};
+use super::step_size;
+use super::system::System;
+use super::types::{Breach, Engine, Limits};
+use super::{staggered, verlet};
+
+/// Steps between two sortings of the grains in space. Counted in steps, so that it is the same after a resume.
+const SORT_EVERY: u64 = 2000;
+
+/// Where the simulation stands in time.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Clock {
+    /// Simulated time [s].
+    pub time: f64,
+    /// Accepted steps.
+    pub step: u64,
+    /// Length of the next step [s], unless a pulse or the end comes first.
+    pub next_step: f64,
+    /// Length of the last step [s].
+    pub last_step: f64,
+    /// Iterations since the start (staggered scheme).
+    pub iterations: u64,
+    /// Rejected tries since the start (staggered scheme).
+    pub rejected: u64,
+}
+
+/// All that a simulation needs to go on with the same bits.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct SimulationState {
+    clock: Clock,
+    grains: Particles,
+    loads: Loads,
+    rates: Rates,
+    contacts: Vec<Remembered>,
+    bonds: Vec<Bond>,
+    bonds_made_at_start: usize,
+    pulses: PulseState,
+    ledger: Ledger,
+    warnings: Warnings,
+}
+
+/// A simulation.
+#[derive(Debug)]
+pub struct Simulation {
+    /// Grains, laws, loads.
+    pub system: System,
+    /// Beams and their rays.
+    pub pulses: Pulses,
+    /// The ledger.
+    pub ledger: Ledger,
+    /// Warnings.
+    pub warnings: Warnings,
+    /// Bonds that broke or were made since they were last taken.
+    pub events: Vec<BondEvent>,
+    clock: Clock,
+    engine: Engine,
+    limits: Limits,
+    end: f64,
+}
+
+impl Simulation {
+    /// Starts with grains as placed.
+    ///
+    /// # Errors
+    /// [`SimError::NoRest`] where the scenario asks for rest and the grains do not come to it.
+    pub fn start(scenario: &Scenario, grains: Particles) -> Result<Self, SimError> {
+        let grains = match &scenario.start.relax {
+            Some(relaxation) => super::relax::relaxed(scenario, relaxation, grains)?,
+            None => grains,
+        };
+        let mut simulation = Self::with(scenario, grains);
+        simulation.open_books();
+        Ok(simulation)
+    }
+
+    /// Grains under the scenario's laws, at time zero.
+    pub(super) fn with(scenario: &Scenario, grains: Particles) -> Self {
+        let network = Network::bond_neighbours(beam_of(scenario), &grains);
+        let pulses = Pulses::new(scenario, &grains);
+        let mut system = System::new(grains, Laws::new(scenario), network);
+        system.rays_are_impulses = pulses.are_impulses();
+        system.sort_in_space();
+        let first = step_size::first(scenario, &system);
+        let clock =
+            Clock { time: 0.0, step: 0, next_step: first, last_step: first, iterations: 0, rejected: 0 };
+        system.evaluate_start(first);
+        Self {
+            system,
+            pulses,
+            ledger: Ledger::default(),
+            warnings: Warnings::default(),
+            events: Vec::new(),
+            clock,
+            engine: scenario.engine.clone(),
+            limits: scenario.limits.clone(),
+            end: scenario.time.end.si(),
+        }
+    }
+
+    /// Goes on from a saved state.
+    pub fn resume(scenario: &Scenario, state: SimulationState) -> Self {
+        let n = state.grains.len();
+        let network = Network::restored(beam_of(scenario), state.bonds, state.bonds_made_at_start, n);
+        let pulses = Pulses::resume(scenario, state.pulses);
+        let mut system = System::new(state.grains, Laws::new(scenario), network);
+        system.rays_are_impulses = pulses.are_impulses();
+        system.loads = state.loads;
+        system.rates = state.rates;
+        system.remember(&state.contacts);
+        Self {
+            system,
+            pulses,
+            ledger: state.ledger,
+            warnings: state.warnings,
+            events: Vec::new(),
+            clock: state.clock,
+            engine: scenario.engine.clone(),
+            limits: scenario.limits.clone(),
+            end: scenario.time.end.si(),
+        }
+    }
+
+    /// All that is needed to go on with the same bits.
+    pub fn state(&self) -> SimulationState {
+        SimulationState {
+            clock: self.clock,
+            grains: self.system.grains.clone(),
+            loads: self.system.loads.clone(),
+            rates: self.system.rates,
+            contacts: self.system.remembered(),
+            bonds: self.system.network.bonds().to_vec(),
+            bonds_made_at_start: self.system.network.made_at_start(),
+            pulses: self.pulses.state(),
+            ledger: self.ledger.clone(),
+            warnings: self.warnings.clone(),
+        }
+    }
+
+    /// Where the simulation stands in time.
+    pub fn clock(&self) -> &Clock {
+        &self.clock
+    }
+
+    /// Whether the end is reached.
+    pub fn is_finished(&self) -> bool {
+        self.clock.time >= self.end
+    }
+
+    /// Makes one step: rays fly, grains move, bonds break, the ledger is kept.
+    ///
+    /// # Errors
+    /// [`SimError`] where the step does not converge or passes a limit; the state is then that before the step.
+    pub fn step(&mut self) -> Result<(), SimError> {
+        self.sort_grains_when_due();
+        let (dt, lands_on) = self.next_step();
+        self.pulses.launch_due(self.clock.time);
+        self.pulses.fly(&mut self.system, self.clock.time, dt);
+        let step = self.try_step(dt)?;
+        self.guard(&step)?;
+        self.book(&step);
+        self.system.commit();
+        self.advance_clock(&step, dt, lands_on);
+        self.change_bonds();
+        Ok(())
+    }
+
+    fn sort_grains_when_due(&mut self) {
+        if self.clock.step > 0
+            && self.clock.step.is_multiple_of(SORT_EVERY)
+            && let Some(place) = self.system.sort_in_space()
+        {
+            self.pulses.reindex(&place);
+        }
+    }
+
+    /// Length of the next step [s] and, if a pulse or the end bounds it, the time on which it lands.
+    fn next_step(&self) -> (f64, Option<f64>) {
+        let now = self.clock.time;
+        let wanted = self.clock.next_step.min(self.pulses.longest_step(now));
+        let event = self.pulses.next_launch(now).map_or(self.end, |launch| launch.min(self.end));
+        if now + wanted * (1.0 + 1e-9) >= event { (event - now, Some(event)) } else { (wanted, None) }
+    }
+
+    fn try_step(&mut self, dt: f64) -> Result<Step, SimError> {
+        let time = self.clock.time;
+        match &self.engine {
+            Engine::Staggered(scheme) => {
+                let accepted = staggered::step(&mut self.system, scheme, time, dt).map_err(|trouble| {
+                    SimError::NotConverged { at: self.moment(trouble.dt), error: trouble.error }
+                })?;
+                self.clock.iterations += u64::from(accepted.iterations);
+                self.clock.rejected += u64::from(accepted.rejected);
+                Ok(Step {
+                    dt: accepted.dt,
+                    next: accepted.next,
+                    change: accepted.change,
+                    phi: scheme.implicitness,
+                })
+            }
+            Engine::Verlet(_) => {
+                let change = verlet::step(&mut self.system, time, dt);
+                Ok(Step { dt, next: self.clock.next_step, change, phi: 0.5 })
+            }
+        }
+    }
+
+    fn guard(&mut self, step: &Step) -> Result<(), SimError> {
+        let (change, contact) = (&step.change, &self.system.trial.contact);
+        let id = |place: u32| self.system.grains.id[place as usize];
+        let at = self.moment(step.dt);
+        if let Some(place) = change.not_finite {
+            return Err(SimError::NotFinite { at, grain: id(place), laws: self.acting_laws() });
+        }
+        let limits = &self.limits;
+        if change.farthest > limits.displacement {
+            let laws = self.acting_laws();
+            let grain = id(change.farthest_grain);
+            let breach =
+                SimError::TooFar { at, grain, radii: change.farthest, limit: limits.displacement, laws };
+            return self.breach(breach, "grains moved farther in one step than limits.displacement");
+        }
+        if contact.worst_strain > limits.strain {
+            let grains = contact.worst_pair.map(id);
+            let laws = self.acting_laws();
+            let breach =
+                SimError::TooDeep { at, grains, strain: contact.worst_strain, limit: limits.strain, laws };
+            return self.breach(breach, "grains overlapped by more than limits.strain");
+        }
+        Ok(())
+    }
+
+    fn breach(&mut self, breach: SimError, warning: &str) -> Result<(), SimError> {
+        match self.limits.on_breach {
+            Breach::Stop => Err(breach),
+            Breach::Warn => {
+                self.warnings.add(warning);
+                Ok(())
+            }
+        }
+    }
+
+    fn book(&mut self, step: &Step) {
+        let system = &self.system;
+        self.ledger.flows.add_step(&system.rates, &system.trial.rates, step.phi, step.dt);
+        let rays = self.pulses.supply(system, step.dt);
+        self.ledger.flows.rays = self.ledger.flows.rays + rays;
+    }
+
+    fn advance_clock(&mut self, step: &Step, tried: f64, lands_on: Option<f64>) {
+        let clock = &mut self.clock;
+        let full = step.dt == tried;
+        clock.time = match lands_on {
+            Some(event) if full => event,
+            _ => clock.time + step.dt,
+        };
+        // A step cut short by a pulse says little about the next one.
+        clock.next_step = if full && lands_on.is_some() { step.next.max(clock.next_step) } else { step.next };
+        clock.last_step = step.dt;
+        clock.step += 1;
+    }
+
+    fn change_bonds(&mut self) {
+        let system = &mut self.system;
+        let broken = system.network.break_overloaded(&system.grains, self.clock.time);
+        self.ledger.flows.broken_bonds += broken.iter().map(|event| event.energy).sum::<f64>();
+        self.events.extend(broken);
+        self.events.extend(system.bond_pressed(self.clock.time));
+    }
+
+    fn moment(&self, dt: f64) -> Moment {
+        Moment { step: self.clock.step + 1, time: self.clock.time, dt }
+    }
+
+    fn acting_laws(&self) -> String {
+        self.system.laws.names().join(", ")
+    }
+
+    pub(super) fn open_books(&mut self) {
+        let stores = self.stores();
+        let momentum = self.momentum();
+        self.ledger = Ledger::open(stores, momentum, self.momentum_size());
+        for warning in self.system.laws.standing_warnings() {
+            self.warnings.add(warning);
+        }
+        for warning in self.pulses.standing_warnings() {
+            self.warnings.add(warning);
+        }
+    }
+}
+
+/// A step that was tried.
+struct Step {
+    dt: f64,
+    next: f64,
+    change: Change,
+    phi: f64,
+}
+
+fn beam_of(scenario: &Scenario) -> Option<&crate::contact::bond::Beam> {
+    match &scenario.bonds {
+        Some(Bonds::Beam(law)) => Some(law),
+        _ => None,
+    }
+}

@@ -1,0 +1,47 @@
+//! How thick the skin of the pair list is.
+//!
+//! A thick skin lasts longer but lists more pairs that do not touch. The skin adapts to how long the last lists
+//! lasted; results do not depend on it.
+
+/// Evaluations that a list should serve.
+const WANTED_AGE: u32 = 20;
+/// Listed pairs per grain beyond which the skin is not thickened.
+const MOST_PAIRS: usize = 10;
+
+/// The skin of the pair list.
+#[derive(Clone, Debug)]
+pub struct Skin {
+    thickness: f64,
+    thinnest: f64,
+    thickest: f64,
+    age: u32,
+}
+
+impl Skin {
+    /// A first guess for grains of these radii [m].
+    pub fn new(radii: &[f64]) -> Self {
+        let mean = radii.iter().sum::<f64>() / radii.len().max(1) as f64;
+        Self { thickness: 0.2 * mean, thinnest: 0.1 * mean, thickest: 4.0 * mean, age: 0 }
+    }
+
+    /// Thickness [m].
+    pub fn thickness(&self) -> f64 {
+        self.thickness
+    }
+
+    /// One more evaluation was served.
+    pub fn age(&mut self) {
+        self.age += 1;
+    }
+
+    /// Thickens or thins the skin for the next list.
+    pub fn adapt(&mut self, pairs: usize, grains: usize) {
+        let crowded = pairs > MOST_PAIRS * grains;
+        if self.age < WANTED_AGE && !crowded {
+            self.thickness = (1.5 * self.thickness).min(self.thickest);
+        } else if self.age > 10 * WANTED_AGE || crowded {
+            self.thickness = (0.8 * self.thickness).max(self.thinnest);
+        }
+        self.age = 0;
+    }
+}

@@ -1,0 +1,303 @@
+//! The grains with all that acts on them: forces are evaluated here, steps are tried and committed.
+
+use std::ops::Range;
+
+use crate::contact::network::{BondEvent, Network};
+use crate::contact::pass::{ContactRates, ContactWorld, Contacts, Remembered};
+use crate::math::{Vec3, parallel};
+use crate::neighbors::{PairList, morton_order};
+use crate::particles::{Motion, Particles};
+
+use super::laws::{Laws, near_force};
+use super::loads::{LoadViews, Loads, Rates, Supplies};
+use super::skin::Skin;
+
+/// Grains per leaf of the parallel loops.
+pub(super) const LEAF: usize = 256;
+
+/// A motion that is tried before it is committed.
+#[derive(Clone, Debug, Default)]
+pub struct Trial {
+    /// Centres [m].
+    pub position: Vec<Vec3>,
+    /// Velocities [m/s].
+    pub velocity: Vec<Vec3>,
+    /// Angular velocities [rad/s].
+    pub spin: Vec<Vec3>,
+    /// Loads at this motion.
+    pub loads: Loads,
+    /// Rates at this motion.
+    pub rates: Rates,
+    /// Contacts at this motion.
+    pub contact: ContactRates,
+}
+
+/// Grains, laws, neighbours, and loads.
+#[derive(Debug)]
+pub struct System {
+    /// The grains, at the last committed step.
+    pub grains: Particles,
+    /// The laws.
+    pub laws: Laws,
+    /// Bonds.
+    pub network: Network,
+    /// Loads at the last committed step, without those of rays.
+    pub loads: Loads,
+    /// Rates at the last committed step.
+    pub rates: Rates,
+    /// Loads of rays, constant over one step: impulses [N s, N m s], or forces where `rays_are_impulses` is false.
+    pub ray_loads: Loads,
+    /// Whether there is any load of rays in this step.
+    pub has_ray_loads: bool,
+    /// Whether the loads of rays are impulses.
+    pub rays_are_impulses: bool,
+    /// The motion that is tried.
+    pub trial: Trial,
+    /// Masses that resist acceleration [kg].
+    pub inertial_mass: Vec<f64>,
+    pub(super) contacts: Contacts,
+    list: PairList,
+    near: PairList,
+    skin: Skin,
+}
+
+impl System {
+    /// Grains under laws; forces are not yet known.
+    pub fn new(grains: Particles, laws: Laws, network: Network) -> Self {
+        let n = grains.len();
+        let inertial_mass = (0..n).map(|at| laws.inertial_mass(&grains, at)).collect();
+        let trial = Trial {
+            position: grains.position.clone(),
+            velocity: grains.velocity.clone(),
+            spin: grains.spin.clone(),
+            loads: Loads::none(n),
+            ..Trial::default()
+        };
+        Self {
+            skin: Skin::new(&grains.radius),
+            loads: Loads::none(n),
+            ray_loads: Loads::none(n),
+            has_ray_loads: false,
+            rays_are_impulses: true,
+            rates: Rates::default(),
+            contacts: Contacts::default(),
+            list: PairList::default(),
+            near: PairList::default(),
+            grains,
+            laws,
+            network,
+            trial,
+            inertial_mass,
+        }
+    }
+
+    /// The committed motion.
+    pub fn motion(&self) -> Motion<'_> {
+        let grains = &self.grains;
+        Motion { position: &grains.position, velocity: &grains.velocity, spin: &grains.spin }
+    }
+
+    /// Evaluates all loads and rates at the trial motion, at the end of a step of `dt` [s] that ends at `time` [s].
+    pub fn evaluate(&mut self, time: f64, dt: f64) {
+        self.bring_lists_up_to_date();
+        let Self { grains, laws, network, contacts, list, near, trial, .. } = self;
+        let now = Motion { position: &trial.position, velocity: &trial.velocity, spin: &trial.spin };
+        let before = Motion { position: &grains.position, velocity: &grains.velocity, spin: &grains.spin };
+        let world = ContactWorld {
+            grains,
+            laws: laws.contact.as_ref(),
+            bonds: laws.bonds.as_ref(),
+            pairs: &laws.pairs,
+            list,
+            before,
+            now,
+            dt,
+        };
+        trial.contact = contacts.compute(&world);
+        let bond_damping = network.compute(grains, &before, &now, dt);
+        let gather = Gather { grains, laws, network, contacts, list, near, now, time };
+        let supplies = parallel::over(
+            0..grains.len(),
+            LEAF,
+            trial.loads.views(),
+            &|range, views| gather.leaf(range, views),
+            &|a, b| a + b,
+        );
+        trial.rates = Rates::new(&trial.contact, bond_damping, supplies);
+    }
+
+    /// Makes the trial the state.
+    pub fn commit(&mut self) {
+        let Self { grains, trial, .. } = self;
+        std::mem::swap(&mut grains.position, &mut trial.position);
+        std::mem::swap(&mut grains.velocity, &mut trial.velocity);
+        std::mem::swap(&mut grains.spin, &mut trial.spin);
+        std::mem::swap(&mut self.loads, &mut trial.loads);
+        self.rates = trial.rates;
+        self.contacts.commit();
+        self.network.commit();
+    }
+
+    /// Evaluates the loads at the committed motion, before the first step; `dt` [s] is the length of that.
+    pub fn evaluate_start(&mut self, dt: f64) {
+        self.trial.position.clone_from(&self.grains.position);
+        self.trial.velocity.clone_from(&self.grains.velocity);
+        self.trial.spin.clone_from(&self.grains.spin);
+        self.evaluate(0.0, dt);
+        self.commit();
+    }
+
+    /// Factor from the loads of rays to forces in a step of `dt` [s].
+    #[inline]
+    pub fn ray_load_scale(&self, dt: f64) -> f64 {
+        if self.rays_are_impulses { 1.0 / dt } else { 1.0 }
+    }
+
+    /// Shows what the contact laws see at the committed motion.
+    pub fn with_contacts<R>(&self, look: impl FnOnce(&ContactWorld<'_>) -> R) -> R {
+        let motion = self.motion();
+        let laws = &self.laws;
+        look(&ContactWorld {
+            grains: &self.grains,
+            laws: laws.contact.as_ref(),
+            bonds: laws.bonds.as_ref(),
+            pairs: &laws.pairs,
+            list: &self.list,
+            before: motion,
+            now: motion,
+            dt: 0.0,
+        })
+    }
+
+    /// Bonds grains that were pressed together hard enough; tells which.
+    pub fn bond_pressed(&mut self, time: f64) -> Vec<BondEvent> {
+        self.network.bond_pressed(&self.grains, &self.list, time)
+    }
+
+    /// Energy [J] of the tangential springs of contacts.
+    pub fn spring_energy(&self) -> f64 {
+        self.contacts.spring_energy()
+    }
+
+    /// The contacts' memory, by the grains' places.
+    pub fn remembered(&self) -> Vec<Remembered> {
+        self.contacts.remembered(&self.list)
+    }
+
+    /// Puts back the contacts' memory.
+    pub fn remember(&mut self, remembered: &[Remembered]) {
+        self.rebuild(false, remembered);
+    }
+
+    fn bring_lists_up_to_date(&mut self) {
+        self.skin.age();
+        if !self.list.holds_for(&self.trial.position) {
+            let remembered = self.contacts.remembered(&self.list);
+            self.skin.adapt(self.list.len(), self.grains.len());
+            self.rebuild(true, &remembered);
+        }
+        let cutoff = self.laws.fields.near_field.as_ref().and_then(|law| law.cutoff);
+        if let Some(cutoff) = cutoff
+            && !self.near.holds_for(&self.trial.position)
+        {
+            let skin = 0.2 * cutoff.si();
+            self.near.build(&self.trial.position, &vec![0.0; self.grains.len()], cutoff.si(), skin);
+        }
+    }
+
+    /// Lists the pairs anew, at the trial or the committed positions.
+    fn rebuild(&mut self, at_trial: bool, remembered: &[Remembered]) {
+        let positions = if at_trial { &self.trial.position } else { &self.grains.position };
+        self.list.build(positions, &self.grains.radius, 0.0, self.skin.thickness());
+        self.contacts.relist(&self.list, remembered, self.laws.contact.as_ref());
+    }
+
+    /// Sorts the grains along a space-filling curve; returns the order, or nothing if it is that already.
+    pub fn sort_in_space(&mut self) -> Option<Vec<u32>> {
+        let order = morton_order(&self.grains.position);
+        if order.iter().zip(0..).all(|(a, b)| *a == b) {
+            return None;
+        }
+        let mut place = vec![0_u32; order.len()];
+        for (new, &old) in order.iter().enumerate() {
+            place[old as usize] = new as u32;
+        }
+        let mut remembered = self.contacts.remembered(&self.list);
+        for (a, b, _) in &mut remembered {
+            (*a, *b) = (place[*a as usize], place[*b as usize]);
+        }
+        self.grains.reorder(&order);
+        self.loads.reorder(&order);
+        self.ray_loads.reorder(&order);
+        self.inertial_mass = order.iter().map(|&at| self.inertial_mass[at as usize]).collect();
+        self.network.reindex(&place);
+        self.near.clear();
+        self.rebuild(false, &remembered);
+        Some(place)
+    }
+}
+
+/// What the grains read while they gather their loads.
+struct Gather<'a> {
+    grains: &'a Particles,
+    laws: &'a Laws,
+    network: &'a Network,
+    contacts: &'a Contacts,
+    list: &'a PairList,
+    near: &'a PairList,
+    now: Motion<'a>,
+    time: f64,
+}
+
+impl Gather<'_> {
+    fn leaf(&self, range: Range<usize>, views: LoadViews<'_>) -> Supplies {
+        let mut supplies = Supplies::default();
+        let has_single = self.laws.has_single();
+        for (slot, grain) in range.enumerate() {
+            let (mut force, mut moment) = self.from_contacts(grain);
+            self.network.gather(grain, &mut force, &mut moment);
+            if let Some(law) = &self.laws.fields.near_field {
+                let push = |other: usize| near_force(law, self.grains, self.now.position, grain, other);
+                if law.cutoff.is_some() {
+                    let owners = self.near.owners();
+                    force += self
+                        .near
+                        .joined(grain)
+                        .iter()
+                        .map(|pair| push(owners[*pair as usize] as usize))
+                        .sum();
+                    force +=
+                        self.near.owned(grain).map(|pair| push(self.near.partners()[pair] as usize)).sum();
+                } else {
+                    force += (0..self.grains.len()).filter(|other| *other != grain).map(push).sum();
+                }
+            }
+            if has_single {
+                let (single, supplied) = self.laws.on_single(self.grains, &self.now, grain, self.time);
+                force += single;
+                supplies = supplies + supplied;
+            }
+            views.force[slot] = force;
+            views.moment[slot] = moment;
+        }
+        supplies
+    }
+
+    #[inline]
+    fn from_contacts(&self, grain: usize) -> (Vec3, Vec3) {
+        let (mut force, mut moment) = (Vec3::ZERO, Vec3::ZERO);
+        for &pair in self.list.joined(grain) {
+            if let Some(load) = self.contacts.load(pair as usize) {
+                force -= load.force;
+                moment += load.couple * load.arms[1];
+            }
+        }
+        for pair in self.list.owned(grain) {
+            if let Some(load) = self.contacts.load(pair) {
+                force += load.force;
+                moment += load.couple * load.arms[0];
+            }
+        }
+        (force, moment)
+    }
+}

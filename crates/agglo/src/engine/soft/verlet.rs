@@ -1,0 +1,31 @@
+//! Explicit velocity Verlet.
+//!
+//! # Equation
+//! $$ r' = r + v \Delta t + \frac{\Delta t^2}{2 m} F, \qquad v' = v + \frac{\Delta t}{2 m} (F + F') $$          (V1)
+//! with F' = F(r', v + Δt F/m): velocity-dependent forces see a full-step velocity, not that of the half step.
+//!
+//! # Source
+//! W. C. Swope et al., *J. Chem. Phys.* 76, 637 (1982). Full-step velocities in the contact law: arXiv 2410.14798.
+//!
+//! # Symbols
+//! | symbol | name in code | unit | meaning |
+//! |--------|--------------|------|---------|
+//! | Δt | `step` | s | chosen by the program unless given |
+//! | - | `safety` | - | part of the critical step that the automatic step takes |
+//!
+//! # Valid when
+//! Δt is well below the critical step 2/ω of the stiffest spring; the automatic step is `safety` times that.
+//!
+//! # Compared with others
+//! LAMMPS and LIGGGHTS evaluate friction and dashpots with the half-step velocity, which errs at large size ratios.
+
+use super::advance::{Ahead, Change};
+use super::system::System;
+
+/// Makes the trial the motion after `dt` [s] from `time` [s].
+pub fn step(system: &mut System, time: f64, dt: f64) -> Change {
+    let change = system.move_trial(dt, 0.5, Ahead::AsAtStart);
+    system.evaluate(time + dt, dt);
+    system.correct_velocities(dt);
+    change
+}

@@ -1,0 +1,223 @@
+//! Pairs of grains that may come to touch, kept with a skin so that the list serves many steps (Verlet list).
+//!
+//! Pairs stand by owner, partners in rising order, and every grain knows the pairs in which it is the partner,
+//! also in rising order. Which pairs touch, and the order in which a grain meets them, therefore does not depend
+//! on when the list was built or how thick its skin is.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::cell_grid::CellGrid;
+use crate::math::{Vec3, parallel};
+
+/// Grains per task of the search.
+const CHUNK: usize = 1024;
+
+/// Candidate pairs with a skin.
+#[derive(Debug, Default)]
+pub struct PairList {
+    grid: CellGrid,
+    found: Vec<(Vec<u32>, Vec<u32>)>,
+    /// Pairs of owner k: `starts[k]..starts[k + 1]`.
+    starts: Vec<u32>,
+    partners: Vec<u32>,
+    owners: Vec<u32>,
+    /// Pairs in which grain k is the partner: `back[back_starts[k]..back_starts[k + 1]]`.
+    back_starts: Vec<u32>,
+    back: Vec<u32>,
+    reference: Vec<Vec3>,
+    skin: f64,
+}
+
+impl PairList {
+    /// Lists all pairs whose surfaces are closer than `reach` + `skin` [m]; valid until a grain has moved by half
+    /// the skin.
+    pub fn build(&mut self, positions: &[Vec3], radii: &[f64], reach: f64, skin: f64) {
+        let n = positions.len();
+        let margin = reach + skin;
+        self.skin = skin;
+        self.grid.build(positions, radii, margin);
+        self.found.resize_with(n.div_ceil(CHUNK), Default::default);
+        let grid = &self.grid;
+        self.found.par_iter_mut().enumerate().for_each(|(chunk, (counts, partners))| {
+            counts.clear();
+            partners.clear();
+            for owner in chunk * CHUNK..((chunk + 1) * CHUNK).min(n) {
+                let first = partners.len();
+                grid.visit_partners(positions, radii, owner as u32, margin, |other| {
+                    let reach = radii[owner] + radii[other as usize] + margin;
+                    if (positions[other as usize] - positions[owner]).norm_squared() < reach * reach {
+                        partners.push(other);
+                    }
+                });
+                partners[first..].sort_unstable();
+                counts.push((partners.len() - first) as u32);
+            }
+        });
+        self.starts.clear();
+        self.starts.push(0);
+        self.partners.clear();
+        for (counts, partners) in &self.found {
+            for count in counts {
+                self.starts.push(self.starts[self.starts.len() - 1] + count);
+            }
+            self.partners.extend_from_slice(partners);
+        }
+        self.owners.clear();
+        for owner in 0..n {
+            self.owners.resize(self.starts[owner + 1] as usize, owner as u32);
+        }
+        self.link_back(n);
+        self.reference.clear();
+        self.reference.extend_from_slice(positions);
+    }
+
+    fn link_back(&mut self, n: usize) {
+        self.back_starts.clear();
+        self.back_starts.resize(n + 2, 0);
+        for &partner in &self.partners {
+            self.back_starts[partner as usize + 2] += 1;
+        }
+        for k in 1..n + 2 {
+            self.back_starts[k] += self.back_starts[k - 1];
+        }
+        self.back.clear();
+        self.back.resize(self.partners.len(), 0);
+        for (pair, &partner) in self.partners.iter().enumerate() {
+            let place = &mut self.back_starts[partner as usize + 1];
+            self.back[*place as usize] = pair as u32;
+            *place += 1;
+        }
+        self.back_starts.pop();
+    }
+
+    /// Whether the list still has every pair within its reach.
+    pub fn holds_for(&self, positions: &[Vec3]) -> bool {
+        if self.reference.len() != positions.len() {
+            return false;
+        }
+        let bound = 0.25 * self.skin * self.skin;
+        parallel::over(
+            0..positions.len(),
+            4096,
+            (),
+            &|range, ()| {
+                let (now, then) = (&positions[range.clone()], &self.reference[range]);
+                now.iter().zip(then).all(|(a, b)| (*a - *b).norm_squared() <= bound)
+            },
+            &|a, b| a && b,
+        )
+    }
+
+    /// Forgets the list, so that the next check asks for a new one.
+    pub fn clear(&mut self) {
+        self.reference.clear();
+    }
+
+    /// Skin of the list as built [m].
+    pub fn skin(&self) -> f64 {
+        self.skin
+    }
+
+    /// How many pairs.
+    pub fn len(&self) -> usize {
+        self.partners.len()
+    }
+
+    /// Whether there is no pair.
+    pub fn is_empty(&self) -> bool {
+        self.partners.is_empty()
+    }
+
+    /// Where the pairs of each owner start: [n + 1].
+    pub fn starts(&self) -> &[u32] {
+        &self.starts
+    }
+
+    /// The partner of each pair.
+    pub fn partners(&self) -> &[u32] {
+        &self.partners
+    }
+
+    /// The pairs that a grain owns.
+    #[inline]
+    pub fn owned(&self, grain: usize) -> Range<usize> {
+        self.starts[grain] as usize..self.starts[grain + 1] as usize
+    }
+
+    /// The pairs in which a grain is the partner.
+    #[inline]
+    pub fn joined(&self, grain: usize) -> &[u32] {
+        &self.back[self.back_starts[grain] as usize..self.back_starts[grain + 1] as usize]
+    }
+
+    /// The number of the pair with this owner and partner.
+    pub fn find(&self, owner: u32, partner: u32) -> Option<usize> {
+        let owned = self.owned(owner as usize);
+        self.partners[owned.clone()].binary_search(&partner).ok().map(|at| owned.start + at)
+    }
+
+    /// The owner of each pair.
+    pub fn owners(&self) -> &[u32] {
+        &self.owners
+    }
+
+    /// Owner and partner of each pair.
+    pub fn pairs(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
+        self.owners.iter().copied().zip(self.partners.iter().copied())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::rng::{Purpose, Stream};
+
+    /// Oracle: all pairs by brute force.
+    fn brute(positions: &[Vec3], radii: &[f64], margin: f64) -> Vec<(u32, u32)> {
+        let mut pairs = Vec::new();
+        for i in 0..positions.len() {
+            for j in i + 1..positions.len() {
+                if (positions[i] - positions[j]).norm() < radii[i] + radii[j] + margin {
+                    pairs.push((i as u32, j as u32));
+                }
+            }
+        }
+        pairs
+    }
+
+    fn cloud(n: usize, spread: f64, ratio: f64) -> (Vec<Vec3>, Vec<f64>) {
+        let mut stream = Stream::new(3, Purpose::Sampling, 0);
+        let positions = (0..n).map(|_| stream.direction() * (spread * stream.uniform())).collect();
+        let radii = (0..n).map(|_| 0.05 * ratio.powf(stream.uniform())).collect();
+        (positions, radii)
+    }
+
+    #[test]
+    fn agrees_with_all_pairs() {
+        for (spread, ratio) in [(1.0, 1.0), (1.0, 10.0), (200.0, 1.0), (200.0, 30.0), (0.05, 2.0)] {
+            let (positions, radii) = cloud(400, spread, ratio);
+            let mut list = PairList::default();
+            list.build(&positions, &radii, 0.0, 0.02);
+            let mut pairs: Vec<(u32, u32)> = list.pairs().map(|(a, b)| (a.min(b), a.max(b))).collect();
+            pairs.sort_unstable();
+            assert_eq!(pairs, brute(&positions, &radii, 0.02), "spread {spread}, ratio {ratio}");
+            let partners = list.partners();
+            for grain in 0..400 {
+                assert!(list.joined(grain).iter().all(|pair| partners[*pair as usize] as usize == grain));
+            }
+        }
+    }
+
+    #[test]
+    fn holds_until_half_the_skin() {
+        let (mut positions, radii) = cloud(50, 1.0, 1.0);
+        let mut list = PairList::default();
+        list.build(&positions, &radii, 0.0, 0.02);
+        positions[7].x += 0.0099;
+        assert!(list.holds_for(&positions));
+        positions[7].x += 0.0002;
+        assert!(!list.holds_for(&positions));
+    }
+}

@@ -1,0 +1,14 @@
+//! Where grains are and how they move, as the laws are asked about it.
+
+use crate::math::Vec3;
+
+/// Positions, velocities and spins of all grains at one moment; [n] each.
+#[derive(Clone, Copy, Debug)]
+pub struct Motion<'a> {
+    /// Centres [m].
+    pub position: &'a [Vec3],
+    /// Velocities of the centres [m/s].
+    pub velocity: &'a [Vec3],
+    /// Angular velocities [rad/s].
+    pub spin: &'a [Vec3],
+}

@@ -1,0 +1,68 @@
+//! The folder of a run and the names of what is in it.
+
+use std::path::{Path, PathBuf};
+
+use crate::record::RecordError;
+
+use super::RunError;
+
+/// The folder of a run.
+#[derive(Clone, Debug)]
+pub struct Folder {
+    root: PathBuf,
+}
+
+impl Folder {
+    /// Makes the folder; it must not hold a run.
+    ///
+    /// # Errors
+    /// [`RunError::FolderInUse`], or [`RunError::Record`] where it cannot be made.
+    pub fn create(dir: &Path) -> Result<Self, RunError> {
+        let folder = Self { root: dir.to_owned() };
+        if folder.checkpoints().exists() || folder.summary().exists() || folder.scenario().exists() {
+            return Err(RunError::FolderInUse { dir: dir.to_owned() });
+        }
+        for part in [folder.root.clone(), folder.checkpoints(), folder.frames(), folder.series()] {
+            std::fs::create_dir_all(&part).map_err(RecordError::file("make the folder", &part))?;
+        }
+        Ok(folder)
+    }
+
+    /// A folder that should hold a run.
+    ///
+    /// # Errors
+    /// [`RunError::NoRun`] where it has no checkpoints.
+    pub fn open(dir: &Path) -> Result<Self, RunError> {
+        let folder = Self { root: dir.to_owned() };
+        if folder.checkpoints().is_dir() { Ok(folder) } else { Err(RunError::NoRun { dir: dir.to_owned() }) }
+    }
+
+    /// The folder itself.
+    pub fn root(&self) -> &Path {
+        &self.root
+    }
+    /// The scenario with every default written out.
+    pub fn scenario(&self) -> PathBuf {
+        self.root.join("scenario.toml")
+    }
+    /// The summary.
+    pub fn summary(&self) -> PathBuf {
+        self.root.join("summary.json")
+    }
+    /// Events of bonds.
+    pub fn events(&self) -> PathBuf {
+        self.root.join("events.csv")
+    }
+    /// Tables over time.
+    pub fn series(&self) -> PathBuf {
+        self.root.join("series")
+    }
+    /// Frames for ParaView.
+    pub fn frames(&self) -> PathBuf {
+        self.root.join("frames")
+    }
+    /// Checkpoints.
+    pub fn checkpoints(&self) -> PathBuf {
+        self.root.join("checkpoints")
+    }
+}

@@ -1,0 +1,70 @@
+//! The verbs that the terminal and Python share: run a scenario, resume a run.
+
+mod error;
+mod folder;
+mod frames;
+mod recorder;
+mod session;
+mod summary;
+mod tables;
+
+use std::ops::ControlFlow;
+use std::path::Path;
+
+pub use error::RunError;
+pub use summary::{Clusters, EnergyFigures, PulseFigures, Summary};
+
+use crate::scenario::Scenario;
+use folder::Folder;
+use session::Session;
+
+/// What an observer is told while a run goes on, about ten times a second.
+#[derive(Clone, Debug)]
+pub struct Progress {
+    /// Simulated time [s].
+    pub time: f64,
+    /// Simulated time at the end [s].
+    pub end: f64,
+    /// Accepted steps so far.
+    pub step: u64,
+    /// What happens now, in words: "pulse 2 of 4, 7312 rays in flight".
+    pub now: String,
+    /// Warnings that came up for the first time since the last call.
+    pub warnings: Vec<String>,
+}
+
+/// How a run ended without an error.
+#[derive(Clone, Debug)]
+pub enum Ending {
+    /// It reached its end.
+    Finished(Box<Summary>),
+    /// The observer asked to stop; a checkpoint at this simulated time [s] was written.
+    Interrupted(f64),
+}
+
+/// Someone who is told of the progress and may ask to stop.
+pub type Observer<'a> = dyn FnMut(&Progress) -> ControlFlow<()> + 'a;
+
+/// Runs a scenario from its start into the folder `dir`; `base` is the folder that its tables are relative to.
+///
+/// # Errors
+/// [`RunError`] where the folder is in use, the start cannot be built, a step fails or a file cannot be written.
+pub fn run(
+    scenario: &Scenario,
+    base: &Path,
+    dir: &Path,
+    observer: &mut Observer<'_>,
+) -> Result<Ending, RunError> {
+    let scenario = scenario.resolved();
+    let grains = crate::packing::place(&scenario, base)?;
+    let folder = Folder::create(dir)?;
+    Session::start(&scenario, grains, folder)?.carry_on(observer)
+}
+
+/// Goes on with the run in `dir` from its newest sound checkpoint.
+///
+/// # Errors
+/// [`RunError`] where there is no sound checkpoint, a step fails or a file cannot be written.
+pub fn resume(dir: &Path, observer: &mut Observer<'_>) -> Result<Ending, RunError> {
+    Session::resume(Folder::open(dir)?)?.carry_on(observer)
+}
