@@ -185,7 +185,7 @@ impl Contacts {
             0..owners,
             LEAF,
             slot,
-            &|range, slot| compute_owners(world, committed, range, slot),
+            &|range, mut slot| compute_owners(world, committed, range, &mut slot),
             &ContactRates::join,
         )
     }
@@ -195,7 +195,7 @@ fn compute_owners(
     world: &ContactWorld<'_>,
     committed: &Memory,
     range: Range<usize>,
-    slot: Slot<'_>,
+    slot: &mut Slot<'_>,
 ) -> ContactRates {
     let mut rates = ContactRates::default();
     let grains = world.grains;

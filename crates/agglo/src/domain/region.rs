@@ -306,7 +306,8 @@ mod tests {
         assert_eq!(regions().map(|region| region.inner_radius()), [1.5, 0.75, 0.8, 0.2]);
     }
 
-    /// Just before the exit a point is inside, just behind it outside, and inside the bounds.
+    /// Just before the exit a point is inside, just behind it outside, and inside the bounds: by a nanometre on
+    /// metres, since a grazing ray crosses the surface slowly.
     #[test]
     fn exit_lies_on_the_surface() {
         let mut stream = Stream::new(1, Purpose::Sampling, 0);
@@ -316,10 +317,10 @@ mod tests {
                 let origin = region.center() + stream.direction() * (0.45 * stream.uniform());
                 let direction = if k % 7 == 0 { Vec3::AXES[k % 3] } else { stream.direction() };
                 let distance = region.exit_distance(origin, direction);
-                assert!(region.contains(origin + direction * (distance - 1e-12), 0.0));
-                assert!(!region.contains(origin + direction * (distance + 1e-12), 0.0));
+                assert!(region.contains(origin + direction * (distance - 1e-9), 0.0));
+                assert!(!region.contains(origin + direction * (distance + 1e-9), 0.0));
                 let exit = origin + direction * distance;
-                let slack = Vec3::new(1e-12, 1e-12, 1e-12);
+                let slack = Vec3::new(1e-9, 1e-9, 1e-9);
                 assert_eq!(exit.max(lower - slack).min(upper + slack), exit);
             }
         }

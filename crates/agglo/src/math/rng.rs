@@ -44,7 +44,7 @@ pub enum Purpose {
 #[derive(Clone, Debug)]
 pub struct Stream {
     key: [u32; 2],
-    stream: [u32; 2],
+    lane: [u32; 2],
     index: u64,
     spare: Option<f64>,
 }
@@ -52,12 +52,7 @@ pub struct Stream {
 impl Stream {
     /// The sequence of `purpose` number `part` (a grain group, a pulse ...) under `seed`.
     pub fn new(seed: u64, purpose: Purpose, part: u32) -> Self {
-        Self {
-            key: [seed as u32, (seed >> 32) as u32],
-            stream: [purpose as u32, part],
-            index: 0,
-            spare: None,
-        }
+        Self { key: [seed as u32, (seed >> 32) as u32], lane: [purpose as u32, part], index: 0, spare: None }
     }
 
     /// Goes to the number with this index.
@@ -67,7 +62,7 @@ impl Stream {
     }
 
     fn next_block(&mut self) -> [u32; 4] {
-        let counter = [self.index as u32, (self.index >> 32) as u32, self.stream[0], self.stream[1]];
+        let counter = [self.index as u32, (self.index >> 32) as u32, self.lane[0], self.lane[1]];
         self.index += 1;
         philox(counter, self.key)
     }

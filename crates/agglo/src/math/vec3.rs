@@ -37,6 +37,7 @@ impl Vec3 {
 
     /// Vector product.
     #[inline]
+    #[must_use]
     pub fn cross(self, other: Self) -> Self {
         Self::new(
             self.y * other.z - self.z * other.y,

@@ -21,7 +21,7 @@ struct Level {
     largest_radius: f64,
     lower: Vec3,
     cells_per_metre: f64,
-    counts: [u64; 3],
+    counts: [i64; 3],
     /// Buckets are cells where they fit, else hashes of cells; then this is a power of two less one.
     mask: Option<u64>,
     starts: Vec<u32>,
@@ -38,9 +38,8 @@ impl Level {
     }
 
     fn bucket(&self, [x, y, z]: [i64; 3]) -> usize {
-        let linear = (x as u64).wrapping_add(
-            self.counts[0].wrapping_mul((y as u64).wrapping_add(self.counts[1].wrapping_mul(z as u64))),
-        );
+        let row = y.wrapping_add(self.counts[1].wrapping_mul(z));
+        let linear = x.wrapping_add(self.counts[0].wrapping_mul(row)) as u64;
         match self.mask {
             None => linear as usize,
             Some(mask) => ((linear.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 32) & mask) as usize,
@@ -57,9 +56,9 @@ impl Level {
         }
         self.lower = lower;
         self.cells_per_metre = 1.0 / cell;
-        self.counts = [0, 1, 2].map(|axis| ((upper[axis] - lower[axis]) / cell).floor() as u64 + 1);
+        self.counts = [0, 1, 2].map(|axis| ((upper[axis] - lower[axis]) / cell).floor() as i64 + 1);
         let limit = CELLS_PER_SPHERE * spheres.len() as u64;
-        let cells = self.counts.iter().try_fold(1_u64, |product, count| product.checked_mul(*count));
+        let cells = self.counts.iter().try_fold(1_u64, |product, count| product.checked_mul(*count as u64));
         let fits = cells.filter(|cells| *cells <= limit.max(64));
         self.mask = if fits.is_some() { None } else { Some(limit.next_power_of_two() - 1) };
         let buckets = fits.unwrap_or(limit.next_power_of_two()) as usize;
@@ -88,8 +87,7 @@ impl Level {
 
     fn visit(&self, positions: &[Vec3], at: Vec3, reach: f64, visit: &mut impl FnMut(u32)) {
         let low = [0, 1, 2].map(|axis| self.coordinate(at[axis] - reach, axis).max(0));
-        let high =
-            [0, 1, 2].map(|axis| self.coordinate(at[axis] + reach, axis).min(self.counts[axis] as i64 - 1));
+        let high = [0, 1, 2].map(|axis| self.coordinate(at[axis] + reach, axis).min(self.counts[axis] - 1));
         for z in low[2]..=high[2] {
             for y in low[1]..=high[1] {
                 for x in low[0]..=high[0] {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use crate::acoustics::Flight;
+use crate::acoustics::{Flight, Ray};
 use crate::contact::network::Bond;
 use crate::math::Vec3;
 use crate::particles::{ColumnValues, Particles};
@@ -74,7 +74,7 @@ impl Frames {
     pub fn rays(&mut self, time: f64, flight: &Flight) -> Result<(), RecordError> {
         let name = next_name("rays", &self.lists.rays);
         let rays = flight.rays();
-        let positions: Vec<Vec3> = rays.iter().map(|ray| ray.position()).collect();
+        let positions: Vec<Vec3> = rays.iter().map(Ray::position).collect();
         let directions: Vec<Vec3> = rays.iter().map(|ray| ray.direction).collect();
         let powers: Vec<f64> = rays.iter().map(|ray| ray.power).collect();
         write_rays(&self.folder.join(&name), time, &positions, &directions, &powers)?;

@@ -25,7 +25,7 @@ struct Timer {
 
 impl Timer {
     fn new(interval: Option<Time>, first: u64) -> Self {
-        Self { interval: interval.map_or(f64::INFINITY, |interval| interval.si()), next: first }
+        Self { interval: interval.map_or(f64::INFINITY, Time::si), next: first }
     }
 
     /// Whether it is due at `time` [s]; then the next turn is the first after that.

@@ -6,6 +6,8 @@ use crate::contact::pass::contact_energy;
 use crate::math::parallel;
 use crate::measure::{Balance, Momentum, Stores};
 
+use crate::units::Length;
+
 use super::laws::source;
 use super::simulation::Simulation;
 use super::system::LEAF;
@@ -70,7 +72,7 @@ impl Simulation {
     fn near_field_energy(&self) -> f64 {
         let grains = &self.system.grains;
         let Some(law) = &self.system.laws.fields.near_field else { return 0.0 };
-        let bound = law.cutoff.map_or(f64::INFINITY, |cutoff| cutoff.si());
+        let bound = law.cutoff.map_or(f64::INFINITY, Length::si);
         let of_grain = |a: usize| {
             let others = a + 1..grains.len();
             let distances = others.map(|b| (b, (grains.position[b] - grains.position[a]).norm()));

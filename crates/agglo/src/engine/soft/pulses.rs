@@ -11,6 +11,7 @@ use crate::domain::Region;
 use crate::math::Vec3;
 use crate::particles::{Material, Particles};
 use crate::scenario::Scenario;
+use crate::units::Velocity;
 
 use super::loads::Supply;
 use super::system::System;
@@ -59,7 +60,7 @@ impl Setup {
     fn new(scenario: &Scenario, region: &Region, radius: f64) -> Option<Self> {
         let acoustics = scenario.acoustics.clone()?;
         let medium = scenario.medium.clone();
-        let sound = |material: &Material| material.sound_speed.map_or(0.0, |speed| speed.si());
+        let sound = |material: &Material| material.sound_speed.map_or(0.0, Velocity::si);
         let materials =
             || scenario.materials.values().map(|material| (material.density.si(), sound(material)));
         let interfaces =

@@ -120,7 +120,7 @@ impl System {
             0..grains.len(),
             LEAF,
             trial.loads.views(),
-            &|range, views| gather.leaf(range, views),
+            &|range, mut views| gather.leaf(range, &mut views),
             &|a, b| a + b,
         );
         trial.rates = Rates::new(&trial.contact, bond_damping, supplies);
@@ -250,11 +250,11 @@ struct Gather<'a> {
 }
 
 impl Gather<'_> {
-    fn leaf(&self, range: Range<usize>, views: LoadViews<'_>) -> Supplies {
+    fn leaf(&self, range: Range<usize>, views: &mut LoadViews<'_>) -> Supplies {
         let mut supplies = Supplies::default();
         let has_single = self.laws.has_single();
         for (slot, grain) in range.enumerate() {
-            let (mut force, mut moment) = self.from_contacts(grain);
+            let (mut force, mut moment) = self.contact_loads(grain);
             self.network.gather(grain, &mut force, &mut moment);
             if let Some(law) = &self.laws.fields.near_field {
                 let push = |other: usize| near_force(law, self.grains, self.now.position, grain, other);
@@ -284,7 +284,7 @@ impl Gather<'_> {
     }
 
     #[inline]
-    fn from_contacts(&self, grain: usize) -> (Vec3, Vec3) {
+    fn contact_loads(&self, grain: usize) -> (Vec3, Vec3) {
         let (mut force, mut moment) = (Vec3::ZERO, Vec3::ZERO);
         for &pair in self.list.joined(grain) {
             if let Some(load) = self.contacts.load(pair as usize) {
