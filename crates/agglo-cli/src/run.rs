@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use agglo::run::{Ending, Progress, RunError, Summary};
+use agglo::run::{Ending, Observer, RunError, Summary};
 
 use crate::arguments::Orders;
 use crate::progress::Display;
@@ -60,7 +60,7 @@ fn use_threads(threads: Option<u32>) -> Result<(), Failure> {
 /// Runs with a display, stops at Ctrl-C, and says how it ended.
 fn go(
     folder: &Path,
-    work: impl FnOnce(&mut dyn FnMut(&Progress) -> ControlFlow<()>) -> Result<Ending, RunError>,
+    work: impl FnOnce(&mut Observer<'_>) -> Result<Ending, RunError>,
 ) -> Result<(), Failure> {
     let stop = Arc::new(AtomicBool::new(false));
     let asked = Arc::clone(&stop);

@@ -10,7 +10,7 @@ use crate::neighbors::PairList;
 use crate::particles::{Motion, Particles};
 
 /// Bonds per leaf of the parallel loop.
-const LEAF: usize = 256;
+const LEAF: usize = 1024;
 
 /// A bond between two grains.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -14,7 +14,7 @@ use crate::neighbors::PairList;
 use crate::particles::{Motion, PairTable, Particles};
 
 /// Owners per leaf of the parallel loop.
-const LEAF: usize = 256;
+const LEAF: usize = 1024;
 
 /// Force and moments of one contact.
 #[derive(Clone, Copy, Debug, Default)]

@@ -43,7 +43,7 @@ pub enum Ending {
 }
 
 /// Someone who is told of the progress and may ask to stop.
-pub type Observer<'a> = dyn FnMut(&Progress) -> ControlFlow<()> + 'a;
+pub type Observer<'a> = dyn FnMut(&Progress) -> ControlFlow<()> + Send + 'a;
 
 /// Runs a scenario from its start into the folder `dir`; `base` is the folder that its tables are relative to.
 ///
@@ -58,7 +58,7 @@ pub fn run(
     let scenario = scenario.resolved();
     let grains = crate::packing::place(&scenario, base)?;
     let folder = Folder::create(dir)?;
-    Session::start(&scenario, grains, folder)?.carry_on(observer)
+    on_a_worker(|| Session::start(&scenario, grains, folder)?.carry_on(observer))
 }
 
 /// Goes on with the run in `dir` from its newest sound checkpoint.
@@ -66,5 +66,11 @@ pub fn run(
 /// # Errors
 /// [`RunError`] where there is no sound checkpoint, a step fails or a file cannot be written.
 pub fn resume(dir: &Path, observer: &mut Observer<'_>) -> Result<Ending, RunError> {
-    Session::resume(Folder::open(dir)?)?.carry_on(observer)
+    let folder = Folder::open(dir)?;
+    on_a_worker(|| Session::resume(folder)?.carry_on(observer))
+}
+
+/// Works on a thread of the pool, so that the many small parallel loops of a step need not wake one each time.
+fn on_a_worker<R: Send>(work: impl FnOnce() -> R + Send) -> R {
+    rayon::scope(|_| work())
 }

@@ -47,7 +47,7 @@ impl Laws {
         grains.mass[at] + added
     }
 
-    /// Force [N] of gravity, drag and fields on one grain, and what it supplies.
+    /// Force [N] of gravity, drag and fields on one grain; what each supplies is added to `supplies`.
     #[inline]
     pub fn on_single(
         &self,
@@ -55,26 +55,28 @@ impl Laws {
         motion: &Motion<'_>,
         at: usize,
         time: f64,
-    ) -> (Vec3, Supplies) {
+        supplies: &mut Supplies,
+    ) -> Vec3 {
         let (position, velocity, radius) = (motion.position[at], motion.velocity[at], grains.radius[at]);
-        let supply = |force: Vec3| Supply::of(force, position, velocity);
-        let mut supplies = Supplies::default();
+        let mut total = Vec3::ZERO;
+        let mut book = |channel: &mut Supply, force: Vec3| {
+            *channel = *channel + Supply::of(force, position, velocity);
+            total += force;
+        };
         if let Some(gravity) = &self.fields.gravity {
             let ratio = self.medium.density.si() / self.densities[grains.material[at] as usize];
-            supplies.gravity = supply(gravity.acceleration_on(ratio) * grains.mass[at]);
+            book(&mut supplies.gravity, gravity.acceleration_on(ratio) * grains.mass[at]);
         }
         if let Some(drag) = &self.fields.drag {
-            supplies.drag = supply(drag.force(&self.medium, radius, velocity, position, time));
+            book(&mut supplies.drag, drag.force(&self.medium, radius, velocity, position, time));
         }
-        let mut field = Vec3::ZERO;
         if let Some(lorentz) = &self.fields.lorentz {
-            field += lorentz.force(grains.charge[at], velocity, position, time);
+            book(&mut supplies.field, lorentz.force(grains.charge[at], velocity, position, time));
         }
         if let Some(magnetic) = &self.fields.magnetic {
-            field += magnetic.force(radius, position, time);
+            book(&mut supplies.field, magnetic.force(radius, position, time));
         }
-        supplies.field = supply(field);
-        (supplies.gravity.force + supplies.drag.force + field, supplies)
+        total
     }
 
     /// Whether any force acts on single grains.

@@ -13,7 +13,7 @@ use super::loads::{LoadViews, Loads, Rates, Supplies};
 use super::skin::Skin;
 
 /// Grains per leaf of the parallel loops.
-pub(super) const LEAF: usize = 256;
+pub(super) const LEAF: usize = 1024;
 
 /// A motion that is tried before it is committed.
 #[derive(Clone, Debug, Default)]
@@ -273,9 +273,7 @@ impl Gather<'_> {
                 }
             }
             if has_single {
-                let (single, supplied) = self.laws.on_single(self.grains, &self.now, grain, self.time);
-                force += single;
-                supplies = supplies + supplied;
+                force += self.laws.on_single(self.grains, &self.now, grain, self.time, &mut supplies);
             }
             views.force[slot] = force;
             views.moment[slot] = moment;
