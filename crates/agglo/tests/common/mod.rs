@@ -1,0 +1,129 @@
+//! Small scenarios for tests: one or two lines of law over a fixed frame, and grains set as a test wants them.
+
+#![allow(dead_code, reason = "each test program uses its own part of it")]
+
+use std::path::Path;
+
+use agglo::engine::soft::{Simulation, SimulationState};
+use agglo::math::Vec3;
+use agglo::packing;
+use agglo::particles::{Particles, Row};
+use agglo::scenario::Scenario;
+
+/// A scenario of text, which must be sound.
+pub fn scenario(text: &str) -> Scenario {
+    Scenario::from_toml(text).unwrap_or_else(|faults| panic!("{faults}\n{text}"))
+}
+
+/// The grains that a scenario places, changed as wanted.
+pub fn grains(scenario: &Scenario, change: impl FnOnce(&mut Particles)) -> Particles {
+    let mut grains = packing::place(scenario, Path::new(".")).unwrap();
+    change(&mut grains);
+    grains
+}
+
+/// A simulation of a scenario of text with its grains changed as wanted.
+pub fn start(text: &str, change: impl FnOnce(&mut Particles)) -> Simulation {
+    let scenario = scenario(text);
+    let grains = grains(&scenario, change);
+    Simulation::start(&scenario, grains).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Steps to the end.
+pub fn finish(simulation: &mut Simulation) {
+    watch(simulation, |_| {});
+}
+
+/// Steps to the end; `look` sees the simulation after every step.
+pub fn watch(simulation: &mut Simulation, mut look: impl FnMut(&Simulation)) {
+    while !simulation.is_finished() {
+        simulation.step().unwrap_or_else(|error| panic!("{error}"));
+        look(simulation);
+    }
+}
+
+/// Makes a number of steps.
+pub fn steps(simulation: &mut Simulation, count: usize) {
+    for _ in 0..count {
+        simulation.step().unwrap_or_else(|error| panic!("{error}"));
+    }
+}
+
+/// Place of the grain with this name.
+pub fn place(simulation: &Simulation, id: u32) -> usize {
+    simulation.system.grains.id.iter().position(|name| *name == id).unwrap()
+}
+
+/// The grain with this name.
+pub fn grain(simulation: &Simulation, id: u32) -> Row {
+    simulation.system.grains.row(place(simulation, id))
+}
+
+/// Velocity of grain 1 relative to grain 0.
+pub fn relative_velocity(simulation: &Simulation) -> Vec3 {
+    grain(simulation, 1).velocity - grain(simulation, 0).velocity
+}
+
+/// Kinetic energy of motion and spin [J].
+pub fn kinetic(simulation: &Simulation) -> f64 {
+    let stores = simulation.stores();
+    stores.kinetic + stores.spin
+}
+
+/// The whole state as bytes.
+pub fn bytes(simulation: &Simulation) -> Vec<u8> {
+    postcard::to_stdvec(&simulation.state()).unwrap()
+}
+
+/// The state after writing and reading.
+pub fn written_and_read(simulation: &Simulation) -> SimulationState {
+    postcard::from_bytes(&bytes(simulation)).unwrap()
+}
+
+/// A scenario of two or more grains of one material written out one by one.
+#[derive(Clone)]
+pub struct Listed {
+    pub material: &'static str,
+    pub radius: f64,
+    pub positions: Vec<[f64; 3]>,
+    pub end: f64,
+    pub engine: String,
+    /// Further tables.
+    pub more: String,
+}
+
+/// The engine of explicit steps of this length [s].
+pub fn verlet(step: f64) -> String {
+    format!("[engine.verlet]\nstep = \"{step:e} s\"\n")
+}
+
+/// The staggered engine with steps of at most this length [s], iterated to this tolerance.
+pub fn staggered(step: f64, tolerance: f64, implicitness: f64) -> String {
+    format!(
+        "[engine.staggered]\ninitial_step = \"{step:e} s\"\nlargest_step = \"{step:e} s\"\n\
+         tolerance = {tolerance:e}\ntarget_iterations = 60\nimplicitness = {implicitness}\n"
+    )
+}
+
+impl Listed {
+    /// The scenario's text.
+    pub fn text(&self) -> String {
+        let at = |[x, y, z]: &[f64; 3]| format!("[\"{x:e} m\", \"{y:e} m\", \"{z:e} m\"]");
+        let positions: Vec<String> = self.positions.iter().map(at).collect();
+        format!(
+            "version = 1\n[time]\nend = \"{:e} s\"\n{}\n[materials.only]\n{}\n[[grains]]\nmaterial = \"only\"\n\
+             [grains.size.constant]\nradius = \"{:e} m\"\n[grains.placement.list]\npositions = [{}]\n{}\n",
+            self.end,
+            self.engine,
+            self.material,
+            self.radius,
+            positions.join(", "),
+            self.more
+        )
+    }
+
+    /// A simulation with its grains changed as wanted.
+    pub fn start(&self, change: impl FnOnce(&mut Particles)) -> Simulation {
+        start(&self.text(), change)
+    }
+}

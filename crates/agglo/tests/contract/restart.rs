@@ -1,0 +1,53 @@
+//! run(2n) = run(n), write, read, run(n): to the last bit.
+
+use agglo::engine::soft::Simulation;
+
+use crate::{common, crowd};
+
+/// Runs on, from the state in memory and from one written and read, and compares.
+fn assert_resumes(engine: &str, count: u32, before: usize, after: usize) {
+    let mut whole = crowd::start(engine, count);
+    common::steps(&mut whole, before);
+    crowd::assert_busy(&whole);
+    let scenario = common::scenario(&crowd::text(engine, count));
+    let mut resumed = Simulation::resume(&scenario, common::written_and_read(&whole));
+    assert!(common::bytes(&resumed) == common::bytes(&whole), "reading changes the state");
+    for step in 0..after {
+        common::steps(&mut whole, 1);
+        common::steps(&mut resumed, 1);
+        assert!(
+            common::bytes(&resumed) == common::bytes(&whole),
+            "differs after {} steps: {engine}",
+            step + 1
+        );
+    }
+}
+
+#[test]
+fn with_history_bonds_rays_and_a_changing_step() {
+    for engine in [crowd::VERLET, crowd::ADAPTIVE] {
+        assert_resumes(engine, 300, 150, 150);
+    }
+}
+
+/// The grains are sorted in space after 2000 steps.
+#[test]
+fn across_a_sorting_of_the_grains() {
+    for engine in [crowd::VERLET, crowd::ADAPTIVE] {
+        assert_resumes(engine, 60, 1990, 30);
+        assert_resumes(engine, 60, 2000, 20);
+    }
+}
+
+/// A step that was cut short leaves rays that wait for the grains.
+#[test]
+fn resumes_at_any_step() {
+    let scenario = common::scenario(&crowd::text(crowd::ADAPTIVE, 60));
+    let mut whole = crowd::start(crowd::ADAPTIVE, 60);
+    for step in 0..300 {
+        let mut resumed = Simulation::resume(&scenario, common::written_and_read(&whole));
+        common::steps(&mut whole, 1);
+        common::steps(&mut resumed, 1);
+        assert!(common::bytes(&resumed) == common::bytes(&whole), "differs from step {step}");
+    }
+}
