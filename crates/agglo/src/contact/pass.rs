@@ -97,7 +97,9 @@ pub struct ContactWorld<'a> {
     pub before: Motion<'a>,
     /// Motion at which forces are wanted.
     pub now: Motion<'a>,
-    /// Step between the two [s].
+    /// Time between the two [s]: the step, or zero before the first.
+    pub elapsed: f64,
+    /// Length of the step [s], for laws that carry it.
     pub dt: f64,
 }
 
@@ -270,7 +272,7 @@ impl<'a> Contact<'a> {
     fn spin_angle(&self, world: &ContactWorld<'_>) -> f64 {
         let [i, j] = self.grains;
         let spins = world.before.spin[i] + world.before.spin[j] + world.now.spin[i] + world.now.spin[j];
-        spins.dot(self.normal) * (0.25 * world.dt)
+        spins.dot(self.normal) * (0.25 * world.elapsed)
     }
 
     #[inline]
@@ -303,7 +305,7 @@ impl<'a> Contact<'a> {
                     let slip_before = self.relative_velocity(&world.before).rejected_from(*normal);
                     let sliding = Sliding {
                         normal: *normal,
-                        displacement: (slip_before + slip) * (0.5 * world.dt),
+                        displacement: (slip_before + slip) * (0.5 * world.elapsed),
                         velocity: slip,
                         spin_angle: self.spin_angle(world),
                         normal_stiffness: laws.normal.tangent_stiffness(constants, touch),

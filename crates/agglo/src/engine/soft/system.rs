@@ -99,6 +99,11 @@ impl System {
 
     /// Evaluates all loads and rates at the trial motion, at the end of a step of `dt` [s] that ends at `time` [s].
     pub fn evaluate(&mut self, time: f64, dt: f64) {
+        self.evaluate_after(dt, time, dt);
+    }
+
+    /// As `evaluate`, with memory that is carried on by `elapsed` [s].
+    fn evaluate_after(&mut self, elapsed: f64, time: f64, dt: f64) {
         self.bring_lists_up_to_date();
         let Self { grains, laws, network, contacts, list, near, trial, .. } = self;
         let now = Motion { position: &trial.position, velocity: &trial.velocity, spin: &trial.spin };
@@ -111,10 +116,11 @@ impl System {
             list,
             before,
             now,
+            elapsed,
             dt,
         };
         trial.contact = contacts.compute(&world);
-        let bond_damping = network.compute(grains, &before, &now, dt);
+        let bond_damping = network.compute(grains, &before, &now, elapsed);
         let gather = Gather { grains, laws, network, contacts, list, near, now, time };
         let supplies = parallel::over(
             0..grains.len(),
@@ -138,12 +144,13 @@ impl System {
         self.network.commit();
     }
 
-    /// Evaluates the loads at the committed motion, before the first step; `dt` [s] is the length of that.
+    /// Evaluates the loads at the committed motion, before the first step; `dt` [s] is the length of that. No time
+    /// has passed for springs of contacts and bonds, which begin without load.
     pub fn evaluate_start(&mut self, dt: f64) {
         self.trial.position.clone_from(&self.grains.position);
         self.trial.velocity.clone_from(&self.grains.velocity);
         self.trial.spin.clone_from(&self.grains.spin);
-        self.evaluate(0.0, dt);
+        self.evaluate_after(0.0, 0.0, dt);
         self.commit();
     }
 
@@ -165,6 +172,7 @@ impl System {
             list: &self.list,
             before: motion,
             now: motion,
+            elapsed: 0.0,
             dt: 0.0,
         })
     }
