@@ -2,7 +2,8 @@
 //!
 //! # Equation
 //! ```text
-//! s ← T s · min(1, k_t/k_t,before) + k_t Δu,   k_t = κ dF_n/dδ,   κ = 4 G*/E*             A6
+//! s ← T s · min(1, k_t/k_t,before) + k̄_t Δu,   k_t = κ dF_n/dδ,   κ = 4 G*/E*             A6
+//! k̄_t = (k_t,before + k_t)/2 where k_t rises over the step, else k_t
 //! F = s + c_t v_t where that is at most μ F_n, else μ_d F_n along it
 //! ```
 //! T turns the spring with the contact. A spring that was loaded at a higher stiffness is relaxed with it
@@ -138,7 +139,10 @@ impl Mindlin {
         let ratio = self.stiffness_ratio.unwrap_or(pair.tangential_ratio);
         let stiffness = ratio * sliding.normal_stiffness.max(0.0);
         let carried = before.carried(sliding.normal, sliding.spin_angle, stiffness);
-        let spring = carried + sliding.displacement * stiffness;
+        // The mean over a step in which the stiffness rises: second order. A falling one is exact with its end.
+        let rising = before.stiffness > 0.0 && before.stiffness < stiffness;
+        let loading = if rising { 0.5 * (before.stiffness + stiffness) } else { stiffness };
+        let spring = carried + sliding.displacement * loading;
         let trial = spring + sliding.velocity * (self.dashpot * sliding.normal_dashpot);
         let (at_rest, in_motion) = self.coefficients(pair);
         let load = sliding.normal_force.max(0.0);
