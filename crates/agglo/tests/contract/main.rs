@@ -1,8 +1,13 @@
 //! Contracts: the same bits for any number of threads and across a restart, and books that close.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
 #[path = "../common/mod.rs"]
 mod common;
 
+mod books;
 mod crowd;
+mod order_of_input;
+mod pairs;
 mod restart;
 mod threads;

@@ -1,0 +1,13 @@
+//! Soft spheres against closed forms and published numbers, through the whole engine.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod bonds;
+mod fields;
+mod impact;
+mod oblique;
+mod order;
+mod pulse;
