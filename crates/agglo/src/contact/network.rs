@@ -167,8 +167,13 @@ impl Network {
         }
     }
 
-    /// Takes out the bonds that bear more than their strength.
-    pub fn break_overloaded(&mut self, grains: &Particles, time: f64) -> Vec<BondEvent> {
+    /// Takes out the bonds that bear more than their strength; `loads` sees the load of each, which is no more.
+    pub fn break_overloaded(
+        &mut self,
+        grains: &Particles,
+        time: f64,
+        mut loads: impl FnMut([u32; 2], &BeamLoad),
+    ) -> Vec<BondEvent> {
         let Some(law) = &self.law else { return Vec::new() };
         if self.trial.iter().all(|(_, load)| load.breaks().is_none()) {
             return Vec::new();
@@ -180,14 +185,15 @@ impl Network {
             if broke.is_some() {
                 let energy = law.energy(&bond.state, distance_of(bond, grains));
                 events.push(BondEvent { time, ids: bond.ids, broke, energy });
+                loads(bond.grains, load);
             } else {
                 kept.push((*bond, *load));
             }
         }
-        let loads: Vec<BeamLoad> = kept.iter().map(|(_, load)| *load).collect();
+        let held: Vec<BeamLoad> = kept.iter().map(|(_, load)| *load).collect();
         self.bonds = kept.into_iter().map(|(bond, _)| bond).collect();
         self.settle(grains.len());
-        self.trial.iter_mut().zip(loads).for_each(|(place, load)| place.1 = load);
+        self.trial.iter_mut().zip(held).for_each(|(place, load)| place.1 = load);
         events
     }
 

@@ -276,7 +276,7 @@ impl Simulation {
 
     fn change_bonds(&mut self) {
         let system = &mut self.system;
-        let broken = system.network.break_overloaded(&system.grains, self.clock.time);
+        let broken = system.break_bonds(self.clock.time);
         self.ledger.flows.broken_bonds += broken.iter().map(|event| event.energy).sum::<f64>();
         self.events.extend(broken);
         self.events.extend(system.bond_pressed(self.clock.time));

@@ -177,6 +177,20 @@ impl System {
         })
     }
 
+    /// Takes out the bonds that bear more than their strength, with their loads: a load that went on to act in the
+    /// next step would do work that no ledger knows of.
+    pub fn break_bonds(&mut self, time: f64) -> Vec<BondEvent> {
+        let Self { grains, network, loads, rates, .. } = self;
+        network.break_overloaded(grains, time, |ends, load| {
+            let [i, j] = ends.map(|grain| grain as usize);
+            loads.force[i] -= load.force;
+            loads.force[j] += load.force;
+            loads.moment[i] -= load.moment_i;
+            loads.moment[j] -= load.moment_j;
+            rates.bond_damping -= load.damping_power;
+        })
+    }
+
     /// Bonds grains that were pressed together hard enough; tells which.
     pub fn bond_pressed(&mut self, time: f64) -> Vec<BondEvent> {
         self.network.bond_pressed(&self.grains, &self.list, time)
