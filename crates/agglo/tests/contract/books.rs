@@ -71,3 +71,16 @@ fn momentum_of_a_crowd_is_explained() {
         assert!(simulation.momentum_drift_relative() < 1e-12);
     }
 }
+
+/// Everything at once, bonds that break included: the drift is of second order in the step.
+#[test]
+fn a_crowd_drifts_to_second_order() {
+    let drifts = [8e-9, 4e-9].map(|step| {
+        let text = crowd::text(&common::verlet(step), 300).replace("end = \"1 s\"", "end = \"12 us\"");
+        let mut simulation = common::start(&text, crowd::falling_in);
+        common::finish(&mut simulation);
+        crowd::assert_busy(&simulation);
+        simulation.balance().drift_relative.abs()
+    });
+    assert!(drifts[0] < 2e-3 && drifts[1] < drifts[0] / 3.0, "{drifts:?}");
+}

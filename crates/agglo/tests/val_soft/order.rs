@@ -82,7 +82,6 @@ fn orders_in_contact() {
         format!("[contact.normal.hooke]\nstiffness = \"0.2 MN/m\"\n{damping}\n{friction}"),
         format!("[contact.normal.hertz]\n{damping}\n{friction}"),
     ] {
-        eprintln!("{laws}");
         assert_order(|engine| pressed(&laws, engine), 0.1e-6);
     }
 }
