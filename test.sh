@@ -1,0 +1,69 @@
+#!/usr/bin/env bash
+# Runs every test: the Rust tests, the examples in the documentation, and the Python tests that read our files with VTK.
+#
+# Needs Rust (cargo) and Python 3.11 or later. What else is missing is installed: Python packages into target/venv,
+# and Debian packages only where something does not work without them (then it says which).
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+
+venv=target/venv
+log=target/test.log
+
+say() { printf '\n== %s\n' "$*"; }
+
+# Installs Debian packages, as root or through sudo.
+install_debian() {
+    say "installing Debian packages: $*"
+    local as_root=()
+    if [[ $(id -u) -ne 0 ]]; then
+        if ! command -v sudo >/dev/null; then
+            echo "error: $* must be installed by an administrator: apt-get install $*" >&2
+            exit 1
+        fi
+        as_root=(sudo)
+    fi
+    "${as_root[@]}" apt-get update -q
+    DEBIAN_FRONTEND=noninteractive "${as_root[@]}" apt-get install -q -y --no-install-recommends "$@"
+}
+
+need_command() {
+    if ! command -v "$1" >/dev/null; then
+        echo "error: $1 is not installed; $2" >&2
+        exit 1
+    fi
+}
+
+prepare() {
+    need_command cargo "see https://rustup.rs"
+    need_command python3 "apt-get install python3"
+    # Rust links with the C compiler.
+    command -v cc >/dev/null || install_debian gcc libc6-dev
+    mkdir -p target
+    if ! "$venv/bin/python" -m pip --version >/dev/null 2>&1; then
+        say "making the Python environment $venv"
+        # Debian keeps what a virtual environment needs in a package of its own.
+        python3 -c 'import ensurepip, venv' 2>/dev/null || install_debian python3-venv
+        rm -rf "$venv"
+        python3 -m venv "$venv"
+    fi
+    "$venv/bin/python" -m pip install --quiet --disable-pip-version-check -r tests/python/requirements.txt
+    # VTK opens no window here, but some of its wheels want the libraries of one.
+    "$venv/bin/python" -c 'import vtk' 2>/dev/null || install_debian libgl1 libx11-6 libxrender1
+    "$venv/bin/python" -c 'import vtk'
+}
+
+# Runs a command and keeps what it says, for the closing lines.
+run() {
+    say "$*"
+    "$@" 2>&1 | tee -a "$log"
+}
+
+prepare
+: >"$log"
+run cargo test --locked --workspace --lib --bins --tests --examples
+run cargo test --locked --workspace --doc
+run "$venv/bin/python" -m pytest -q tests/python
+
+say "closing lines"
+grep -E '^(     Running|   Doc-tests|test result:)|^[0-9]+ passed' "$log"
+say "all tests passed"
