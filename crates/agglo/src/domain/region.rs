@@ -314,7 +314,8 @@ mod tests {
         for region in regions() {
             let (lower, upper) = region.bounds();
             for k in 0..2000 {
-                let origin = region.center() + stream.direction() * (0.45 * stream.uniform());
+                let origin =
+                    region.center() + stream.direction() * (0.9 * region.inner_radius() * stream.uniform());
                 let direction = if k % 7 == 0 { Vec3::AXES[k % 3] } else { stream.direction() };
                 let distance = region.exit_distance(origin, direction);
                 assert!(region.contains(origin + direction * (distance - 1e-9), 0.0));
