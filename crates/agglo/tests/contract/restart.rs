@@ -5,28 +5,24 @@ use agglo::engine::soft::Simulation;
 use crate::{common, crowd};
 
 /// Runs on, from the state in memory and from one written and read, and compares.
-fn assert_resumes(engine: &str, count: u32, before: usize, after: usize) {
-    let mut whole = crowd::start(engine, count);
+fn assert_resumes(text: &str, before: usize, after: usize) {
+    let mut whole = common::start(text, crowd::falling_in);
     common::steps(&mut whole, before);
     crowd::assert_busy(&whole);
-    let scenario = common::scenario(&crowd::text(engine, count));
+    let scenario = common::scenario(text);
     let mut resumed = Simulation::resume(&scenario, common::written_and_read(&whole));
     assert!(common::bytes(&resumed) == common::bytes(&whole), "reading changes the state");
     for step in 0..after {
         common::steps(&mut whole, 1);
         common::steps(&mut resumed, 1);
-        assert!(
-            common::bytes(&resumed) == common::bytes(&whole),
-            "differs after {} steps: {engine}",
-            step + 1
-        );
+        assert!(common::bytes(&resumed) == common::bytes(&whole), "differs after {} steps: {text}", step + 1);
     }
 }
 
 #[test]
 fn with_history_bonds_rays_and_a_changing_step() {
     for engine in [crowd::VERLET, crowd::ADAPTIVE] {
-        assert_resumes(engine, 300, 150, 150);
+        assert_resumes(&crowd::text(engine, 300), 150, 150);
     }
 }
 
@@ -34,8 +30,10 @@ fn with_history_bonds_rays_and_a_changing_step() {
 #[test]
 fn across_a_sorting_of_the_grains() {
     for engine in [crowd::VERLET, crowd::ADAPTIVE] {
-        assert_resumes(engine, 60, 1990, 30);
-        assert_resumes(engine, 60, 2000, 20);
+        // Stronger bonds, of which some are left by then.
+        let text = crowd::text(engine, 60).replace("\"1 MPa\"", "\"3 MPa\"");
+        assert_resumes(&text, 1990, 30);
+        assert_resumes(&text, 2000, 20);
     }
 }
 

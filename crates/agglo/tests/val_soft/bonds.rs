@@ -81,7 +81,7 @@ fn val_hooke_axial_stiffness() {
 
 /// Pulled ever harder along its axis, the bar breaks by tension at F = σ A.
 ///
-/// 1 %: the load rises by its breaking value in 2 ms, in which the bar swings up to 2e-3 behind.
+/// 0.3 %: the load rises in 2 ms, twenty periods of the bar, which swings by one part in a thousand about it.
 #[test]
 fn val_breaking_load_of_a_bar() {
     let wanted = 1e6 * AREA;
@@ -90,7 +90,7 @@ fn val_breaking_load_of_a_bar() {
     let event = bar.events[0];
     assert_eq!(event.broke, Some(Break::Tension));
     let found = wanted * event.time / 2e-3;
-    assert!((found / wanted - 1.0).abs() < 0.01, "{found} for {wanted}");
+    assert!((found / wanted - 1.0).abs() < 0.003, "{found} for {wanted}");
     // What the bond held when it broke: σ² A l/(2 E).
     let energy = 1e12 * AREA * 2.0 * RADIUS / (2.0 * MODULUS);
     assert!((event.energy / energy - 1.0).abs() < 0.02, "{} for {energy}", event.energy);
@@ -98,7 +98,7 @@ fn val_breaking_load_of_a_bar() {
 
 /// Bent ever harder, the cantilever breaks where it is held, when M r/I = σ there: M = F l (N - 1/2).
 ///
-/// 1 %: the load rises over 60 damping times; the beam lags by about one.
+/// 0.5 %: the load rises over a thousand damping times; the beam lags by about two.
 #[test]
 fn val_breaking_load_of_a_cantilever() {
     let wanted = 1e5 * SECOND_MOMENT / (RADIUS * 2.0 * RADIUS * (BONDS as f64 - 0.5));
@@ -108,5 +108,5 @@ fn val_breaking_load_of_a_cantilever() {
     let event = bent.events[0];
     assert_eq!((event.ids, event.broke), ([0, 1], Some(Break::Tension)));
     let found = wanted * event.time / rise;
-    assert!((found / wanted - 1.0).abs() < 0.01, "{found} for {wanted}");
+    assert!((found / wanted - 1.0).abs() < 0.005, "{found} for {wanted}");
 }

@@ -50,7 +50,7 @@ fn collide(simulation: &mut Simulation, mut look: impl FnMut(&Simulation)) {
 /// m* = m/2 and I = (2/5) m R² the relative velocity of the centres falls by μ (1 + e) v_n and each spin becomes
 /// μ J_n R/I = (5/4) μ (1 + e) v_n/R. Sliding lasts where v_t > (7/2) μ (1 + e) v_n.
 ///
-/// 1 %: the normal turns by v_t/v_n times the overlap while the grains touch, here 2e-4.
+/// 0.5 %: the normal turns while the grains touch, by some 2e-3 for Hertz; velocities are of the turned contact.
 #[test]
 fn val_gross_sliding_of_two_spheres() {
     let (friction, restitution) = (0.092, 0.98);
@@ -65,12 +65,12 @@ fn val_gross_sliding_of_two_spheres() {
         collide(&mut simulation, |_| {});
         let slowed = friction * (1.0 + restitution) * v_n;
         let found = v_t - relative_velocity(&simulation).y;
-        assert!((found / slowed - 1.0).abs() < 0.01, "{laws}: {found} for {slowed}");
+        assert!((found / slowed - 1.0).abs() < 0.005, "{laws}: {found} for {slowed}");
         for id in [0, 1] {
             let spin = common::grain(&simulation, id).spin;
             // The second grain's surface at the contact moves along +y past the first: both turn about +z.
             let wanted = 1.25 * slowed / RADIUS;
-            assert!((spin.z / wanted - 1.0).abs() < 0.01, "{laws}: {spin:?} for {wanted}");
+            assert!((spin.z / wanted - 1.0).abs() < 0.002, "{laws}: {spin:?} for {wanted}");
         }
     }
 }
