@@ -45,7 +45,7 @@ fn pressed(laws: &str, engine: String) -> Vec3 {
     common::grain(&simulation, 1).position
 }
 
-/// Powers of two by which errors fall from step to step, against the answer at a step of 1/32 of the finest.
+/// Powers of two by which errors fall from step to step, against an answer at a step of 1/128 of the finest.
 fn slopes(
     run: impl Fn(String) -> Vec3,
     engine: impl Fn(f64) -> String,
