@@ -1,5 +1,4 @@
-//! Beams and their rays ([A] 3, Fig. 4): a template disc, rotated to the direction, moved to the start, scaled
-//! to the power.
+//! Beams and their rays: a disc of parallel rays, turned, moved and scaled to its power ([A] section 3, Fig. 4).
 //!
 //! # Equation
 //! $$ I = \frac{p^2 A}{\rho c}, \qquad I_q = I \frac{w_q}{\sum w}, \qquad a_r = \frac{A}{N_r} $$ (A11)

@@ -82,14 +82,19 @@ impl Network {
         &self.bonds
     }
 
+    /// Takes the bonds that hold for those of the start.
+    pub fn count_from_here(&mut self) {
+        self.made_at_start = self.bonds.len();
+    }
+
+    /// Whether there is a law by which grains are bonded.
+    pub fn is_active(&self) -> bool {
+        self.law.is_some()
+    }
+
     /// How many bonds the start had.
     pub fn made_at_start(&self) -> usize {
         self.made_at_start
-    }
-
-    /// Largest share of its strength that a bond bears.
-    pub fn worst_use(&self) -> f64 {
-        self.trial.iter().map(|(_, load)| load.tensile_use.max(load.shear_use)).fold(0.0, f64::max)
     }
 
     /// Sorts the bonds and works out which belong to each grain.

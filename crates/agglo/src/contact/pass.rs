@@ -60,6 +60,8 @@ pub struct Contacts {
     loads: Vec<ContactLoad>,
     committed: Memory,
     trial: Memory,
+    /// Committed contacts of pairs that the list left out because a try, not yet accepted, has parted them.
+    parted: Vec<Remembered>,
 }
 
 /// What contacts remember, by the pair's number.
@@ -136,6 +138,7 @@ impl Contacts {
         self.loads.resize(list.len(), ContactLoad::default());
         self.committed.resize(list.len(), with_springs);
         self.trial.resize(list.len(), with_springs);
+        self.parted.clear();
         for (a, b, spring) in remembered {
             let mirrored = TangentialSpring { force: -spring.force, ..*spring };
             let place = list.find(*a, *b).map(|pair| (pair, *spring));
@@ -144,6 +147,8 @@ impl Contacts {
                 if with_springs {
                     self.committed.springs[pair] = spring;
                 }
+            } else {
+                self.parted.push((*a, *b, *spring));
             }
         }
     }
@@ -153,12 +158,14 @@ impl Contacts {
         let spring = |pair: usize| self.committed.springs.get(pair).copied().unwrap_or_default();
         let touching =
             list.pairs().zip(&self.committed.touching).enumerate().filter(|(_, (_, touching))| **touching);
-        touching.map(|(pair, ((a, b), _))| (a, b, spring(pair))).collect()
+        let listed = touching.map(|(pair, ((a, b), _))| (a, b, spring(pair)));
+        listed.chain(self.parted.iter().copied()).collect()
     }
 
     /// Keeps the memory of the last pass.
     pub fn commit(&mut self) {
         std::mem::swap(&mut self.committed, &mut self.trial);
+        self.parted.clear();
     }
 
     /// Whether a pair touched in the last pass, and its load.
@@ -170,7 +177,7 @@ impl Contacts {
     /// Energy [J] of the committed tangential springs.
     pub fn spring_energy(&self) -> f64 {
         let springs = self.committed.springs.iter().zip(&self.committed.touching);
-        springs.filter(|(_, touching)| **touching).map(|(spring, _)| spring.energy()).sum()
+        springs.filter(|(_, touching)| **touching).map(|(spring, _)| spring.energy()).fold(0.0, |a, b| a + b)
     }
 
     /// Computes the loads of all touching pairs.
@@ -290,14 +297,15 @@ impl<'a> Contact<'a> {
         if let Some(laws) = world.laws {
             let dashpot =
                 laws.damping.as_ref().map_or(0.0, |law| law.coefficient(constants, touch, &laws.normal));
-            repulsion = laws.normal.force(constants, touch) - dashpot * separation;
+            let elastic = laws.normal.force(constants, touch);
+            repulsion = elastic - dashpot * separation;
             rates.damping += dashpot * separation * separation;
             match &laws.friction {
                 None => {}
                 Some(Friction::Regularised(law)) => {
                     let speed = slip.norm();
                     if speed > 0.0 {
-                        let size = law.force(constants, touch.area(), speed, world.dt, repulsion);
+                        let size = law.force(constants, touch.area(), speed, world.dt, elastic);
                         tangential = slip * (size / speed);
                     }
                 }

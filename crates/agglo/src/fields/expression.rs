@@ -56,7 +56,7 @@ impl<const KG: i8, const M: i8, const S: i8, const K: i8, const A: i8> Expressio
             Ok(value) => return Ok(Self { text: text.to_owned(), value: Value::Constant(value) }),
             Err(reason) => reason.to_string(),
         };
-        let Ok(formula) = FlatEx::<f64>::parse(text) else {
+        let Ok(formula) = FlatEx::<f64>::parse(&as_mathematicians_read(text)?) else {
             return Err(format!("{reason}, or a formula in x, y, z, t"));
         };
         let names = formula.var_names();
@@ -98,6 +98,58 @@ impl<const KG: i8, const M: i8, const S: i8, const K: i8, const A: i8> Expressio
             Value::Formula { .. } => None,
         }
     }
+}
+
+/// The formula with its signs and exponents as mathematicians read them.
+///
+/// The parser knows no `1e13`, and takes a sign before anything else, so that -x^2 would be (-x)^2. A sign at the
+/// start of a term becomes a subtraction from zero; one behind an operator is refused.
+fn as_mathematicians_read(text: &str) -> Result<String, String> {
+    let mut read = String::with_capacity(text.len() + 8);
+    let mut rest = text;
+    while let Some(next) = rest.chars().next() {
+        let in_word = read.ends_with(|c: char| c.is_alphanumeric() || c == '_');
+        if (next.is_ascii_digit() || next == '.') && !in_word {
+            let (number, length) = leading_number(rest);
+            read += &number;
+            rest = &rest[length..];
+            continue;
+        }
+        if matches!(next, '-' | '+') {
+            match read.trim_end().chars().last() {
+                None | Some('(' | ',') => read.push('0'),
+                Some('*' | '/' | '^' | '+' | '-') => {
+                    return Err(format!(
+                        "\"{text}\" has two operators in a row; put the second into parentheses"
+                    ));
+                }
+                Some(_) => {}
+            }
+        }
+        read.push(next);
+        rest = &rest[next.len_utf8()..];
+    }
+    Ok(read)
+}
+
+/// The number at the start of a text without an exponent, and its length in the text.
+fn leading_number(text: &str) -> (String, usize) {
+    let digits = |from: usize| {
+        let stop = text[from..].find(|c: char| !(c.is_ascii_digit() || c == '.'));
+        stop.map_or(text.len(), |at| from + at)
+    };
+    let mantissa = digits(0);
+    let mut end = mantissa;
+    if text[mantissa..].starts_with(['e', 'E']) {
+        let sign = usize::from(text[mantissa + 1..].starts_with(['+', '-']));
+        let exponent = digits(mantissa + 1 + sign);
+        if exponent > mantissa + 1 + sign {
+            end = exponent;
+        }
+    }
+    // Display never writes an exponent.
+    let plain = text[..end].parse::<f64>().map_or_else(|_| text[..end].to_owned(), |value| value.to_string());
+    (plain, end)
 }
 
 /// The vector of a field at a point \[m\] and time \[s\].
@@ -195,7 +247,10 @@ mod tests {
             ("-(z - t)", -2.75),
             ("exp(-t)*cos(2*pi*y)", (-0.25_f64).exp() * (-std::f64::consts::PI).cos()),
             ("sqrt(x^2 + y^2)", 0.29_f64.sqrt()),
-            ("2^-t", 2.0_f64.powf(-0.25)),
+            ("2^(-t)", 2.0_f64.powf(-0.25)),
+            ("-x^2", -0.04),
+            ("2*(-y^2) + 1e3*x", 199.5),
+            ("2.5E-1*y + .5e+1*z", 14.875),
             ("z*y*x*t", -0.075),
         ];
         for (text, wanted) in rows {
@@ -207,6 +262,7 @@ mod tests {
     #[test]
     fn what_is_wrong_is_said() {
         let message = |text: &str| FluxDensity::new(text).unwrap_err();
+        assert!(message("3*-x").contains("two operators in a row"));
         assert!(message("3").contains("has no unit"), "{}", message("3"));
         assert!(message("2*pi").contains("has no unit") || message("2*pi").contains("unknown unit"));
         assert!(message("3 m").contains("is a length"), "{}", message("3 m"));

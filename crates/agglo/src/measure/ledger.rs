@@ -154,7 +154,7 @@ impl Ledger {
         let at_start = self.stores_at_start.total();
         // What tangential forces took is either in springs still or lost.
         let friction = flows.tangential - (stores.tangential_spring - self.stores_at_start.tangential_spring);
-        let drag = -flows.supplies.drag.power;
+        let drag = 0.0 - flows.supplies.drag.power;
         let (gravity, fields) = (flows.supplies.gravity.power, flows.supplies.field.power);
         let lost = drag + flows.damping + friction + flows.bond_damping + flows.broken_bonds;
         let drift = stores.total() - at_start - (flows.rays.power + gravity + fields - lost);

@@ -125,7 +125,7 @@ columns! {
     polarity: f64, "", Larger;
     /// Contact stiffness at the grain's temperature [n] [Pa].
     contact_stiffness: f64, "Pa", Larger;
-    /// Energy taken from rays since the start [n] [J] (power over one pulse's hits times its duration: see frames).
+    /// Power taken from rays, summed over all hits since the start [n] [W].
     absorbed_power: f64, "W", Sum;
 }
 

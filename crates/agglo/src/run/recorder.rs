@@ -202,7 +202,7 @@ impl Recorder {
         let time = simulation.clock().time;
         let (grains, network) = (&simulation.system.grains, &simulation.system.network);
         self.frames.grains(time, grains, &labels)?;
-        if self.with_bonds && network.made_at_start() > 0 {
+        if self.with_bonds && network.is_active() {
             self.frames.bonds(time, grains, network.bonds())?;
         }
         if self.with_rays && simulation.pulses.scheduled() > 0 {

@@ -147,7 +147,9 @@ impl Tables {
             rays(simulation),
             steps(simulation),
         ];
-        self.series.iter_mut().zip(rows).try_for_each(|(series, row)| series.row(&row))
+        // An empty sum may be a negative zero, which no reader expects.
+        let plain = |row: Vec<f64>| row.into_iter().map(|value| value + 0.0).collect::<Vec<f64>>();
+        self.series.iter_mut().zip(rows).try_for_each(|(series, row)| series.row(&plain(row)))
     }
 }
 

@@ -6,8 +6,6 @@ use crate::contact::pass::contact_energy;
 use crate::math::parallel;
 use crate::measure::{Balance, Momentum, Stores};
 
-use crate::units::Length;
-
 use super::laws::source;
 use super::simulation::Simulation;
 use super::system::LEAF;
@@ -72,13 +70,14 @@ impl Simulation {
     fn near_field_energy(&self) -> f64 {
         let grains = &self.system.grains;
         let Some(law) = &self.system.laws.fields.near_field else { return 0.0 };
-        let bound = law.cutoff.map_or(f64::INFINITY, Length::si);
-        let of_grain = |a: usize| {
-            let others = a + 1..grains.len();
-            let distances = others.map(|b| (b, (grains.position[b] - grains.position[a]).norm()));
-            let near = distances.filter(|(_, distance)| *distance <= bound);
-            near.map(|(b, distance)| law.energy(&source(grains, a), &source(grains, b), distance))
-                .sum::<f64>()
+        let energy = |a: usize, b: usize| {
+            let distance = (grains.position[b] - grains.position[a]).norm();
+            law.energy(&source(grains, a), &source(grains, b), distance)
+        };
+        let near = self.system.near_list();
+        let of_grain = |a: usize| match near {
+            Some(list) => list.owned(a).map(|pair| energy(a, list.partners()[pair] as usize)).sum::<f64>(),
+            None => (a + 1..grains.len()).map(|b| energy(a, b)).sum(),
         };
         self.sum(of_grain, |a, b| a + b, 0.0)
     }

@@ -1,51 +1,56 @@
 //! Rest before the clock starts: contacts, bonds and fields act, motion is damped away.
 
 use crate::engine::SimError;
+use crate::math::Vec3;
 use crate::particles::Particles;
 use crate::scenario::{Relaxation, Scenario};
 
 use super::simulation::Simulation;
 
-/// The grains at rest under the scenario's laws, without rays and drag.
+/// A simulation whose grains came to rest under the scenario's laws, without rays and drag, and then got the
+/// velocities that the scenario gives them. Contacts and bonds keep what they remember of the way there.
 ///
 /// # Errors
 /// [`SimError::NoRest`] where it takes longer than allowed; others as for any step.
-pub fn relaxed(
+pub fn rested(
     scenario: &Scenario,
     relaxation: &Relaxation,
     grains: Particles,
-) -> Result<Particles, SimError> {
+) -> Result<Simulation, SimError> {
     let mut quiet = scenario.clone();
     quiet.acoustics = None;
     quiet.fields.drag = None;
     quiet.time.end = relaxation.longest;
-    let velocity = grains.velocity.clone();
-    let spin = grains.spin.clone();
-    let mut simulation = Simulation::with(&quiet, grains);
-    simulation.system.grains.velocity.fill(crate::math::Vec3::ZERO);
-    simulation.system.grains.spin.fill(crate::math::Vec3::ZERO);
-    let damping_time = relaxation.damping_time.si();
+    let motions: Vec<(Vec3, Vec3)> =
+        grains.velocity.iter().copied().zip(grains.spin.iter().copied()).collect();
+    let mut still = grains;
+    still.velocity.fill(Vec3::ZERO);
+    still.spin.fill(Vec3::ZERO);
+    let mut simulation = Simulation::with(&quiet, still);
+    settle(&mut simulation, relaxation)?;
+    let grains = &mut simulation.system.grains;
+    for at in 0..grains.len() {
+        // Placement names grains by their order.
+        (grains.velocity[at], grains.spin[at]) = motions[grains.id[at] as usize];
+    }
+    Ok(simulation.restarted(scenario))
+}
+
+fn settle(simulation: &mut Simulation, relaxation: &Relaxation) -> Result<(), SimError> {
+    let (damping_time, limit) = (relaxation.damping_time.si(), relaxation.speed.si());
     loop {
-        let speed = unrest(&simulation, damping_time);
-        if speed <= relaxation.speed.si() {
-            break;
+        let speed = unrest(simulation, damping_time);
+        if speed <= limit {
+            return Ok(());
         }
         if simulation.is_finished() {
-            let time = simulation.clock().time;
-            return Err(SimError::NoRest { time, speed, limit: relaxation.speed.si() });
+            return Err(SimError::NoRest { time: simulation.clock().time, speed, limit });
         }
         simulation.step()?;
         let kept = (-simulation.clock().last_step / damping_time).exp();
         let grains = &mut simulation.system.grains;
         grains.velocity.iter_mut().chain(&mut grains.spin).for_each(|motion| *motion *= kept);
     }
-    let mut rested = simulation.system.grains;
-    let mut order: Vec<u32> = (0..rested.len() as u32).collect();
-    order.sort_unstable_by_key(|at| rested.id[*at as usize]);
-    rested.reorder(&order);
-    rested.velocity = velocity;
-    rested.spin = spin;
-    Ok(rested)
 }
 
 /// Speed [m/s] of the fastest grain, or the one it would reach in the damping time if that is more.

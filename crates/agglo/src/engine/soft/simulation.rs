@@ -79,11 +79,10 @@ impl Simulation {
     /// # Errors
     /// [`SimError::NoRest`] where the scenario asks for rest and the grains do not come to it.
     pub fn start(scenario: &Scenario, grains: Particles) -> Result<Self, SimError> {
-        let grains = match &scenario.start.relax {
-            Some(relaxation) => super::relax::relaxed(scenario, relaxation, grains)?,
-            None => grains,
+        let mut simulation = match &scenario.start.relax {
+            Some(relaxation) => super::relax::rested(scenario, relaxation, grains)?,
+            None => Self::with(scenario, grains),
         };
-        let mut simulation = Self::with(scenario, grains);
         simulation.open_books();
         Ok(simulation)
     }
@@ -91,10 +90,21 @@ impl Simulation {
     /// Grains under the scenario's laws, at time zero.
     pub(super) fn with(scenario: &Scenario, grains: Particles) -> Self {
         let network = Network::bond_neighbours(beam_of(scenario), &grains);
-        let pulses = Pulses::new(scenario, &grains);
         let mut system = System::new(grains, Laws::new(scenario), network);
-        system.rays_are_impulses = pulses.are_impulses();
         system.sort_in_space();
+        Self::at_zero(scenario, system)
+    }
+
+    /// The same grains, contacts and bonds, at time zero of another scenario.
+    pub(super) fn restarted(self, scenario: &Scenario) -> Self {
+        let mut system = self.system;
+        system.change_laws(Laws::new(scenario));
+        Self::at_zero(scenario, system)
+    }
+
+    fn at_zero(scenario: &Scenario, mut system: System) -> Self {
+        let pulses = Pulses::new(scenario, &system.grains);
+        system.rays_are_impulses = pulses.are_impulses();
         let first = step_size::first(scenario, &system);
         let clock =
             Clock { time: 0.0, step: 0, next_step: first, last_step: first, iterations: 0, rejected: 0 };
@@ -164,7 +174,8 @@ impl Simulation {
     /// Makes one step: rays fly, grains move, bonds break, the ledger is kept.
     ///
     /// # Errors
-    /// [`SimError`] where the step does not converge or passes a limit; the state is then that before the step.
+    /// [`SimError`] where the step does not converge or passes a limit; the grains are then where they were before the
+    /// step, while rays may have flown on.
     pub fn step(&mut self) -> Result<(), SimError> {
         self.sort_grains_when_due();
         let (dt, lands_on) = self.next_step();

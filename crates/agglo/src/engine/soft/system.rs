@@ -91,6 +91,13 @@ impl System {
         }
     }
 
+    /// Puts the grains under other laws; bonds stay, and count as made at the start.
+    pub fn change_laws(&mut self, laws: Laws) {
+        self.inertial_mass = (0..self.grains.len()).map(|at| laws.inertial_mass(&self.grains, at)).collect();
+        self.laws = laws;
+        self.network.count_from_here();
+    }
+
     /// The committed motion.
     pub fn motion(&self) -> Motion<'_> {
         let grains = &self.grains;
@@ -194,6 +201,11 @@ impl System {
     /// Bonds grains that were pressed together hard enough; tells which.
     pub fn bond_pressed(&mut self, time: f64) -> Vec<BondEvent> {
         self.network.bond_pressed(&self.grains, &self.list, time)
+    }
+
+    /// Pairs within the near field's cut-off and a little more; nothing where all pairs count.
+    pub fn near_list(&self) -> Option<&PairList> {
+        self.laws.fields.near_field.as_ref().and_then(|law| law.cutoff).map(|_| &self.near)
     }
 
     /// Energy [J] of the tangential springs of contacts.

@@ -28,7 +28,7 @@ pub(super) fn estimate(plan: &mut Plan, scenario: &Scenario) {
         Engine::Staggered(law) => (law.largest_step.si(), f64::from(law.target_iterations.max(2)) / 2.0),
         Engine::Verlet(law) => match law.step {
             Some(step) => (step.si(), 1.0),
-            None => (law.safety * critical_step(scenario).min(end), 1.0),
+            None => ((law.safety * critical_step(scenario)).min(end / 100.0), 1.0),
         },
     };
     plan.step = step;
