@@ -69,14 +69,19 @@ pub enum SimError {
     },
     /// The iteration of the staggered scheme does not converge.
     #[error(
-        "{at}: the staggered iteration does not converge (error {error:.3e}); the contact or bond is too stiff for it, \
-         or the damping too strong: raise target_iterations, or use engine.verlet"
+        "{at}: the staggered iteration does not converge (error {error:.3e}), least of all at grain {grain}, under \
+         {laws}; the contact or bond is too stiff for it, or the damping too strong: raise target_iterations, or use \
+         engine.verlet"
     )]
     NotConverged {
         /// When.
         at: Moment,
         /// The last iteration error.
         error: f64,
+        /// Stable name of the grain that moved most in the last iteration.
+        grain: u32,
+        /// The laws that act.
+        laws: String,
     },
     /// The grains do not come to rest before the clock starts.
     #[error(

@@ -56,7 +56,9 @@ impl Level {
         }
         self.lower = lower;
         self.cells_per_metre = 1.0 / cell;
-        self.counts = [0, 1, 2].map(|axis| ((upper[axis] - lower[axis]) / cell).floor() as i64 + 1);
+        // A motion that blew up may be anywhere; it is found after the search, which must get that far.
+        let count = |axis: usize| (((upper[axis] - lower[axis]) / cell).floor() as i64).saturating_add(1);
+        self.counts = [0, 1, 2].map(count);
         let limit = CELLS_PER_SPHERE * spheres.len() as u64;
         let cells = self.counts.iter().try_fold(1_u64, |product, count| product.checked_mul(*count as u64));
         let fits = cells.filter(|cells| *cells <= limit.max(64));

@@ -17,6 +17,10 @@ pub struct Change {
     pub farthest: f64,
     /// The place of that grain.
     pub farthest_grain: u32,
+    /// Longest |r^K - r^(K-1)| of a grain [m].
+    pub wavering: f64,
+    /// The place of that grain.
+    pub wavering_grain: u32,
     /// Place of the first grain whose motion is not finite.
     pub not_finite: Option<u32>,
 }
@@ -28,11 +32,18 @@ impl Change {
         } else {
             (a.farthest, a.farthest_grain)
         };
+        let (wavering, wavering_grain) = if b.wavering > a.wavering {
+            (b.wavering, b.wavering_grain)
+        } else {
+            (a.wavering, a.wavering_grain)
+        };
         Self {
             since_last: a.since_last + b.since_last,
             since_start: a.since_start + b.since_start,
             farthest,
             farthest_grain,
+            wavering,
+            wavering_grain,
             not_finite: a.not_finite.or(b.not_finite),
         }
     }
@@ -114,15 +125,19 @@ impl System {
 impl Change {
     #[inline]
     fn note(&mut self, grain: usize, since_last: Vec3, since_start: Vec3, radius: f64) {
-        let moved = since_start.norm();
-        self.since_last += since_last.norm();
+        let (moved, wavered) = (since_start.norm(), since_last.norm());
+        self.since_last += wavered;
+        if wavered > self.wavering {
+            self.wavering = wavered;
+            self.wavering_grain = grain as u32;
+        }
         self.since_start += moved;
         let radii = moved / radius;
-        if radii > self.farthest {
+        if !radii.is_finite() {
+            self.not_finite = self.not_finite.or(Some(grain as u32));
+        } else if radii > self.farthest {
             self.farthest = radii;
             self.farthest_grain = grain as u32;
-        } else if !radii.is_finite() && self.not_finite.is_none() {
-            self.not_finite = Some(grain as u32);
         }
     }
 }

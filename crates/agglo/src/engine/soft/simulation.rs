@@ -211,9 +211,8 @@ impl Simulation {
         let time = self.clock.time;
         match &self.engine {
             Engine::Staggered(scheme) => {
-                let accepted = staggered::step(&mut self.system, scheme, time, dt).map_err(|trouble| {
-                    SimError::NotConverged { at: self.moment(trouble.dt), error: trouble.error }
-                })?;
+                let accepted = staggered::step(&mut self.system, scheme, time, dt)
+                    .map_err(|trouble| self.not_converged(&trouble))?;
                 self.clock.iterations += u64::from(accepted.iterations);
                 self.clock.rejected += u64::from(accepted.rejected);
                 Ok(Step {
@@ -227,6 +226,15 @@ impl Simulation {
                 let change = verlet::step(&mut self.system, time, dt);
                 Ok(Step { dt, next: self.clock.next_step, change, phi: 0.5 })
             }
+        }
+    }
+
+    fn not_converged(&self, trouble: &staggered::NotConverged) -> SimError {
+        let (at, laws) = (self.moment(trouble.dt), self.acting_laws());
+        let id = |place: u32| self.system.grains.id[place as usize];
+        match trouble.not_finite {
+            Some(place) => SimError::NotFinite { at, grain: id(place), laws },
+            None => SimError::NotConverged { at, error: trouble.error, grain: id(trouble.grain), laws },
         }
     }
 

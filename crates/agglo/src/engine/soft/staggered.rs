@@ -59,6 +59,10 @@ pub struct NotConverged {
     pub dt: f64,
     /// Its iteration error.
     pub error: f64,
+    /// Place of the grain whose position changed most in the last iteration.
+    pub grain: u32,
+    /// Place of the first grain whose motion is not finite.
+    pub not_finite: Option<u32>,
 }
 
 /// Tries steps from `time` [s], `dt` [s] at first, until one is accepted; the accepted motion is the trial.
@@ -80,7 +84,8 @@ pub fn step(system: &mut System, scheme: &Staggered, time: f64, dt: f64) -> Resu
         dt *= if shrink < 0.95 { shrink } else { 0.5 };
         rejected += 1;
         if dt < SHORTEST * scheme.initial_step.si() {
-            return Err(NotConverged { dt, error });
+            let (grain, not_finite) = (change.wavering_grain, change.not_finite);
+            return Err(NotConverged { dt, error, grain, not_finite });
         }
     }
 }
