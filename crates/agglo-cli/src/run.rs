@@ -27,6 +27,10 @@ pub(crate) fn resume(folder: &Path, threads: Option<u32>) -> Result<(), Failure>
     if !folder.is_dir() {
         return Err(Failure::bad_input(format!("error: there is no folder {}", folder.display())));
     }
+    if let Some(summary) = agglo::run::finished(folder) {
+        let shown = folder.display();
+        return print(&format!("{}\nthe run in {shown} has finished already", table(&summary)));
+    }
     use_threads(threads)?;
     go(folder, |observer| agglo::run::resume(folder, observer))
 }

@@ -98,7 +98,7 @@ pub struct Ledger {
 }
 
 /// The ledger drawn up at one moment.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Balance {
     /// Stores now.
     #[serde(flatten)]

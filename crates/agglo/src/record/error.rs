@@ -79,6 +79,8 @@ fn reason(source: &io::Error) -> String {
         io::ErrorKind::PermissionDenied => "no permission to write or read there".to_owned(),
         io::ErrorKind::ReadOnlyFilesystem => "the file system is read-only".to_owned(),
         io::ErrorKind::NotFound => "no such file or folder".to_owned(),
+        io::ErrorKind::NotADirectory => "a part of the path is a file, not a folder".to_owned(),
+        io::ErrorKind::FileTooLarge => "it would be larger than the limit for files".to_owned(),
         _ => source.to_string(),
     }
 }

@@ -37,12 +37,9 @@ impl Series {
     /// # Errors
     /// [`RecordError::Shorter`] where the table has fewer bytes, [`RecordError::File`].
     pub fn reopen_at(path: &Path, bytes: u64) -> Result<Self, RecordError> {
+        Self::check(path, bytes)?;
         let reopen = RecordError::file("reopen", path);
         let file = OpenOptions::new().read(true).write(true).open(path).map_err(reopen)?;
-        let found = file.metadata().map_err(RecordError::file("read", path))?.len();
-        if found < bytes {
-            return Err(RecordError::Shorter { path: path.to_owned(), found, expected: bytes });
-        }
         let mut header = String::new();
         BufReader::new(&file).read_line(&mut header).map_err(RecordError::file("read", path))?;
         let columns = header.trim_end().split(',').count();
@@ -51,6 +48,18 @@ impl Series {
         let cut = file.set_len(bytes).and_then(|()| file.seek(SeekFrom::Start(bytes)));
         cut.map_err(RecordError::file("cut", path))?;
         Ok(series)
+    }
+
+    /// Whether a table can be reopened at the length `bytes`; it is not changed.
+    ///
+    /// # Errors
+    /// [`RecordError::Shorter`] where the table has fewer bytes, [`RecordError::File`].
+    pub fn check(path: &Path, bytes: u64) -> Result<(), RecordError> {
+        let found = path.metadata().map_err(RecordError::file("reopen", path))?.len();
+        if found < bytes {
+            return Err(RecordError::Shorter { path: path.to_owned(), found, expected: bytes });
+        }
+        Ok(())
     }
 
     fn over(path: &Path, columns: usize, file: File, bytes: u64) -> Self {

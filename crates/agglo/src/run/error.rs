@@ -29,6 +29,17 @@ pub enum RunError {
     /// A file could not be written or read.
     #[error(transparent)]
     Record(#[from] RecordError),
+    /// A run was cut short because a file could not be written.
+    #[error(
+        "{error}\nThe last good checkpoint is kept; once the cause is put right, `agglo resume {}` goes on from it.",
+        dir.display()
+    )]
+    CutShort {
+        /// What went wrong.
+        error: RecordError,
+        /// The run's folder.
+        dir: PathBuf,
+    },
     /// The scenario has faults or cannot be written down.
     #[error("the scenario has faults:\n{0}")]
     Scenario(#[from] Faults),
@@ -47,6 +58,15 @@ pub enum RunError {
         /// The folder.
         dir: PathBuf,
     },
+    /// The run ended before its first checkpoint.
+    #[error(
+        "the run in {} was stopped before its first checkpoint; remove the folder and start again with `agglo run`",
+        dir.display()
+    )]
+    NoCheckpointYet {
+        /// The folder.
+        dir: PathBuf,
+    },
     /// The checkpoint's scenario cannot be read by this version.
     #[error("{}: the scenario of the checkpoint cannot be read: {reason}", dir.display())]
     BadCheckpoint {
@@ -61,8 +81,16 @@ impl RunError {
     /// Exit code of the program: 1 for a run that failed, 2 for bad input.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::Placement(_) | Self::Scenario(_) | Self::FolderInUse { .. } | Self::NoRun { .. } => 2,
-            Self::Step { .. } | Self::Start(_) | Self::Record(_) | Self::BadCheckpoint { .. } => 1,
+            Self::Placement(_)
+            | Self::Scenario(_)
+            | Self::FolderInUse { .. }
+            | Self::NoRun { .. }
+            | Self::NoCheckpointYet { .. } => 2,
+            Self::Step { .. }
+            | Self::Start(_)
+            | Self::Record(_)
+            | Self::CutShort { .. }
+            | Self::BadCheckpoint { .. } => 1,
         }
     }
 }

@@ -58,16 +58,32 @@ pub fn run(
     let scenario = scenario.resolved();
     let grains = crate::packing::place(&scenario, base)?;
     let folder = Folder::create(dir)?;
-    on_a_worker(|| Session::start(&scenario, grains, folder)?.carry_on(observer))
+    on_a_worker(|| {
+        let started = Session::start(&scenario, grains, folder.clone());
+        started.inspect_err(|_| folder.abandon())?.carry_on(observer)
+    })
 }
 
 /// Goes on with the run in `dir` from its newest sound checkpoint.
+///
+/// A run that has finished is left as it is, and its summary given again.
 ///
 /// # Errors
 /// [`RunError`] where there is no sound checkpoint, a step fails or a file cannot be written.
 pub fn resume(dir: &Path, observer: &mut Observer<'_>) -> Result<Ending, RunError> {
     let folder = Folder::open(dir)?;
+    if let Some(summary) = finished(dir) {
+        return Ok(Ending::Finished(Box::new(summary)));
+    }
     on_a_worker(|| Session::resume(folder)?.carry_on(observer))
+}
+
+/// The summary of the run in `dir`, if it has finished.
+///
+/// The summary is written last, so a run without one, or with one that cannot be read, has something left to do.
+pub fn finished(dir: &Path) -> Option<Summary> {
+    let text = std::fs::read_to_string(Folder::open(dir).ok()?.summary()).ok()?;
+    serde_json::from_str(&text).ok()
 }
 
 /// Works on a thread of the pool, so that the many small parallel loops of a step need not wake one each time.

@@ -94,6 +94,9 @@ impl Recorder {
     /// # Errors
     /// [`RecordError`] where a file is missing or shorter than it was.
     pub fn resume(scenario: &Scenario, folder: &Folder, state: RecorderState) -> Result<Self, RecordError> {
+        // All are looked at before the first is cut: a run that cannot go on stays as it is.
+        Tables::check(&folder.series(), &state.tables)?;
+        Series::check(&folder.events(), state.events)?;
         let tables = Tables::resume(&folder.series(), &state.tables)?;
         let events = Series::reopen_at(&folder.events(), state.events)?;
         Ok(Self::with(scenario, folder, state.timers, state.last_row, (tables, events), state.frames))

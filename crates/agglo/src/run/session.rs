@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::engine::soft::{Simulation, SimulationState};
 use crate::particles::Particles;
-use crate::record::{atomic, checkpoint};
+use crate::record::{RecordError, atomic, checkpoint};
 use crate::scenario::Scenario;
 
 use super::folder::Folder;
@@ -74,11 +74,17 @@ impl Session {
     /// # Errors
     /// [`RunError`] where there is none, or a file cannot be brought back to its state at that time.
     pub fn resume(folder: Folder) -> Result<Self, RunError> {
-        let (saved, _, refused) = checkpoint::load_newest::<Saved>(&folder.checkpoints())?;
         let dir = folder.root().to_owned();
+        let (saved, _, refused) = match checkpoint::load_newest::<Saved>(&folder.checkpoints()) {
+            Err(RecordError::NoCheckpoint { refused, .. }) if refused.is_empty() => {
+                return Err(RunError::NoCheckpointYet { dir });
+            }
+            found => found?,
+        };
         let scenario = Scenario::from_toml(&saved.scenario)
             .map_err(|faults| RunError::BadCheckpoint { dir, reason: faults.to_string() })?;
         let recorder = Recorder::resume(&scenario, &folder, saved.recorder)?;
+        folder.sweep()?;
         let now = Instant::now();
         Ok(Self {
             simulation: Simulation::resume(&scenario, saved.simulation),
@@ -99,7 +105,19 @@ impl Session {
     ///
     /// # Errors
     /// [`RunError`] where a step fails or a file cannot be written.
-    pub fn carry_on(mut self, observer: &mut Observer<'_>) -> Result<Ending, RunError> {
+    pub fn carry_on(self, observer: &mut Observer<'_>) -> Result<Ending, RunError> {
+        let dir = self.folder.root().to_owned();
+        self.steps(observer).map_err(|error| match error {
+            RunError::Record(error) => RunError::CutShort { error, dir },
+            other => other,
+        })
+    }
+
+    fn steps(mut self, observer: &mut Observer<'_>) -> Result<Ending, RunError> {
+        // What is known at the start is told even if the first step fails.
+        if self.tell(observer).is_break() {
+            return self.interrupted();
+        }
         while !self.simulation.is_finished() {
             let stepped = self.simulation.step();
             if let Err(error) = stepped {
@@ -111,11 +129,15 @@ impl Session {
                 self.save()?;
             }
             if self.told.elapsed() >= TELL_EVERY && self.tell(observer).is_break() {
-                self.save()?;
-                return Ok(Ending::Interrupted(self.simulation.clock().time));
+                return self.interrupted();
             }
         }
         self.finish(observer)
+    }
+
+    fn interrupted(mut self) -> Result<Ending, RunError> {
+        self.save()?;
+        Ok(Ending::Interrupted(self.simulation.clock().time))
     }
 
     fn finish(mut self, observer: &mut Observer<'_>) -> Result<Ending, RunError> {

@@ -2,14 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::acoustics::PulseCount;
 use crate::engine::soft::Simulation;
 use crate::measure::{Balance, ClusterSummary};
 
 /// What a run came to; `summary.json` holds the same.
-#[derive(Clone, Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Summary {
     /// Version of agglo.
     pub version: String,
@@ -50,7 +50,7 @@ pub struct Summary {
 }
 
 /// Figures of one pulse.
-#[derive(Clone, Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct PulseFigures {
     /// Number of the beam.
     pub beam: u32,
@@ -99,7 +99,7 @@ impl From<&PulseCount> for PulseFigures {
 }
 
 /// Clusters of grains that touch, are bonded, or are closer than the scenario's gap.
-#[derive(Clone, Copy, Debug, Default, Serialize)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Clusters {
     /// How many, single grains included.
     pub count: usize,
@@ -108,7 +108,7 @@ pub struct Clusters {
 }
 
 /// The ledger of energy with its drift.
-#[derive(Clone, Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct EnergyFigures {
     /// The channels and the drift.
     #[serde(flatten)]

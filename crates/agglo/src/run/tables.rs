@@ -1,6 +1,6 @@
 //! The tables over time: energy, momentum, clusters, moments, rays, steps.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
@@ -105,6 +105,13 @@ pub struct TablesState {
     positions: Vec<u64>,
 }
 
+impl TablesState {
+    fn files(&self, folder: &Path) -> impl Iterator<Item = (PathBuf, u64)> {
+        let path = |name: &str| folder.join(format!("{name}.csv"));
+        NAMES.into_iter().zip(&self.positions).map(move |((name, _), bytes)| (path(name), *bytes))
+    }
+}
+
 /// The tables over time.
 #[derive(Debug)]
 pub struct Tables {
@@ -119,12 +126,15 @@ impl Tables {
         Ok(Self { series: NAMES.into_iter().map(open).collect::<Result<_, _>>()? })
     }
 
+    /// Whether the tables' files can be cut back; none is changed.
+    pub fn check(folder: &Path, state: &TablesState) -> Result<(), RecordError> {
+        state.files(folder).try_for_each(|(path, bytes)| Series::check(&path, bytes))
+    }
+
     /// Opens the tables' files and cuts them back.
     pub fn resume(folder: &Path, state: &TablesState) -> Result<Self, RecordError> {
-        let open = |((name, _), bytes): ((&str, _), &u64)| {
-            Series::reopen_at(&folder.join(format!("{name}.csv")), *bytes)
-        };
-        Ok(Self { series: NAMES.into_iter().zip(&state.positions).map(open).collect::<Result<_, _>>()? })
+        let open = |(path, bytes): (PathBuf, u64)| Series::reopen_at(&path, bytes);
+        Ok(Self { series: state.files(folder).map(open).collect::<Result<_, _>>()? })
     }
 
     /// Lengths of the files.
