@@ -10,7 +10,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 const BETWEEN_LINES: Duration = Duration::from_secs(10);
 /// The bar counts ten-thousandths of the simulated time.
 const PARTS: f64 = 10_000.0;
-const TEMPLATE: &str = "{wide_bar} {percent:>3} %  {msg}";
+const TEMPLATE: &str = "{bar:16} {percent:>3} %  {msg}";
 
 /// Shows progress and counts warnings.
 pub(crate) struct Display {
@@ -90,7 +90,7 @@ fn part(progress: &Progress) -> f64 {
     if progress.end > 0.0 { (progress.time / progress.end).clamp(0.0, 1.0) } else { 0.0 }
 }
 
-/// "t = 0.31 s of 2 s, 812 steps/s, 1:02 left, pulse 2 of 4".
+/// "0.310 of 2 s, 812 steps/s, 1:02 left, pulse 2 of 4".
 fn state(progress: &Progress, begin: f64, first_step: u64, elapsed: f64) -> String {
     let steps = progress.step.saturating_sub(first_step) as f64;
     let done = progress.time - begin;
@@ -99,7 +99,17 @@ fn state(progress: &Progress, begin: f64, first_step: u64, elapsed: f64) -> Stri
     let rate = steps / elapsed;
     let rate = if rate >= 10.0 { format!("{rate:.0}") } else { format!("{rate:.1}") };
     let now = if progress.now.is_empty() { String::new() } else { format!(", {}", progress.now) };
-    format!("t = {:.4e} of {:.4e} s, {rate} steps/s, {left} left{now}", progress.time, progress.end)
+    format!("{}, {rate} steps/s, {left} left{now}", time_of(progress.time, progress.end))
+}
+
+/// Simulated time in the unit in which the end reads well: "35.120 of 120 us".
+fn time_of(time: f64, end: f64) -> String {
+    const UNITS: [(f64, &str); 5] = [(1.0, "s"), (1e-3, "ms"), (1e-6, "us"), (1e-9, "ns"), (1e-12, "ps")];
+    // A hair below one, since 1e-3 may come as a sum.
+    let fits = |unit: &&(f64, &str)| end >= 0.999_999 * unit.0;
+    let (unit, name) = UNITS.iter().find(fits).unwrap_or(&UNITS[4]);
+    let last = format!("{:.3}", end / unit);
+    format!("{:.3} of {} {name}", time / unit, last.trim_end_matches('0').trim_end_matches('.'))
 }
 
 /// Minutes and seconds, or hours, minutes and seconds.
@@ -119,7 +129,15 @@ mod tests {
             Progress { time: 1.5, end: 2.0, step: 300, now: "pulse 2 of 4".into(), warnings: Vec::new() };
         // Half a second of simulated time in 60 s: another half takes 60 s; 200 steps in 60 s are 3.3 a second.
         let text = state(&progress, 1.0, 100, 60.0);
-        assert_eq!(text, "t = 1.5000e0 of 2.0000e0 s, 3.3 steps/s, 1:00 left, pulse 2 of 4");
+        assert_eq!(text, "1.500 of 2 s, 3.3 steps/s, 1:00 left, pulse 2 of 4");
+    }
+
+    #[test]
+    fn times_have_the_unit_of_the_end() {
+        assert_eq!(time_of(35.12e-6, 120e-6), "35.120 of 120 us");
+        assert_eq!(time_of(0.0, 1e-3), "0.000 of 1 ms");
+        assert_eq!(time_of(7.0, 3600.0), "7.000 of 3600 s");
+        assert_eq!(time_of(0.5e-13, 2.5e-13), "0.050 of 0.25 ps");
     }
 
     #[test]

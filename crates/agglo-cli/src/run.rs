@@ -6,6 +6,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use agglo::run::{Ending, Observer, RunError, Summary};
+use agglo::scenario::readable;
 
 use crate::arguments::Orders;
 use crate::progress::Display;
@@ -80,8 +81,9 @@ fn go(
     match outcome {
         Ok(Ending::Finished(summary)) => print(&format!("{}\nin {shown} ({closing})", table(&summary))),
         Ok(Ending::Interrupted(time)) => {
+            let time = readable(time, "s");
             let message =
-                format!("stopped at t = {time:e} s ({closing}); `agglo resume {shown}` goes on from there");
+                format!("stopped at t = {time} ({closing}); `agglo resume {shown}` goes on from there");
             Err(Failure::failed(message))
         }
         Err(error) => {

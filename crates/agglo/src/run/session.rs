@@ -199,7 +199,10 @@ fn what_happens(simulation: &Simulation) -> String {
             pulses.scheduled()
         ));
     } else if pulses.scheduled() > 0 {
-        words.push(format!("{} of {} pulses gone", pulses.counts().len(), pulses.scheduled()));
+        words.push(match pulses.counts().len() {
+            0 => format!("before pulse 1 of {}", pulses.scheduled()),
+            number => format!("after pulse {number} of {}", pulses.scheduled()),
+        });
     }
     if simulation.system.network.made_at_start() > 0 {
         words.push(format!("{bonds} bonds"));

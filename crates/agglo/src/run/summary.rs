@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::acoustics::PulseCount;
 use crate::engine::soft::Simulation;
 use crate::measure::{Balance, ClusterSummary};
+use crate::scenario::readable;
 
 /// What a run came to; `summary.json` holds the same.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -157,7 +158,7 @@ impl Summary {
     pub fn table(&self) -> Vec<(String, String)> {
         let mut rows = Vec::new();
         let mut row = |what: &str, figure: String| rows.push((what.to_owned(), figure));
-        row("simulated time", format!("{:.6} s in {} steps", self.time_s, self.steps));
+        row("simulated time", format!("{} in {} steps", readable(self.time_s, "s"), self.steps));
         row("wall time", format!("{:.2} s on {} threads", self.wall_s, self.threads));
         row("grains", self.grains.to_string());
         for (pulse, number) in self.pulses.iter().zip(1..) {
@@ -186,7 +187,14 @@ impl Summary {
         row("energy drift", format!("{:.3e} of all energy", self.energy.balance.drift_relative));
         row("momentum drift", format!("{:.3e} of all momentum", self.momentum_drift_relative));
         let warnings: u64 = self.warnings.values().sum();
-        row("warnings", format!("{} kinds, {warnings} in all", self.warnings.len()));
+        row(
+            "warnings",
+            match self.warnings.len() {
+                0 => "none".to_owned(),
+                1 => format!("1 kind, {warnings} in all"),
+                kinds => format!("{kinds} kinds, {warnings} in all"),
+            },
+        );
         rows
     }
 }

@@ -1,7 +1,7 @@
 //! Numbers as people read them: few digits, with the prefix that fits.
 
 /// A value in an SI unit with a decimal prefix: "150 MPa", "40 um", "7.06e+13 W".
-pub(super) fn readable(value: f64, unit: &str) -> String {
+pub fn readable(value: f64, unit: &str) -> String {
     const PREFIXES: [(i32, &str); 9] =
         [(-15, "f"), (-12, "p"), (-9, "n"), (-6, "u"), (-3, "m"), (0, ""), (3, "k"), (6, "M"), (9, "G")];
     let takes_prefix =

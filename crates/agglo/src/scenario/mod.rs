@@ -19,6 +19,7 @@ mod walk;
 
 pub use explain::{PAGES, Page, explain, nearest_law};
 pub use fault::{Fault, Faults};
+pub use figures::readable;
 pub use parse::{LoadError, schema};
 pub use plan::Plan;
 pub use templates::{TEMPLATES, Template, nearest_template, template};

@@ -12,6 +12,7 @@ pub mod staggered;
 pub mod step_size;
 mod system;
 mod types;
+mod validity;
 pub mod verlet;
 
 pub use laws::Laws;

@@ -6,7 +6,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::acoustics::fresnel::Interface;
-use crate::acoustics::{Acoustics, Flight, Medium, PulseCount, RayForce, Tracer, default_region};
+use crate::acoustics::{Acoustics, Beam, Flight, Medium, PulseCount, RayForce, Tracer, default_region};
 use crate::domain::Region;
 use crate::math::Vec3;
 use crate::particles::{Material, Particles};
@@ -219,6 +219,11 @@ impl Pulses {
     /// How many pulses there will be.
     pub fn scheduled(&self) -> usize {
         self.schedule.len()
+    }
+
+    /// The beams.
+    pub fn beams(&self) -> &[Beam] {
+        self.setup.as_ref().map_or(&[], |setup| &setup.acoustics.beams)
     }
 
     /// Warnings that hold for the whole run.

@@ -17,7 +17,7 @@ use super::pulses::{PulseState, Pulses};
 use super::step_size;
 use super::system::System;
 use super::types::{Breach, Engine, Limits};
-use super::{staggered, verlet};
+use super::{staggered, validity, verlet};
 
 /// Steps between two sortings of the grains in space. Counted in steps, so that it is the same after a resume.
 const SORT_EVERY: u64 = 2000;
@@ -187,6 +187,9 @@ impl Simulation {
         self.system.commit();
         self.advance_clock(&step, dt, lands_on);
         self.change_bonds();
+        if self.clock.step.is_multiple_of(validity::LOOK_EVERY) {
+            self.warn_of_drag();
+        }
         Ok(())
     }
 
@@ -317,6 +320,16 @@ impl Simulation {
             self.warnings.add(warning);
         }
         for warning in self.pulses.standing_warnings() {
+            self.warnings.add(warning);
+        }
+        for warning in validity::of_rays(self.pulses.beams(), &self.system.laws.medium, &self.system.grains) {
+            self.warnings.add(&warning);
+        }
+        self.warn_of_drag();
+    }
+
+    fn warn_of_drag(&mut self) {
+        if let Some(warning) = validity::of_drag(&self.system.laws, &self.system.grains, self.clock.time) {
             self.warnings.add(warning);
         }
     }

@@ -1,0 +1,98 @@
+//! Where a run leaves the range of its models. These are warnings: the run goes on as it would without them.
+
+use crate::acoustics::{Beam, Medium};
+use crate::fields::DragLaw;
+use crate::particles::Particles;
+
+use super::laws::Laws;
+
+/// Steps between two looks. Counted in steps, so that a resumed run looks at the same moments.
+pub const LOOK_EVERY: u64 = 100;
+/// Below this wave number times radius sound goes around a grain.
+const SMALLEST_KA: f64 = 10.0;
+/// Above this Reynolds number Stokes' law is more than 15 % off.
+const STOKES: f64 = 1.0;
+/// Above this Reynolds number Schiller and Naumann's law is not fitted.
+const SCHILLER_NAUMANN: f64 = 1000.0;
+
+/// A warning where a grain is too fast for the law of drag at `time` [s].
+pub fn of_drag(laws: &Laws, grains: &Particles, time: f64) -> Option<&'static str> {
+    let drag = laws.fields.drag.as_ref()?;
+    let (limit, warning) = match drag.law {
+        DragLaw::Stokes => (
+            STOKES,
+            "fields.drag: a grain's Reynolds number is above 1, where stokes is too weak; schiller_naumann holds up \
+             to 1000",
+        ),
+        DragLaw::SchillerNaumann => (
+            SCHILLER_NAUMANN,
+            "fields.drag: a grain's Reynolds number is above 1000, where schiller_naumann does not hold",
+        ),
+    };
+    let is_above = |at: usize| {
+        let (radius, velocity, position) = (grains.radius[at], grains.velocity[at], grains.position[at]);
+        drag.reynolds(&laws.medium, radius, velocity, position, time) > limit
+    };
+    (0..grains.len()).any(is_above).then_some(warning)
+}
+
+/// A warning for each beam whose frequency is too low for rays at the smallest grain.
+pub fn of_rays(beams: &[Beam], medium: &Medium, grains: &Particles) -> Vec<String> {
+    let smallest = grains.radius.iter().copied().fold(f64::INFINITY, f64::min);
+    let warning = |(beam, number): (&Beam, usize)| {
+        let ka = medium.wavenumber_radius(beam.frequency?.si(), smallest);
+        (ka < SMALLEST_KA).then(|| {
+            format!(
+                "acoustics.beams.{number}: k a is {ka:.3e} at the smallest grain; rays do not hold below 10, where sound \
+                 goes around grains"
+            )
+        })
+    };
+    beams.iter().zip(0..).filter_map(warning).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::Scenario;
+    use crate::units::Frequency;
+
+    /// One grain of 1 mm radius in water (ρ = 1000 kg/m³, η = 1 mPa s) at a speed [m/s]: Re = 2000 v.
+    fn warning(law: &str, speed: f64) -> Option<&'static str> {
+        let text = format!(
+            "version = 1\ntitle = \"one\"\ntime.end = \"1 s\"\nengine.verlet.step = \"1 ms\"\n\
+             medium = {{ density = \"1000 kg/m3\", sound_speed = \"1500 m/s\", viscosity = \"1 mPa s\" }}\n\
+             materials.glass.density = \"2500 kg/m3\"\nfields.drag.law = \"{law}\"\n\
+             [[grains]]\nmaterial = \"glass\"\nsize.constant.radius = \"1 mm\"\n\
+             placement.list = {{ positions = [[\"0 m\", \"0 m\", \"0 m\"]], \
+             velocities = [[\"0 m/s\", \"{speed} m/s\", \"0 m/s\"]] }}\n"
+        );
+        let scenario = Scenario::from_toml(&text).unwrap();
+        let grains = crate::packing::place(&scenario, std::path::Path::new("")).unwrap();
+        of_drag(&Laws::new(&scenario), &grains, 0.0)
+    }
+
+    /// Half a per cent below and above the bounds.
+    #[test]
+    fn drag_warns_from_its_reynolds_number_on() {
+        assert_eq!(warning("stokes", 0.995 * 1.0 / 2000.0), None);
+        assert!(warning("stokes", 1.005 * 1.0 / 2000.0).unwrap().contains("above 1,"));
+        assert_eq!(warning("schiller_naumann", 0.995 * 0.5), None);
+        assert!(warning("schiller_naumann", 1.005 * 0.5).unwrap().contains("above 1000"));
+    }
+
+    /// k a = 2 π f R/c = 10 at 2.387 MHz for 1 mm in water at 1500 m/s; the larger grain does not count.
+    #[test]
+    fn rays_warn_below_their_frequency() {
+        let template = crate::scenario::template("acoustic").unwrap();
+        let beam = Scenario::from_toml(template.text).unwrap().acoustics.unwrap().beams.remove(0);
+        let bound = 10.0 * 1500.0 / (std::f64::consts::TAU * 1e-3);
+        let hertz = |number: f64| serde_json::from_str::<Frequency>(&format!("\"{number} Hz\"")).unwrap();
+        let with = |frequency: Option<f64>| Beam { frequency: frequency.map(hertz), ..beam.clone() };
+        let beams = [with(Some(1.005 * bound)), with(Some(0.995 * bound)), with(None)];
+        let grains = Particles { radius: vec![3e-3, 1e-3], ..Particles::default() };
+        let warnings = of_rays(&beams, &Medium::default(), &grains);
+        assert_eq!(warnings.len(), 1);
+        assert!(warnings[0].starts_with("acoustics.beams.1: k a is 9.950e0"), "{}", warnings[0]);
+    }
+}
