@@ -1,0 +1,76 @@
+//! A run that is killed or stopped, and goes on.
+
+use crate::common::{
+    Bench, STAGGERED, VERLET, assert_same, complained, ended, reference, said, signal, steps, wait_for_step,
+};
+
+/// SIGKILL at ten moments spread over the run, each time in the sitting that went on after the last; then the rest.
+fn killed_ten_times(scenario: &'static str) {
+    const KILLS: u64 = 10;
+    let reference = reference(scenario);
+    let bench = Bench::with(scenario);
+    let mut killed = 0;
+    for kill in 0..KILLS {
+        let mut order = if kill == 0 { bench.start(&[]) } else { bench.resume() };
+        let mut child = order.spawn().unwrap();
+        wait_for_step(&bench.run(), steps(reference) * kill / (KILLS + 1));
+        // Away from the checkpoint, into steps, frames and the next checkpoint.
+        std::thread::sleep(std::time::Duration::from_millis(kill * 7 % 23));
+        child.kill().unwrap();
+        killed += u64::from(child.wait().unwrap().code().is_none());
+    }
+    // One sitting may have reached the end before its kill where the machine is much faster than its disk.
+    assert!(killed >= KILLS - 1, "only {killed} of {KILLS} kills hit a run");
+    ended(bench.resume().output().unwrap(), 0);
+    assert_same(&bench.run(), reference);
+}
+
+#[test]
+fn a_run_killed_at_ten_moments_ends_with_the_same_files_staggered() {
+    killed_ten_times(STAGGERED);
+}
+
+#[test]
+fn a_run_killed_at_ten_moments_ends_with_the_same_files_verlet() {
+    killed_ten_times(VERLET);
+}
+
+/// Half-written files that a kill left are gone, whichever folder they are in.
+#[test]
+fn leftovers_of_a_killed_run_are_swept_away() {
+    let bench = Bench::with(STAGGERED);
+    bench.stopped_after(100, &[]);
+    for place in [".agglo-a1.part", "frames/.agglo-b2.part", "checkpoints/.agglo-c3.part"] {
+        std::fs::write(bench.run().join(place), "half").unwrap();
+    }
+    ended(bench.resume().output().unwrap(), 0);
+    assert_same(&bench.run(), reference(STAGGERED));
+}
+
+#[test]
+fn ctrl_c_stops_with_a_checkpoint_and_says_how_to_go_on() {
+    for name in ["INT", "TERM"] {
+        let bench = Bench::with(STAGGERED);
+        let child = bench.start(&[]).spawn().unwrap();
+        wait_for_step(&bench.run(), 60);
+        signal(&child, name);
+        let stopped = ended(child.wait_with_output().unwrap(), 1);
+        let text = complained(&stopped);
+        let advice = format!("`agglo resume {}` goes on from there", bench.run().display());
+        assert!(text.contains("stopped at t = ") && text.contains(&advice), "{text}");
+        assert!(!bench.run().join("summary.json").exists());
+        let done = ended(bench.resume().output().unwrap(), 0);
+        assert!(said(&done).contains("simulated time"), "{}", said(&done));
+        assert_same(&bench.run(), reference(STAGGERED));
+    }
+}
+
+/// Killed before anything could be saved: there is nothing to go on from, and the message says what to do.
+#[test]
+fn a_run_killed_before_its_first_checkpoint_says_to_start_again() {
+    let bench = Bench::with(STAGGERED);
+    std::fs::create_dir_all(bench.run().join("checkpoints")).unwrap();
+    let refused = ended(bench.resume().output().unwrap(), 2);
+    let text = complained(&refused);
+    assert!(text.contains("before its first checkpoint") && text.contains("start again"), "{text}");
+}

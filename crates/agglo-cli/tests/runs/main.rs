@@ -1,0 +1,15 @@
+//! Whole runs through the program: what a user may count on when a run is killed, stopped, damaged, starved of disk
+//! or started with other threads and other output.
+
+#![cfg(unix)]
+#![allow(clippy::unwrap_used, reason = "a test that cannot start the program or read its files has failed")]
+
+mod common;
+mod damage;
+mod disk;
+mod end;
+mod killed;
+mod output;
+mod summary;
+mod trouble;
+mod verbs;
