@@ -7,7 +7,9 @@ mod common;
 
 mod books;
 mod crowd;
+mod halving;
 mod order_of_input;
 mod pairs;
+mod rest;
 mod restart;
 mod threads;

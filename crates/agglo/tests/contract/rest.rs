@@ -1,0 +1,54 @@
+//! Rest before the clock starts.
+
+use agglo::math::Vec3;
+
+use crate::common::{kinetic, start, steps};
+
+/// Two grains pressed together and cemented there: rest is where the cement's tension holds the contact's repulsion.
+const CEMENTED: &str = r#"
+    version = 1
+    time.end = "1 s"
+    engine.verlet.safety = 0.05
+    [materials.glass]
+    density = "2500 kg/m3"
+    youngs_modulus = "1 GPa"
+    poisson_ratio = 0.25
+    [[grains]]
+    material = "glass"
+    size.constant.radius = "1 mm"
+    velocity = ["0 m/s", "0.3 m/s", "0 m/s"]
+    [grains.placement.list]
+    positions = [["0 m", "0 m", "0 m"], ["1.99 mm", "0 m", "0 m"]]
+    [contact.normal.hertz]
+    [contact.friction.mindlin]
+    static_friction = 0.5
+    [bonds.beam]
+    youngs_modulus = "500 MPa"
+    tensile_strength = "1 GPa"
+    shear_strength = "1 GPa"
+    [start.relax]
+    speed = "1 um/s"
+    longest = "1 s"
+    damping_time = "5 us"
+"#;
+
+/// What holds the grains at rest must still be there when the clock starts: they then drift together, and what they
+/// had of stretched cement would otherwise drive them apart at some metres per second.
+#[test]
+fn rest_lasts() {
+    let mut simulation = start(CEMENTED, |_| {});
+    let stores = simulation.stores();
+    assert!(stores.elastic > 1e-6 && stores.bonds > 1e-7, "nothing holds: {stores:?}");
+    let apart = |simulation: &agglo::engine::soft::Simulation| {
+        let at = &simulation.system.grains.position;
+        (at[1] - at[0]).norm()
+    };
+    let (distance, drifting) = (apart(&simulation), kinetic(&simulation));
+    assert!(distance > 1.9901e-3);
+    steps(&mut simulation, 2000);
+    // Rest to 1 um/s, a millionth of the energy of the drift at most.
+    assert!((apart(&simulation) / distance - 1.0).abs() < 1e-6);
+    assert!((kinetic(&simulation) / drifting - 1.0).abs() < 1e-5);
+    let mean = (simulation.system.grains.velocity[0] + simulation.system.grains.velocity[1]) * 0.5;
+    assert!((mean - Vec3::new(0.0, 0.3, 0.0)).norm() < 1e-12);
+}
