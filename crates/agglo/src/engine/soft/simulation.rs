@@ -248,28 +248,30 @@ impl Simulation {
         if let Some(place) = change.not_finite {
             return Err(SimError::NotFinite { at, grain: id(place), laws: self.acting_laws() });
         }
-        let limits = &self.limits;
-        if change.farthest > limits.displacement {
-            let laws = self.acting_laws();
-            let grain = id(change.farthest_grain);
-            let breach =
-                SimError::TooFar { at, grain, radii: change.farthest, limit: limits.displacement, laws };
-            return self.breach(breach, "grains moved farther in one step than limits.displacement");
-        }
-        if contact.worst_strain > limits.strain {
-            let grains = contact.worst_pair.map(id);
-            let laws = self.acting_laws();
-            let breach =
-                SimError::TooDeep { at, grains, strain: contact.worst_strain, limit: limits.strain, laws };
-            return self.breach(breach, "grains overlapped by more than limits.strain");
-        }
-        Ok(())
+        let (limits, laws) = (self.limits.clone(), || self.acting_laws());
+        let too_far = (change.farthest > limits.displacement).then(|| SimError::TooFar {
+            at: at.clone(),
+            grain: id(change.farthest_grain),
+            radii: change.farthest,
+            limit: limits.displacement,
+            laws: laws(),
+        });
+        let too_deep = (contact.worst_strain > limits.strain).then(|| SimError::TooDeep {
+            at,
+            grains: contact.worst_pair.map(id),
+            strain: contact.worst_strain,
+            limit: limits.strain,
+            laws: laws(),
+        });
+        self.breach(too_far, "grains moved farther in one step than limits.displacement")?;
+        self.breach(too_deep, "grains overlapped by more than limits.strain")
     }
 
-    fn breach(&mut self, breach: SimError, warning: &str) -> Result<(), SimError> {
-        match self.limits.on_breach {
-            Breach::Stop => Err(breach),
-            Breach::Warn => {
+    fn breach(&mut self, breach: Option<SimError>, warning: &str) -> Result<(), SimError> {
+        match (breach, self.limits.on_breach) {
+            (None, _) => Ok(()),
+            (Some(error), Breach::Stop) => Err(error),
+            (Some(_), Breach::Warn) => {
                 self.warnings.add(warning);
                 Ok(())
             }
