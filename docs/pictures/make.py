@@ -1,0 +1,331 @@
+#!/usr/bin/env python3
+"""Draws the pictures of this folder from runs of the shipped scenarios.
+
+    cargo build --release
+    python3 -m venv target/venv
+    target/venv/bin/pip install -r docs/pictures/requirements.txt
+    target/venv/bin/python docs/pictures/make.py
+
+The runs go to a temporary folder, or to the one given with --runs, where those that are there already are used again.
+VTK draws without a window; it needs OpenGL, EGL or OSMesa.
+"""
+
+import argparse
+import subprocess
+import tempfile
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+import vtk  # noqa: E402
+from matplotlib.colors import LogNorm  # noqa: E402
+from PIL import Image  # noqa: E402  (comes with matplotlib)
+from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy  # noqa: E402
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+SCENARIO = ROOT / "scenarios/acoustic-dispersal-sound.toml"
+
+PULSES = 4
+PERIOD = 0.5
+GRAINS = 2000
+
+# Okabe and Ito's colours, which the colour-blind tell apart.
+BLACK, ORANGE, SKY, GREEN, YELLOW = "#000000", "#E69F00", "#56B4E9", "#009E73", "#F0E442"
+BLUE, VERMILION, PURPLE, GREY = "#0072B2", "#D55E00", "#CC79A7", "#999999"
+
+# Metres that a panel is high, and its centre: nearly all grains are inside at the end.
+VIEW_HEIGHT = 4.8
+VIEW_CENTRE = (0.15, 0.0, 0.0)
+
+
+def run(agglo, folder, *settings):
+    """Runs the scenario into `folder`, unless it has been."""
+    if not (folder / "summary.json").exists():
+        sets = [word for setting in settings for word in ("--set", setting)]
+        subprocess.run([agglo, "run", str(SCENARIO), "-o", str(folder), *sets], check=True)
+    return folder
+
+
+def series(folder, name):
+    """A table of a run: columns by name."""
+    return np.genfromtxt(folder / f"series/{name}.csv", delimiter=",", names=True)
+
+
+def frame(folder, kind, time):
+    """The VTK data of the frame next to a time [s], and its own time."""
+    listing = ElementTree.parse(folder / f"frames/{kind}.pvd").getroot().iter("DataSet")
+    frames = {float(entry.get("timestep")): entry.get("file") for entry in listing}
+    nearest = min(frames, key=lambda at: abs(at - time))
+    reader = vtk.vtkXMLPolyDataReader()
+    reader.SetFileName(str(folder / "frames" / frames[nearest]))
+    reader.Update()
+    return reader.GetOutput(), nearest
+
+
+def cluster_sizes(grains):
+    """Number of grains in the cluster of each grain."""
+    cluster = vtk_to_numpy(grains.GetPointData().GetArray("cluster")).astype(int)
+    return np.bincount(cluster)[cluster]
+
+
+def lookup(colours, norm):
+    """A VTK table of a matplotlib colour map, logarithmic over the norm."""
+    table = vtk.vtkLookupTable()
+    table.SetNumberOfTableValues(256)
+    for entry in range(256):
+        table.SetTableValue(entry, *colours(entry / 255))
+    table.SetRange(norm.vmin, norm.vmax)
+    table.SetScaleToLog10()
+    return table
+
+
+def grains_actor(grains, colours, norm):
+    """Grains as spheres, coloured by the size of their cluster."""
+    data = vtk.vtkPolyData()
+    data.ShallowCopy(grains)
+    sizes = numpy_to_vtk(cluster_sizes(grains).astype(float), deep=True)
+    sizes.SetName("cluster_size")
+    data.GetPointData().AddArray(sizes)
+    sphere = vtk.vtkSphereSource()
+    sphere.SetRadius(1.0)
+    sphere.SetThetaResolution(24)
+    sphere.SetPhiResolution(16)
+    mapper = vtk.vtkGlyph3DMapper()
+    mapper.SetInputData(data)
+    mapper.SetSourceConnection(sphere.GetOutputPort())
+    mapper.SetScaleModeToScaleByMagnitude()
+    mapper.SetScaleArray("radius_m")
+    mapper.SetLookupTable(lookup(colours, norm))
+    mapper.SetUseLookupTableScalarRange(True)
+    mapper.SetScalarModeToUsePointFieldData()
+    mapper.SelectColorArray("cluster_size")
+    actor = vtk.vtkActor()
+    actor.SetMapper(mapper)
+    light = actor.GetProperty()
+    light.SetAmbient(0.25)
+    light.SetDiffuse(0.75)
+    light.SetSpecular(0.15)
+    light.SetSpecularPower(20)
+    return actor
+
+
+def rays_actor(rays, colour):
+    """Rays as short strokes that end where they are."""
+    here = vtk_to_numpy(rays.GetPoints().GetData())
+    direction = vtk_to_numpy(rays.GetPointData().GetArray("direction"))
+    points, lines = vtk.vtkPoints(), vtk.vtkCellArray()
+    for tip, along in zip(here, direction):
+        lines.InsertNextCell(2)
+        lines.InsertCellPoint(points.InsertNextPoint(*(tip - 0.06 * along)))
+        lines.InsertCellPoint(points.InsertNextPoint(*tip))
+    data = vtk.vtkPolyData()
+    data.SetPoints(points)
+    data.SetLines(lines)
+    mapper = vtk.vtkPolyDataMapper()
+    mapper.SetInputData(data)
+    actor = vtk.vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetColor(*matplotlib.colors.to_rgb(colour))
+    actor.GetProperty().SetLineWidth(1.4)
+    actor.GetProperty().SetLighting(False)
+    return actor
+
+
+def render(actors, width, height):
+    """The picture of actors seen along y, x to the right and z up, as an array."""
+    renderer = vtk.vtkRenderer()
+    renderer.SetBackground(1.0, 1.0, 1.0)
+    for actor in actors:
+        renderer.AddActor(actor)
+    window = vtk.vtkRenderWindow()
+    window.SetOffScreenRendering(1)
+    window.SetMultiSamples(8)
+    window.SetSize(width, height)
+    window.AddRenderer(renderer)
+    camera = renderer.GetActiveCamera()
+    camera.ParallelProjectionOn()
+    camera.SetParallelScale(VIEW_HEIGHT / 2)
+    camera.SetFocalPoint(*VIEW_CENTRE)
+    camera.SetPosition(VIEW_CENTRE[0], -10.0, VIEW_CENTRE[2])
+    camera.SetViewUp(0.0, 0.0, 1.0)
+    renderer.ResetCameraClippingRange()
+    window.Render()
+    grab = vtk.vtkWindowToImageFilter()
+    grab.SetInput(window)
+    grab.ReadFrontBufferOff()
+    grab.Update()
+    image = grab.GetOutput()
+    pixels = vtk_to_numpy(image.GetPointData().GetScalars())
+    return pixels.reshape(height, width, -1)[::-1]
+
+
+def save(figure, path, dpi):
+    """Writes a figure without transparency, which would take a third more room."""
+    with tempfile.TemporaryDirectory() as folder:
+        full = Path(folder) / "full.png"
+        figure.savefig(full, dpi=dpi)
+        plt.close(figure)
+        with Image.open(full) as image:
+            image.convert("RGB").save(path, optimize=True)
+
+
+def scale_bar(axes, right, bottom):
+    """A bar of one metre, in the picture's metres."""
+    axes.plot([right - 1.0, right], [bottom, bottom], color=BLACK, linewidth=3, solid_capstyle="butt")
+    axes.text(right - 0.5, bottom + 0.07, "1 m", ha="center", va="bottom", fontsize=11)
+
+
+def dispersal(sound, flight, path):
+    """The agglomerate under the first pulse and after the first, second and fourth."""
+    colours, norm = matplotlib.colormaps["cividis"], LogNorm(1, GRAINS)
+    early, early_time = frame(flight, "grains", 0.5e-3)
+    rays, _ = frame(flight, "rays", 0.5e-3)
+    # Grains drift apart after their pulse, so each state is that at the end of its half second.
+    states = [(early, f"the first pulse on its way ({early_time * 1e3:.1f} ms)", rays)]
+    for pulses, words in [(1, "after one pulse"), (2, "after two pulses"), (4, "after four pulses")]:
+        grains, time = frame(sound, "grains", pulses * PERIOD)
+        states.append((grains, f"{words} ({time:.1f} s)", None))
+
+    figure, panels = plt.subplots(2, 2, figsize=(12, 11.0))
+    figure.subplots_adjust(left=0.01, right=0.99, top=0.945, bottom=0.1, wspace=0.02, hspace=0.14)
+    half = VIEW_HEIGHT / 2
+    aspect = 1.25
+    extent = (VIEW_CENTRE[0] - aspect * half, VIEW_CENTRE[0] + aspect * half, -half, half)
+    for axes, (grains, title, flying) in zip(panels.flat, states):
+        actors = [grains_actor(grains, colours, norm)]
+        if flying is not None:
+            actors.append(rays_actor(flying, VERMILION))
+        axes.imshow(render(actors, 1000, 800), extent=extent, interpolation="antialiased")
+        sizes = cluster_sizes(grains)
+        free = np.count_nonzero(sizes == 1)
+        axes.set_title(f"{title}\nlargest clump: {sizes.max():,} grains; free grains: {free:,}", fontsize=13)
+        axes.set_xlim(extent[:2])
+        axes.set_ylim(extent[2:])
+        axes.set_xticks([])
+        axes.set_yticks([])
+        for side in axes.spines.values():
+            side.set_color("#cccccc")
+        scale_bar(axes, extent[1] - 0.15, -half + 0.15)
+    first = panels.flat[0]
+    first.annotate(
+        "direction of the beam", (0.55, 1.75), (-2.3, 1.75), va="center", color=VERMILION, fontsize=12,
+        arrowprops={"arrowstyle": "-|>", "color": VERMILION, "linewidth": 2},
+    )
+    front = vtk_to_numpy(rays.GetPoints().GetData())[:, 0].max()
+    first.text(front, 1.12, "front of the pulse", color=VERMILION, fontsize=12, ha="left")
+    first.text(-1.3, -1.22, "reflected rays", color=VERMILION, fontsize=12, ha="center")
+    bar = figure.add_axes((0.2, 0.058, 0.6, 0.017))
+    figure.colorbar(matplotlib.cm.ScalarMappable(norm, colours), cax=bar, orientation="horizontal")
+    bar.set_xlabel("grains in the clump that a grain belongs to (neighbours less than half a radius apart)", fontsize=12)
+    ticks = [1, 10, 100, 1000, GRAINS]
+    bar.set_xticks(ticks, ["1 (free)", "10", "100", "1,000", ""])
+    bar.minorticks_off()
+    save(figure, path, 105)
+
+
+def since_pulse(rays, pulse):
+    """Times since a pulse [ms] and the rows of rays.csv until it has gone."""
+    start = pulse * PERIOD
+    rows = (rays["time_s"] > start) & (rays["time_s"] < start + 8e-3)
+    return (rays["time_s"][rows] - start) * 1e3, rows
+
+
+def rays_picture(sound, path):
+    """Reflections, rays in flight and the beam's power by direction after each pulse."""
+    rays = series(sound, "rays")
+    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(14, 4.6), constrained_layout=True)
+    colours = [BLUE, VERMILION, GREEN, PURPLE]
+    for pulse, (colour, style) in enumerate(zip(colours, ["-", "--", "-.", ":"])):
+        time, rows = since_pulse(rays, pulse)
+        before = rays["reflections"][rays["time_s"] <= pulse * PERIOD][-1]
+        words = {"color": colour, "linestyle": style, "linewidth": 2, "label": f"pulse {pulse + 1}"}
+        left.plot(np.append(0, time), np.append(0, rays["reflections"][rows] - before) / 1e3, **words)
+        middle.plot(np.append(0, time), np.append(10_000, rays["in_flight"][rows]), **words)
+    left.set_ylabel("reflections so far (thousands)")
+    left.set_ylim(0, None)
+    left.legend(loc="lower right", handlelength=3)
+    left.set_title("Rays bounce about five times each")
+    middle.set_ylabel("rays in flight, of 10,000")
+    middle.set_yscale("log")
+    middle.set_ylim(0.8, 1.5e4)
+    middle.legend(loc="upper right")
+    middle.set_title("Nine in ten are gone within 3.5 ms")
+    time, rows = since_pulse(rays, 0)
+    for name, start, colour, style, label in [
+        ("magnitude", 1, BLACK, "-", "in all"),
+        ("x", 1, VERMILION, "--", "along x, the beam's direction"),
+        ("y", 0, SKY, "-.", "along y"),
+        ("z", 0, GREEN, ":", "along z"),
+    ]:
+        power = np.append(start, rays[f"beam_{name}"][rows])
+        right.plot(np.append(0, time), power, color=colour, linestyle=style, linewidth=2, label=label)
+    right.set_ylabel("power in flight over that launched")
+    right.legend(loc="upper right")
+    right.set_title("Pulse 1: direction is lost before power")
+    right.set_xlim(0, 4)
+    for axes in (left, middle):
+        axes.set_xlim(0, 8)
+    for axes in (left, middle, right):
+        axes.set_xlabel("time since the pulse (ms)")
+        axes.grid(alpha=0.3)
+    save(figure, path, 110)
+
+
+def energy_picture(sound, path):
+    """Where the work of the rays is: stores and losses one upon another."""
+    energy = series(sound, "energy")
+    layers = [
+        ("motion of the grains", ["kinetic_J"], BLUE),
+        ("spin", ["spin_J"], SKY),
+        ("springs of contacts and bonds", ["elastic_J", "tangential_spring_J", "bonds_J"], BLACK),
+        ("lost to friction", ["lost_friction_J"], VERMILION),
+        ("lost in contact damping", ["lost_contact_damping_J"], ORANGE),
+        ("lost to drag of the water", ["lost_drag_J"], YELLOW),
+        ("lost in bond damping", ["lost_bond_damping_J"], GREEN),
+        ("lost with broken bonds", ["lost_broken_bonds_J"], PURPLE),
+    ]
+    time = energy["time_s"]
+    heights = [sum(energy[name] for name in names) / 1e3 for _, names, _ in layers]
+    figure, axes = plt.subplots(figsize=(11, 6), constrained_layout=True)
+    areas = axes.stackplot(time, heights, colors=[colour for *_, colour in layers], linewidth=0)
+    (work,) = axes.plot(time, energy["work_rays_J"] / 1e3, color=BLACK, linestyle="--", linewidth=1.5)
+    largest = np.abs(energy["drift_J"]).max()
+    axes.set_title(
+        "Every joule that the rays put in is accounted for, "
+        f"but for {largest:.0f} J of {energy['work_rays_J'][-1]:,.0f} J"
+    )
+    for pulse in range(PULSES):
+        height = np.interp(pulse * PERIOD + 0.02, time, energy["work_rays_J"]) / 1e3
+        axes.annotate(f"pulse {pulse + 1}", (pulse * PERIOD + 0.02, height + 0.06), ha="left", va="bottom")
+    names = [name for name, *_ in layers]
+    axes.legend([work, *areas[::-1]], ["work of the rays", *names[::-1]], loc="upper left")
+    axes.set_xlim(0, PULSES * PERIOD)
+    axes.set_ylim(0, 5.8)
+    axes.set_xlabel("time (s)")
+    axes.set_ylabel("energy (kJ)")
+    save(figure, path, 110)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--agglo", default=str(ROOT / "target/release/agglo"), help="the program")
+    parser.add_argument("--runs", type=Path, help="folder for the runs, kept")
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as temporary:
+        runs = options.runs or Path(temporary)
+        sound = run(options.agglo, runs / "sound", 'output.series="0.1 ms"')
+        flight = run(
+            options.agglo, runs / "flight", 'time.end="1.5 ms"', 'output.frames="0.25 ms"', 'output.series="0.25 ms"'
+        )
+        dispersal(sound, flight, HERE / "dispersal.png")
+        rays_picture(sound, HERE / "rays.png")
+        energy_picture(sound, HERE / "energy.png")
+
+
+if __name__ == "__main__":
+    main()
