@@ -46,6 +46,8 @@ VIEW_CENTRE = (0.15, 0.0, 0.0)
 def run(agglo, folder, *settings):
     """Runs the scenario into `folder`, unless it has been."""
     if not (folder / "summary.json").exists():
+        # Clumps as the eye sees them: neighbours less than half a radius apart.
+        settings = [*settings, "measures.cluster_gap=0.5"]
         sets = [word for setting in settings for word in ("--set", setting)]
         subprocess.run([agglo, "run", str(SCENARIO), "-o", str(folder), *sets], check=True)
     return folder
