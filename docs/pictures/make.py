@@ -46,8 +46,6 @@ VIEW_CENTRE = (0.15, 0.0, 0.0)
 def run(agglo, folder, *settings):
     """Runs the scenario into `folder`, unless it has been."""
     if not (folder / "summary.json").exists():
-        # Clumps as the eye sees them: neighbours less than half a radius apart.
-        settings = [*settings, "measures.cluster_gap=0.5"]
         sets = [word for setting in settings for word in ("--set", setting)]
         subprocess.run([agglo, "run", str(SCENARIO), "-o", str(folder), *sets], check=True)
     return folder
@@ -223,7 +221,7 @@ def dispersal(sound, flight, path):
     first.text(-1.3, -1.22, "reflected rays", color=VERMILION, fontsize=12, ha="center")
     bar = figure.add_axes((0.2, 0.058, 0.6, 0.017))
     figure.colorbar(matplotlib.cm.ScalarMappable(norm, colours), cax=bar, orientation="horizontal")
-    bar.set_xlabel("grains in a grain's clump (neighbours less than half a radius apart)", fontsize=12)
+    bar.set_xlabel("grains in a grain's clump (bonded, or less than 5 % of a radius apart)", fontsize=12)
     ticks = [1, 10, 100, 1000, GRAINS]
     bar.set_xticks(ticks, ["1 (free)", "10", "100", "1,000", ""])
     bar.minorticks_off()
