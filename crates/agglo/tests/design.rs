@@ -5,7 +5,7 @@ use std::path::Path;
 
 /// Folders that hold code, relative to the project's root, with a slash at the end.
 fn folders(root: &Path, below: &Path, found: &mut BTreeSet<String>) {
-    for entry in std::fs::read_dir(root.join(below)).unwrap().flatten() {
+    for entry in std::fs::read_dir(root.join(below)).expect("the sources are there").flatten() {
         if entry.path().is_dir() {
             let name = below.join(entry.file_name());
             found.insert(format!("{}/", name.display()));

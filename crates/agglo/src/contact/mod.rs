@@ -42,14 +42,14 @@ pub struct ContactLaws {
 /// What two materials have in common in contact, worked out once per pair of materials.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PairConstants {
-    /// E* \[Pa\]: 1/E* = (1-ν_i²)/E_i + (1-ν_j²)/E_j.
+    /// E* [Pa]: 1/E* = (1-ν_i²)/E_i + (1-ν_j²)/E_j.
     pub effective_modulus: f64,
     /// Tangential over normal contact stiffness, 4 G*/E* (Mindlin).
     pub tangential_ratio: f64,
-    /// Normal restitution \[-\] that this pair of materials has by itself, if any.
+    /// Normal restitution [-] that this pair of materials has by itself, if any.
     pub restitution: Option<f64>,
-    /// Static friction \[-\] that this pair of materials has by itself, if any.
+    /// Static friction [-] that this pair of materials has by itself, if any.
     pub static_friction: Option<f64>,
-    /// Dynamic friction \[-\] that this pair of materials has by itself, if any.
+    /// Dynamic friction [-] that this pair of materials has by itself, if any.
     pub dynamic_friction: Option<f64>,
 }

@@ -8,7 +8,7 @@
 //! The second form follows from the first by Heron's formula and has no cancellation as δ goes to 0.
 //!
 //! # Source
-//! \[A\] T. I. Zohdi, Comput. Mech. 57, 465 (2016), eqs 64-69.
+//! [A] T. I. Zohdi, Comput. Mech. 57, 465 (2016), eqs 64-69.
 //!
 //! # Symbols
 //! | symbol | name in code       | unit | meaning                                             |
@@ -17,7 +17,7 @@
 //! | S      | `radius_sum`       | m    | R_i + R_j                                           |
 //! | R*     | `effective_radius` | m    | R_i R_j / S                                         |
 //! | d      | `distance()`       | m    | distance of the centres                             |
-//! | u      | `strain()`         | -    | E of \[A\] 14, overlap over the sum of the radii    |
+//! | u      | `strain()`         | -    | E of [A] 14, overlap over the sum of the radii    |
 //! | A      | `area()`           | m²   | disc in which the spheres cut each other            |
 //! | L_i    | `arms()[0]`        | m    | from the centre of i to that disc along the normal  |
 //!
@@ -43,20 +43,20 @@ const LONGEST_SERIES: u32 = 2000;
 /// The geometry and inertia of one touching pair, as the laws see it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Touch {
-    /// δ = R_i + R_j - d \[m\], > 0.
+    /// δ = R_i + R_j - d [m], > 0.
     pub overlap: f64,
-    /// R_i + R_j \[m\].
+    /// R_i + R_j [m].
     pub radius_sum: f64,
-    /// R* = R_i R_j / (R_i + R_j) \[m\].
+    /// R* = R_i R_j / (R_i + R_j) [m].
     pub effective_radius: f64,
-    /// m* = m_i m_j / (m_i + m_j) \[kg\].
+    /// m* = m_i m_j / (m_i + m_j) [kg].
     pub effective_mass: f64,
-    /// Mean of the two grains' contact stiffness \[Pa\], softened by heat.
+    /// Mean of the two grains' contact stiffness [Pa], softened by heat.
     pub stiffness: f64,
 }
 
 impl Touch {
-    /// Two grains with radii \[m\], masses \[kg\] and contact stiffness \[Pa\], centres `distance` \[m\] apart.
+    /// Two grains with radii [m], masses [kg] and contact stiffness [Pa], centres `distance` [m] apart.
     #[inline]
     pub fn new(radii: [f64; 2], masses: [f64; 2], stiffness: [f64; 2], distance: f64) -> Self {
         let radius_sum = radii[0] + radii[1];
@@ -69,32 +69,32 @@ impl Touch {
         }
     }
 
-    /// d = |r_j - r_i| \[m\].
+    /// d = |r_j - r_i| [m].
     #[inline]
     pub fn distance(&self) -> f64 {
         self.radius_sum - self.overlap
     }
 
-    /// Overlap over the sum of the radii \[-\] (\[A\] 14).
+    /// Overlap over the sum of the radii [-] ([A] 14).
     #[inline]
     pub fn strain(&self) -> f64 {
         self.overlap / self.radius_sum
     }
 
-    /// Area A \[m²\] of the disc in which the two spheres cut each other (\[A\] 64-69); 0 where there is none.
+    /// Area A [m²] of the disc in which the two spheres cut each other ([A] 64-69); 0 where there is none.
     #[inline]
     pub fn area(&self) -> f64 {
         self.overlap * self.area_over_overlap()
     }
 
-    /// A/δ \[m\], finite as the overlap goes to 0 (2 π R* there).
+    /// A/δ [m], finite as the overlap goes to 0 (2 π R* there).
     #[inline]
     pub fn area_over_overlap(&self) -> f64 {
         let strain = self.strain();
         FRAC_PI_4 * self.radius_sum * (2.0 - strain) * self.lens(strain)
     }
 
-    /// dA/dδ \[m\]; negative where the disc shrinks with growing overlap.
+    /// dA/dδ [m]; negative where the disc shrinks with growing overlap.
     #[inline]
     pub fn area_slope(&self) -> f64 {
         let strain = self.strain();
@@ -115,7 +115,7 @@ impl Touch {
         if above > 0.0 { above / ((1.0 - strain) * (1.0 - strain)) } else { 0.0 }
     }
 
-    /// Integral of E^p A over the overlap from 0 to δ \[m³\]: energy per stiffness of a strain-power law.
+    /// Integral of E^p A over the overlap from 0 to δ [m³]: energy per stiffness of a strain-power law.
     ///
     /// From the power series u (2 - u) h = 2 q u - (1 + 3 w) u² - w Σ (k + 2) u^(k+1), k >= 2, w = 1 - q,
     /// integrated term by term; good to 1e-12 up to a strain of 0.98, for any power p > -2.
@@ -139,8 +139,8 @@ impl Touch {
     }
 }
 
-/// Distances \[m\] along the line of centres from each of two spheres to the plane of their common disc
-/// (\[A\] 69); their sum is `distance` \[m\], also for spheres that do not touch.
+/// Distances [m] along the line of centres from each of two spheres to the plane of their common disc
+/// ([A] 69); their sum is `distance` [m], also for spheres that do not touch.
 #[inline]
 pub fn arms(radii: [f64; 2], distance: f64) -> [f64; 2] {
     let near = 0.5 * (distance - (radii[1] - radii[0]) * (radii[1] + radii[0]) / distance);

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! # Source
-//! \[A\] T. I. Zohdi, Comput. Mech. 57, 465 (2016), eq. 30; L. Schiller and A. Naumann, Z. VDI 77, 318 (1935).
+//! [A] T. I. Zohdi, Comput. Mech. 57, 465 (2016), eq. 30; L. Schiller and A. Naumann, Z. VDI 77, 318 (1935).
 //!
 //! # Symbols
 //! | symbol   | name in code        | unit  | meaning                                             |
@@ -69,7 +69,7 @@ pub enum DragLaw {
 }
 
 impl Drag {
-    /// Velocity \[m/s\] of the medium relative to a grain with this velocity, position \[m\] and time \[s\].
+    /// Velocity [m/s] of the medium relative to a grain with this velocity, position [m] and time [s].
     #[inline]
     pub fn slip(&self, velocity_of_grain: Vec3, position: Vec3, time: f64) -> Vec3 {
         let medium =
@@ -77,9 +77,9 @@ impl Drag {
         medium - velocity_of_grain
     }
 
-    /// Force \[N\] on a grain of this radius \[m\] and velocity \[m/s\] at a point \[m\] and time \[s\].
+    /// Force [N] on a grain of this radius [m] and velocity [m/s] at a point [m] and time [s].
     ///
-    /// It takes `-force . velocity` \[W\] from the grain (less than nothing where the medium drives it).
+    /// It takes `-force . velocity` [W] from the grain (less than nothing where the medium drives it).
     #[inline]
     pub fn force(
         &self,
@@ -93,7 +93,7 @@ impl Drag {
         slip * self.coefficient(medium, radius, slip)
     }
 
-    /// Force over slip \[N s/m\] at a slip velocity \[m/s\].
+    /// Force over slip [N s/m] at a slip velocity [m/s].
     #[inline]
     pub fn coefficient(&self, medium: &Medium, radius: f64, slip: Vec3) -> f64 {
         let stokes = 6.0 * PI * medium.viscosity.si() * radius;
@@ -105,7 +105,7 @@ impl Drag {
         }
     }
 
-    /// Reynolds number \[-\] of a grain: above 1 Stokes' law, above 1000 either law is out of its range.
+    /// Reynolds number [-] of a grain: above 1 Stokes' law, above 1000 either law is out of its range.
     #[inline]
     pub fn reynolds(
         &self,
@@ -118,7 +118,7 @@ impl Drag {
         reynolds(medium, radius, self.slip(velocity_of_grain, position, time).norm())
     }
 
-    /// Mass \[kg\] of medium that moves with a grain of this radius \[m\].
+    /// Mass [kg] of medium that moves with a grain of this radius [m].
     #[inline]
     pub fn added_mass(&self, medium: &Medium, radius: f64) -> f64 {
         self.added_mass * medium.density.si() * 4.0 / 3.0 * PI * radius * radius * radius

@@ -75,7 +75,7 @@ impl<const KG: i8, const M: i8, const S: i8, const K: i8, const A: i8> Expressio
         Ok(Self { text: text.to_owned(), value: Value::Formula { formula: Box::new(formula), arguments } })
     }
 
-    /// The value at a point \[m\] and time \[s\], in SI units.
+    /// The value at a point [m] and time [s], in SI units.
     #[inline]
     pub fn at(&self, point: Vec3, time: f64) -> f64 {
         match &self.value {
@@ -152,7 +152,7 @@ fn leading_number(text: &str) -> (String, usize) {
     (plain, end)
 }
 
-/// The vector of a field at a point \[m\] and time \[s\].
+/// The vector of a field at a point [m] and time [s].
 #[inline]
 pub fn evaluate<const KG: i8, const M: i8, const S: i8, const K: i8, const A: i8>(
     field: &FieldVector<KG, M, S, K, A>,

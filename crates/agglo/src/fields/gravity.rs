@@ -47,14 +47,14 @@ pub struct Gravity {
 }
 
 impl Gravity {
-    /// Weight less buoyancy, per mass \[m/s²\], from the density of the medium over that of the grain \[-\].
+    /// Weight less buoyancy, per mass [m/s²], from the density of the medium over that of the grain [-].
     #[inline]
     pub fn acceleration_on(&self, density_ratio: f64) -> Vec3 {
         let carried = if self.buoyancy { density_ratio } else { 0.0 };
         vector(self.acceleration) * (1.0 - carried)
     }
 
-    /// Potential energy \[J\] of a mass \[kg\] at a point \[m\]; zero at the origin.
+    /// Potential energy [J] of a mass [kg] at a point [m]; zero at the origin.
     #[inline]
     pub fn energy(&self, mass: f64, density_ratio: f64, position: Vec3) -> f64 {
         -mass * self.acceleration_on(density_ratio).dot(position)

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! # Source
-//! \[A\] T. I. Zohdi, Comput. Mech. 57, 465 (2016), eq. 27; J. D. Jackson, *Classical Electrodynamics*.
+//! [A] T. I. Zohdi, Comput. Mech. 57, 465 (2016), eq. 27; J. D. Jackson, *Classical Electrodynamics*.
 //!
 //! # Symbols
 //! | symbol | name in code            | unit | meaning                              |
@@ -52,7 +52,7 @@ pub struct Lorentz {
 }
 
 impl Lorentz {
-    /// Force \[N\] on a charge \[C\] with a velocity \[m/s\] at a point \[m\] and time \[s\].
+    /// Force [N] on a charge [C] with a velocity [m/s] at a point [m] and time [s].
     #[inline]
     pub fn force(&self, charge: f64, velocity: Vec3, position: Vec3, time: f64) -> Vec3 {
         if charge == 0.0 {

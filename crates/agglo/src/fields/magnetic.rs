@@ -6,7 +6,7 @@
 //! ```
 //!
 //! # Source
-//! \[A\] T. I. Zohdi, Comput. Mech. 57, 465 (2016), eq. 29.
+//! [A] T. I. Zohdi, Comput. Mech. 57, 465 (2016), eq. 29.
 //!
 //! # Symbols
 //! | symbol | name in code            | unit | meaning                                              |
@@ -53,7 +53,7 @@ pub struct Magnetic {
 }
 
 impl Magnetic {
-    /// Force \[N\] on a grain of this radius \[m\] at a point \[m\] and time \[s\].
+    /// Force [N] on a grain of this radius [m] at a point [m] and time [s].
     #[inline]
     pub fn force(&self, radius: f64, position: Vec3, time: f64) -> Vec3 {
         let field = &self.magnetic_flux_density;
@@ -69,7 +69,7 @@ impl Magnetic {
         Vec3::from(gradient) * self.magnetisability.si()
     }
 
-    /// Potential energy -γ B·B \[J\] of a grain at a point \[m\] and time \[s\].
+    /// Potential energy -γ B·B [J] of a grain at a point [m] and time [s].
     #[inline]
     pub fn energy(&self, position: Vec3, time: f64) -> f64 {
         -self.magnetisability.si() * evaluate(&self.magnetic_flux_density, position, time).norm_squared()

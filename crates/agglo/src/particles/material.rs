@@ -9,7 +9,7 @@
 //! κ, tangential over normal contact stiffness, is 2 (1-ν)/(2-ν) for two equal materials.
 //!
 //! # Source
-//! \[A\] T. I. Zohdi, Comput. Mech. 57, 465 (2016), eqs 35-37; K. L. Johnson, *Contact Mechanics* (1985),
+//! [A] T. I. Zohdi, Comput. Mech. 57, 465 (2016), eqs 35-37; K. L. Johnson, *Contact Mechanics* (1985),
 //! sections 4.2 and 7.2.
 //!
 //! # Symbols
@@ -102,7 +102,7 @@ pub struct Mixture {
 }
 
 impl Material {
-    /// Contact stiffness \[Pa\] at a temperature \[K\]; 0 where the material has none.
+    /// Contact stiffness [Pa] at a temperature [K]; 0 where the material has none.
     pub fn stiffness_at(&self, temperature: f64) -> f64 {
         let cold = self.contact_stiffness.map_or(0.0, Pressure::si);
         match &self.softening {

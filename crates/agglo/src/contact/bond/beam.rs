@@ -101,15 +101,15 @@ fn default_gap() -> f64 {
 /// What a bond remembers.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BeamState {
-    /// Distance of the centres \[m\] when the bond was made: no normal force there.
+    /// Distance of the centres [m] when the bond was made: no normal force there.
     pub length: f64,
-    /// Radius of the disc \[m\].
+    /// Radius of the disc [m].
     pub radius: f64,
-    /// Shear force on i \[N\].
+    /// Shear force on i [N].
     pub shear: Vec3,
-    /// Bending moment on i \[N m\].
+    /// Bending moment on i [N m].
     pub bending: Vec3,
-    /// Twisting moment on i about the normal \[N m\].
+    /// Twisting moment on i about the normal [N m].
     pub twist: f64,
     /// Normal of the step before, from i to j.
     pub normal: Vec3,
@@ -118,33 +118,33 @@ pub struct BeamState {
 /// The two grains of a bond over one step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BeamPair {
-    /// Distance of the centres \[m\] at the end of the step.
+    /// Distance of the centres [m] at the end of the step.
     pub distance: f64,
     /// Unit normal from i to j at the end of the step.
     pub normal: Vec3,
-    /// Distances \[m\] of the disc from the centres of i and j along the normal; their sum is the distance.
+    /// Distances [m] of the disc from the centres of i and j along the normal; their sum is the distance.
     pub arms: [f64; 2],
-    /// Displacement \[m\] of j's side of the disc relative to i's over the step, spins included, tangential:
+    /// Displacement [m] of j's side of the disc relative to i's over the step, spins included, tangential:
     /// dt times `slip` of the middle of the step.
     pub displacement: Vec3,
-    /// Rotation \[rad\] of j relative to i over the step: dt (w_j - w_i).
+    /// Rotation [rad] of j relative to i over the step: dt (w_j - w_i).
     pub rotation: Vec3,
-    /// Angle \[rad\] by which the pair turned about its normal over the step: dt (w_i + w_j) . n / 2.
+    /// Angle [rad] by which the pair turned about its normal over the step: dt (w_i + w_j) . n / 2.
     pub spin_angle: f64,
-    /// Speed \[m/s\] at which the centres part at the end of the step.
+    /// Speed [m/s] at which the centres part at the end of the step.
     pub separation_speed: f64,
-    /// Velocity \[m/s\] of j's side of the disc relative to i's at the end of the step, tangential:
+    /// Velocity [m/s] of j's side of the disc relative to i's at the end of the step, tangential:
     /// v_j - v_i - (a_i w_i + a_j w_j) x n, without its part along n.
     pub slip: Vec3,
-    /// w_j - w_i at the end of the step \[rad/s\].
+    /// w_j - w_i at the end of the step [rad/s].
     pub spin_difference: Vec3,
-    /// m_i m_j / (m_i + m_j) \[kg\].
+    /// m_i m_j / (m_i + m_j) [kg].
     pub effective_mass: f64,
-    /// I_i I_j / (I_i + I_j) \[kg m²\].
+    /// I_i I_j / (I_i + I_j) [kg m²].
     pub effective_inertia: f64,
 }
 
-/// Forces and moments \[N, N m\] of a bond on its two grains.
+/// Forces and moments [N, N m] of a bond on its two grains.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BeamLoad {
     /// Force on i; on j the opposite.
@@ -157,7 +157,7 @@ pub struct BeamLoad {
     pub tensile_use: f64,
     /// Shear over shear strength: breaks at 1.
     pub shear_use: f64,
-    /// Power lost in the bond's dashpots \[W\].
+    /// Power lost in the bond's dashpots [W].
     pub damping_power: f64,
 }
 
@@ -187,18 +187,18 @@ pub enum Break {
 
 /// Stiffness of a bond's four modes.
 struct Modes {
-    /// \[N/m\].
+    /// [N/m].
     normal: f64,
-    /// \[N/m\].
+    /// [N/m].
     shear: f64,
-    /// \[N m\].
+    /// [N m].
     bending: f64,
-    /// \[N m\].
+    /// [N m].
     twist: f64,
 }
 
 impl Beam {
-    /// A bond without load between two grains of these radii \[m\] whose centres are `distance` \[m\] apart
+    /// A bond without load between two grains of these radii [m] whose centres are `distance` [m] apart
     /// along the unit vector `normal` from i to j.
     pub fn new_state(&self, radius_i: f64, radius_j: f64, distance: f64, normal: Vec3) -> BeamState {
         BeamState {
@@ -274,7 +274,7 @@ impl Beam {
         load.add(pair, tension, shear, moment);
     }
 
-    /// Elastic energy \[J\] of a bond whose grains' centres are `distance` \[m\] apart.
+    /// Elastic energy [J] of a bond whose grains' centres are `distance` [m] apart.
     pub fn energy(&self, state: &BeamState, distance: f64) -> f64 {
         let modes = self.modes(state);
         let stretch = distance - state.length;
@@ -285,8 +285,8 @@ impl Beam {
             + stored(state.twist * state.twist, modes.twist))
     }
 
-    /// Longest stable step \[s\] of an explicit scheme for this bond alone, from the masses \[kg\], moments of
-    /// inertia \[kg m²\] and arms \[m\] of its two grains; for grains with z bonds divide by √z.
+    /// Longest stable step [s] of an explicit scheme for this bond alone, from the masses [kg], moments of
+    /// inertia [kg m²] and arms [m] of its two grains; for grains with z bonds divide by √z.
     ///
     /// (2/ω)(√(1 + ζ²) - ζ), with ω² the largest of the stretching, the twisting and a bound (sum) on the
     /// coupled shearing and bending mode. Infinite for a bond without stiffness.

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! # Source
-//! \[A\] T. I. Zohdi, Comput. Mech. 57, 465 (2016), eqs 25-26.
+//! [A] T. I. Zohdi, Comput. Mech. 57, 465 (2016), eqs 25-26.
 //!
 //! # Symbols
 //! | symbol | name in code           | unit | meaning                                            |
@@ -68,7 +68,7 @@ impl StrainBond {
         touch.overlap >= self.threshold_strain * touch.radius_sum
     }
 
-    /// Attraction \[N\], zero below the threshold.
+    /// Attraction [N], zero below the threshold.
     #[inline]
     pub fn attraction(&self, touch: &Touch) -> f64 {
         if !self.acts(touch) {
@@ -77,7 +77,7 @@ impl StrainBond {
         self.stiffness.si() * strain_power(touch.strain(), self.exponent) * touch.area()
     }
 
-    /// Energy \[J\], zero up to the threshold and negative beyond, since the bond attracts.
+    /// Energy [J], zero up to the threshold and negative beyond, since the bond attracts.
     pub fn energy(&self, touch: &Touch) -> f64 {
         if !self.acts(touch) {
             return 0.0;
@@ -87,8 +87,8 @@ impl StrainBond {
         -self.stiffness.si() * integral
     }
 
-    /// Tangential force \[N\] along the relative tangential velocity, from the slip speed \[m/s\] and the step
-    /// \[s\]. All of its work is lost.
+    /// Tangential force [N] along the relative tangential velocity, from the slip speed [m/s] and the step
+    /// [s]. All of its work is lost.
     #[inline]
     pub fn tangential(&self, touch: &Touch, slip_speed: f64, dt: f64) -> f64 {
         if self.acts(touch) { self.tangential_stiffness.si() * slip_speed * touch.area() * dt } else { 0.0 }

@@ -22,7 +22,7 @@ pub enum Damping {
 }
 
 impl Damping {
-    /// Dashpot coefficient c \[N s/m\]; the force on the pair is -c times the speed of separation.
+    /// Dashpot coefficient c [N s/m]; the force on the pair is -c times the speed of separation.
     #[inline]
     pub fn coefficient(&self, pair: &PairConstants, touch: &Touch, normal: &Normal) -> f64 {
         match self {

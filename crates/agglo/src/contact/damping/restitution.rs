@@ -55,7 +55,7 @@ pub struct Restitution {
 }
 
 impl Restitution {
-    /// Dashpot coefficient \[N s/m\]; 0 where the elastic force does not grow with the overlap.
+    /// Dashpot coefficient [N s/m]; 0 where the elastic force does not grow with the overlap.
     #[inline]
     pub fn coefficient(&self, pair: &PairConstants, touch: &Touch, normal: &Normal) -> f64 {
         let ratio = damping_ratio(pair.restitution.unwrap_or(self.restitution));
@@ -65,7 +65,7 @@ impl Restitution {
     }
 }
 
-/// Part of critical damping \[-\] that gives this restitution: -ln e / √(π² + ln² e); 1 for e = 0.
+/// Part of critical damping [-] that gives this restitution: -ln e / √(π² + ln² e); 1 for e = 0.
 #[inline]
 pub fn damping_ratio(restitution: f64) -> f64 {
     if restitution <= 0.0 {

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! # Source
-//! \[A\] T. I. Zohdi, Comput. Mech. 57, 465 (2016), eq. 19.
+//! [A] T. I. Zohdi, Comput. Mech. 57, 465 (2016), eq. 19.
 //!
 //! # Symbols
 //! | symbol | name in code  | unit   | meaning                                    |
@@ -44,7 +44,7 @@ pub struct ViscousArea {
 }
 
 impl ViscousArea {
-    /// Dashpot coefficient \[N s/m\].
+    /// Dashpot coefficient [N s/m].
     #[inline]
     pub fn coefficient(&self, touch: &Touch) -> f64 {
         self.coefficient.si() * touch.area()

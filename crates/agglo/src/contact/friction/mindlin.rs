@@ -73,23 +73,23 @@ pub struct Mindlin {
 /// What a contact remembers: the force of its tangential spring and the stiffness it was loaded with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct TangentialSpring {
-    /// Force on i \[N\].
+    /// Force on i [N].
     pub force: Vec3,
-    /// Stiffness \[N/m\] at that moment.
+    /// Stiffness [N/m] at that moment.
     pub stiffness: f64,
     /// Whether the contact slips, so that dynamic friction is its limit.
     pub sliding: bool,
 }
 
 impl TangentialSpring {
-    /// Energy stored \[J\].
+    /// Energy stored [J].
     #[inline]
     pub fn energy(&self) -> f64 {
         if self.stiffness > 0.0 { 0.5 * self.force.norm_squared() / self.stiffness } else { 0.0 }
     }
 
-    /// The force \[N\] after the contact has turned to `normal` and by `spin_angle` \[rad\] about it, relaxed
-    /// where the stiffness \[N/m\] has fallen.
+    /// The force [N] after the contact has turned to `normal` and by `spin_angle` [rad] about it, relaxed
+    /// where the stiffness [N/m] has fallen.
     #[inline]
     fn carried(&self, normal: Vec3, spin_angle: f64, stiffness: f64) -> Vec3 {
         let before = self.force.norm_squared();
@@ -111,22 +111,22 @@ impl TangentialSpring {
 pub struct Sliding {
     /// Unit normal from i to j at the end of the step.
     pub normal: Vec3,
-    /// Displacement of j's surface relative to i's over the step, tangential \[m\].
+    /// Displacement of j's surface relative to i's over the step, tangential [m].
     pub displacement: Vec3,
-    /// Velocity of j's surface relative to i's at the end of the step, tangential \[m/s\].
+    /// Velocity of j's surface relative to i's at the end of the step, tangential [m/s].
     pub velocity: Vec3,
-    /// Angle \[rad\] by which the pair turned about its normal over the step: dt (w_i + w_j) . n / 2.
+    /// Angle [rad] by which the pair turned about its normal over the step: dt (w_i + w_j) . n / 2.
     pub spin_angle: f64,
-    /// Slope of the normal force over the overlap \[N/m\].
+    /// Slope of the normal force over the overlap [N/m].
     pub normal_stiffness: f64,
-    /// Normal dashpot \[N s/m\].
+    /// Normal dashpot [N s/m].
     pub normal_dashpot: f64,
-    /// Normal force \[N\] with its dashpot, repulsion > 0.
+    /// Normal force [N] with its dashpot, repulsion > 0.
     pub normal_force: f64,
 }
 
 impl Mindlin {
-    /// The force on i \[N\] and the spring to remember.
+    /// The force on i [N] and the spring to remember.
     ///
     /// Over the step friction takes `force . displacement` less the growth of the spring's energy.
     #[inline]

@@ -7,7 +7,7 @@
 //! along the relative tangential velocity of j's surface, on i.
 //!
 //! # Source
-//! \[A\] T. I. Zohdi, Comput. Mech. 57, 465 (2016), eqs 20-24.
+//! [A] T. I. Zohdi, Comput. Mech. 57, 465 (2016), eqs 20-24.
 //!
 //! # Symbols
 //! | symbol | name in code       | unit | meaning                                    |
@@ -58,8 +58,8 @@ pub struct Regularised {
 }
 
 impl Regularised {
-    /// Size of the friction force \[N\] along the relative tangential velocity, from the contact's `area`
-    /// \[m²\], the slip speed \[m/s\], the step \[s\] and the normal force \[N\]. All of its work is lost.
+    /// Size of the friction force [N] along the relative tangential velocity, from the contact's `area`
+    /// [m²], the slip speed [m/s], the step [s] and the normal force [N]. All of its work is lost.
     #[inline]
     pub fn force(&self, pair: &PairConstants, area: f64, slip_speed: f64, dt: f64, normal_force: f64) -> f64 {
         let stick = self.stiffness.si() * slip_speed * area * dt;

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! # Source
-//! K. L. Johnson, *Contact Mechanics* (1985), section 4.2; \[A\] T. I. Zohdi, Comput. Mech. 57, 465 (2016).
+//! K. L. Johnson, *Contact Mechanics* (1985), section 4.2; [A] T. I. Zohdi, Comput. Mech. 57, 465 (2016).
 //!
 //! # Symbols
 //! | symbol | name in code        | unit | meaning                                       |
@@ -44,18 +44,18 @@ use crate::contact::{PairConstants, Touch};
 pub struct Hertz {}
 
 impl Hertz {
-    /// Repulsion \[N\].
+    /// Repulsion [N].
     #[inline]
     pub fn force(&self, pair: &PairConstants, touch: &Touch) -> f64 {
         2.0 / 3.0 * touch.overlap * self.tangent_stiffness(pair, touch)
     }
 
-    /// Energy stored \[J\].
+    /// Energy stored [J].
     pub fn energy(&self, pair: &PairConstants, touch: &Touch) -> f64 {
         0.4 * touch.overlap * self.force(pair, touch)
     }
 
-    /// Slope of the force over the overlap \[N/m\].
+    /// Slope of the force over the overlap [N/m].
     #[inline]
     pub fn tangent_stiffness(&self, pair: &PairConstants, touch: &Touch) -> f64 {
         2.0 * pair.effective_modulus * (touch.effective_radius * touch.overlap).sqrt()

@@ -43,18 +43,18 @@ pub struct Hooke {
 }
 
 impl Hooke {
-    /// Repulsion \[N\].
+    /// Repulsion [N].
     #[inline]
     pub fn force(&self, _: &PairConstants, touch: &Touch) -> f64 {
         self.stiffness.si() * touch.overlap
     }
 
-    /// Energy stored \[J\].
+    /// Energy stored [J].
     pub fn energy(&self, _: &PairConstants, touch: &Touch) -> f64 {
         0.5 * self.stiffness.si() * touch.overlap * touch.overlap
     }
 
-    /// Slope of the force over the overlap \[N/m\].
+    /// Slope of the force over the overlap [N/m].
     #[inline]
     pub fn tangent_stiffness(&self, _: &PairConstants, _: &Touch) -> f64 {
         self.stiffness.si()

@@ -36,18 +36,18 @@ macro_rules! dispatch {
 }
 
 impl Normal {
-    /// Repulsion \[N\].
+    /// Repulsion [N].
     #[inline]
     pub fn force(&self, pair: &PairConstants, touch: &Touch) -> f64 {
         dispatch!(self, law => law.force(pair, touch))
     }
 
-    /// Energy stored \[J\]; the force is its slope over the overlap.
+    /// Energy stored [J]; the force is its slope over the overlap.
     pub fn energy(&self, pair: &PairConstants, touch: &Touch) -> f64 {
         dispatch!(self, law => law.energy(pair, touch))
     }
 
-    /// Slope of the force over the overlap \[N/m\].
+    /// Slope of the force over the overlap [N/m].
     #[inline]
     pub fn tangent_stiffness(&self, pair: &PairConstants, touch: &Touch) -> f64 {
         dispatch!(self, law => law.tangent_stiffness(pair, touch))

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! # Source
-//! \[A\] T. I. Zohdi, Comput. Mech. 57, 465 (2016), eqs 11-15; A from eqs 64-69, see [`Touch::area`].
+//! [A] T. I. Zohdi, Comput. Mech. 57, 465 (2016), eqs 11-15; A from eqs 64-69, see [`Touch::area`].
 //!
 //! # Symbols
 //! | symbol | name in code      | unit | meaning                                                    |
@@ -59,18 +59,18 @@ pub(in crate::contact) fn strain_power(strain: f64, exponent: f64) -> f64 {
 }
 
 impl StrainPower {
-    /// Repulsion \[N\].
+    /// Repulsion [N].
     #[inline]
     pub fn force(&self, _: &PairConstants, touch: &Touch) -> f64 {
         touch.stiffness * strain_power(touch.strain(), self.exponent) * touch.area()
     }
 
-    /// Energy stored \[J\].
+    /// Energy stored [J].
     pub fn energy(&self, _: &PairConstants, touch: &Touch) -> f64 {
         touch.stiffness * touch.strain_integral(self.exponent)
     }
 
-    /// Slope of the force over the overlap \[N/m\]; negative where a much smaller grain is nearly swallowed.
+    /// Slope of the force over the overlap [N/m]; negative where a much smaller grain is nearly swallowed.
     #[inline]
     pub fn tangent_stiffness(&self, _: &PairConstants, touch: &Touch) -> f64 {
         let growth = self.exponent * touch.area_over_overlap() + touch.area_slope();

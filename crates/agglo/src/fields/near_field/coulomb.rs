@@ -52,13 +52,13 @@ fn one() -> f64 {
 }
 
 impl Coulomb {
-    /// Repulsion \[N\] at a distance \[m\].
+    /// Repulsion [N] at a distance [m].
     #[inline]
     pub fn force(&self, a: &Source, b: &Source, distance: f64) -> f64 {
         self.energy(a, b, distance) / distance
     }
 
-    /// Energy \[J\], zero at infinity.
+    /// Energy [J], zero at infinity.
     #[inline]
     pub fn energy(&self, a: &Source, b: &Source, distance: f64) -> f64 {
         a.charge * b.charge / (4.0 * PI * VACUUM_PERMITTIVITY * self.relative_permittivity * distance)

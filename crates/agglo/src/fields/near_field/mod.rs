@@ -1,4 +1,4 @@
-//! Attraction and repulsion between grains at a distance (\[A\] 28): the laws, and how far they are followed.
+//! Attraction and repulsion between grains at a distance ([A] 28): the laws, and how far they are followed.
 //!
 //! Signs as in contact: a force > 0 repels. Energies are zero at infinity, or at the cut-off where there is one.
 
@@ -41,18 +41,18 @@ pub enum NearFieldLaw {
 /// What a grain is to the near field.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Source {
-    /// Mass \[kg\].
+    /// Mass [kg].
     pub mass: f64,
-    /// Radius \[m\].
+    /// Radius [m].
     pub radius: f64,
-    /// Charge \[C\].
+    /// Charge [C].
     pub charge: f64,
-    /// Sign c of \[A\] 28: 1 or -1.
+    /// Sign c of [A] 28: 1 or -1.
     pub polarity: f64,
 }
 
 impl NearFieldLaw {
-    /// Repulsion \[N\] of two grains at a distance of centres \[m\].
+    /// Repulsion [N] of two grains at a distance of centres [m].
     #[inline]
     pub fn force(&self, a: &Source, b: &Source, distance: f64) -> f64 {
         match self {
@@ -62,7 +62,7 @@ impl NearFieldLaw {
         }
     }
 
-    /// Energy \[J\]; minus its slope over the distance is the force.
+    /// Energy [J]; minus its slope over the distance is the force.
     pub fn energy(&self, a: &Source, b: &Source, distance: f64) -> f64 {
         match self {
             Self::PowerPair(law) => law.energy(a, b, distance),
@@ -81,7 +81,7 @@ impl NearFieldLaw {
         }
     }
 
-    /// A bound on the size of the force \[N\] at and beyond a distance \[m\] that decays with `slowest_decay`.
+    /// A bound on the size of the force [N] at and beyond a distance [m] that decays with `slowest_decay`.
     fn bound(&self, a: &Source, b: &Source, distance: f64) -> f64 {
         match self {
             Self::PowerPair(law) => law.bound(a, b, distance),
@@ -91,13 +91,13 @@ impl NearFieldLaw {
 }
 
 impl NearField {
-    /// Repulsion \[N\] of two grains at a distance of centres \[m\]; 0 beyond the cut-off.
+    /// Repulsion [N] of two grains at a distance of centres [m]; 0 beyond the cut-off.
     #[inline]
     pub fn force(&self, a: &Source, b: &Source, distance: f64) -> f64 {
         if self.is_beyond(distance) { 0.0 } else { self.law.force(a, b, distance) }
     }
 
-    /// Energy \[J\] whose slope the force is: zero at infinity, or from the cut-off on where there is one.
+    /// Energy [J] whose slope the force is: zero at infinity, or from the cut-off on where there is one.
     pub fn energy(&self, a: &Source, b: &Source, distance: f64) -> f64 {
         match self.cutoff {
             Some(cutoff) if distance > cutoff.si() => 0.0,
@@ -106,14 +106,14 @@ impl NearField {
         }
     }
 
-    /// Largest force \[N\] that the cut-off takes from one pair: a bound on what it left out at any distance
+    /// Largest force [N] that the cut-off takes from one pair: a bound on what it left out at any distance
     /// beyond, by which the force of a pair jumps there. 0 without a cut-off.
     pub fn truncation_error(&self, a: &Source, b: &Source) -> f64 {
         self.cutoff.map_or(0.0, |cutoff| self.law.bound(a, b, cutoff.si()))
     }
 
-    /// Bound on the force \[N\] that the cut-off takes from a grain at the surface of a uniform cloud of
-    /// `number_density` \[1/m³\] that fills half of space: π n F(r_c) r_c³/(b - 3) for forces that fall off
+    /// Bound on the force [N] that the cut-off takes from a grain at the surface of a uniform cloud of
+    /// `number_density` [1/m³] that fills half of space: π n F(r_c) r_c³/(b - 3) for forces that fall off
     /// like d^-b. Infinite for b <= 3 (charges, masses): such a force needs all pairs.
     pub fn truncation_error_in_cloud(&self, a: &Source, b: &Source, number_density: f64) -> f64 {
         let Some(cutoff) = self.cutoff.map(Length::si) else { return 0.0 };

@@ -8,14 +8,14 @@
 //! n points from i to j, so the first term attracts; the function `force` returns repulsion, -F_i · n.
 //!
 //! # Source
-//! \[A\] T. I. Zohdi, Comput. Mech. 57, 465 (2016), eq. 28.
+//! [A] T. I. Zohdi, Comput. Mech. 57, 465 (2016), eq. 28.
 //!
 //! # Symbols
 //! | symbol | name in code          | unit | meaning                                                   |
 //! |--------|-----------------------|------|-----------------------------------------------------------|
 //! | a1, b1 | `attraction`, `attraction_exponent` | SI, - | first term                                 |
 //! | a2, b2 | `repulsion`, `repulsion_exponent`   | SI, - | second term                                |
-//! | x      | `scaling`             |      | mass \[kg\], surface \[m²\], volume \[m³\] or charge \[C\] of a grain |
+//! | x      | `scaling`             |      | mass [kg], surface [m²], volume [m³] or charge [C] of a grain |
 //! | c      | `polarity`            | -    | 1 or -1; unlike signs turn both terms round               |
 //! | d      | `distance`            | m    | of the centres                                            |
 //!
@@ -108,7 +108,7 @@ impl PowerPair {
         a.polarity * b.polarity * self.scaling.of(a) * self.scaling.of(b)
     }
 
-    /// Repulsion \[N\] at a distance \[m\].
+    /// Repulsion [N] at a distance [m].
     #[inline]
     pub fn force(&self, a: &Source, b: &Source, distance: f64) -> f64 {
         let repulsion = self.repulsion * inverse_power(distance, self.repulsion_exponent);
@@ -116,7 +116,7 @@ impl PowerPair {
         self.scale(a, b) * (repulsion - attraction)
     }
 
-    /// Energy \[J\], zero at infinity where both powers are above 1.
+    /// Energy [J], zero at infinity where both powers are above 1.
     pub fn energy(&self, a: &Source, b: &Source, distance: f64) -> f64 {
         let repulsion = self.repulsion * tail(distance, self.repulsion_exponent);
         let attraction = self.attraction * tail(distance, self.attraction_exponent);
@@ -132,7 +132,7 @@ impl PowerPair {
         }
     }
 
-    /// Sum of the sizes of both terms \[N\], which does not vanish where they balance.
+    /// Sum of the sizes of both terms [N], which does not vanish where they balance.
     pub(super) fn bound(&self, a: &Source, b: &Source, distance: f64) -> f64 {
         let repulsion = self.repulsion.abs() * inverse_power(distance, self.repulsion_exponent);
         let attraction = self.attraction.abs() * inverse_power(distance, self.attraction_exponent);

@@ -61,7 +61,7 @@ fn products(a: &Source, b: &Source, gap: f64) -> (f64, f64, f64) {
 }
 
 impl VanDerWaals {
-    /// Repulsion \[N\] at a distance \[m\]: negative, since it attracts.
+    /// Repulsion [N] at a distance [m]: negative, since it attracts.
     #[inline]
     pub fn force(&self, a: &Source, b: &Source, distance: f64) -> f64 {
         let radii = a.radius + b.radius;
@@ -71,7 +71,7 @@ impl VanDerWaals {
         -32.0 / 3.0 * self.hamaker.si() * product * (radii + gap) * ratio * ratio
     }
 
-    /// Energy \[J\], zero at infinity; smooth at the cap.
+    /// Energy [J], zero at infinity; smooth at the cap.
     pub fn energy(&self, a: &Source, b: &Source, distance: f64) -> f64 {
         let gap = distance - a.radius - b.radius;
         let capped = gap.max(self.smallest_gap.si());
