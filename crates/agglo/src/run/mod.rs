@@ -10,6 +10,7 @@ mod tables;
 
 use std::ops::ControlFlow;
 use std::path::Path;
+use std::time::Instant;
 
 pub use error::RunError;
 pub use summary::{Clusters, EnergyFigures, PulseFigures, Summary};
@@ -55,11 +56,12 @@ pub fn run(
     dir: &Path,
     observer: &mut Observer<'_>,
 ) -> Result<Ending, RunError> {
+    let sat_down = Instant::now();
     let scenario = scenario.resolved();
     let grains = crate::packing::place(&scenario, base)?;
     let folder = Folder::create(dir)?;
     on_a_worker(|| {
-        let started = Session::start(&scenario, grains, folder.clone());
+        let started = Session::start(&scenario, grains, folder.clone(), sat_down);
         started.inspect_err(|_| folder.abandon())?.carry_on(observer)
     })
 }

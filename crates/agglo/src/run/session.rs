@@ -20,9 +20,9 @@ const TELL_EVERY: Duration = Duration::from_millis(100);
 
 /// What a checkpoint holds.
 #[derive(Serialize, Deserialize)]
-struct Saved {
+struct Saved<'a> {
     scenario: String,
-    simulation: SimulationState,
+    simulation: SimulationState<'a>,
     recorder: RecorderState,
     wall_s: f64,
 }
@@ -40,12 +40,16 @@ pub struct Session {
 }
 
 impl Session {
-    /// Starts a run in an empty folder.
+    /// Starts a run in an empty folder; its wall time counts from `sat_down`.
     ///
     /// # Errors
     /// [`RunError`] where the start fails or a file cannot be written.
-    pub fn start(scenario: &Scenario, grains: Particles, folder: Folder) -> Result<Self, RunError> {
-        let sat_down = Instant::now();
+    pub fn start(
+        scenario: &Scenario,
+        grains: Particles,
+        folder: Folder,
+        sat_down: Instant,
+    ) -> Result<Self, RunError> {
         let simulation = Simulation::start(scenario, grains).map_err(RunError::Start)?;
         let head = format!(
             "# Resolved scenario of a run of agglo {}: every default is written out.\n",
@@ -75,7 +79,7 @@ impl Session {
     /// [`RunError`] where there is none, or a file cannot be brought back to its state at that time.
     pub fn resume(folder: Folder) -> Result<Self, RunError> {
         let dir = folder.root().to_owned();
-        let (saved, _, refused) = match checkpoint::load_newest::<Saved>(&folder.checkpoints()) {
+        let (saved, _, refused) = match checkpoint::load_newest::<Saved<'_>>(&folder.checkpoints()) {
             Err(RecordError::NoCheckpoint { refused, .. }) if refused.is_empty() => {
                 return Err(RunError::NoCheckpointYet { dir });
             }

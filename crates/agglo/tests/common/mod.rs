@@ -76,7 +76,7 @@ pub fn bytes(simulation: &Simulation) -> Vec<u8> {
 }
 
 /// The state after writing and reading.
-pub fn written_and_read(simulation: &Simulation) -> SimulationState {
+pub fn written_and_read(simulation: &Simulation) -> SimulationState<'static> {
     postcard::from_bytes(&bytes(simulation)).unwrap()
 }
 

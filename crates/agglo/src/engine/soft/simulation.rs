@@ -1,5 +1,7 @@
 //! A simulation of soft spheres: one step after another, with rays, bonds, the ledger and the guards.
 
+use std::borrow::Cow;
+
 use serde::{Deserialize, Serialize};
 
 use crate::contact::network::{BondEvent, Network};
@@ -39,12 +41,12 @@ pub struct Clock {
     pub rejected: u64,
 }
 
-/// All that a simulation needs to go on with the same bits.
+/// All that a simulation needs to go on with the same bits; borrowed where it is written, owned where it is read.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct SimulationState {
+pub struct SimulationState<'a> {
     clock: Clock,
-    grains: Particles,
-    loads: Loads,
+    grains: Cow<'a, Particles>,
+    loads: Cow<'a, Loads>,
     rates: Rates,
     contacts: Vec<Remembered>,
     bonds: Vec<Bond>,
@@ -123,13 +125,13 @@ impl Simulation {
     }
 
     /// Goes on from a saved state.
-    pub fn resume(scenario: &Scenario, state: SimulationState) -> Self {
+    pub fn resume(scenario: &Scenario, state: SimulationState<'_>) -> Self {
         let n = state.grains.len();
         let network = Network::restored(beam_of(scenario), state.bonds, state.bonds_made_at_start, n);
         let pulses = Pulses::resume(scenario, state.pulses);
-        let mut system = System::new(state.grains, Laws::new(scenario), network);
+        let mut system = System::new(state.grains.into_owned(), Laws::new(scenario), network);
         system.rays_are_impulses = pulses.are_impulses();
-        system.loads = state.loads;
+        system.loads = state.loads.into_owned();
         system.rates = state.rates;
         system.remember(&state.contacts);
         Self {
@@ -146,11 +148,11 @@ impl Simulation {
     }
 
     /// All that is needed to go on with the same bits.
-    pub fn state(&self) -> SimulationState {
+    pub fn state(&self) -> SimulationState<'_> {
         SimulationState {
             clock: self.clock,
-            grains: self.system.grains.clone(),
-            loads: self.system.loads.clone(),
+            grains: Cow::Borrowed(&self.system.grains),
+            loads: Cow::Borrowed(&self.system.loads),
             rates: self.system.rates,
             contacts: self.system.remembered(),
             bonds: self.system.network.bonds().to_vec(),

@@ -53,12 +53,12 @@ fn the_overlap_of_an_impact() {
 
 #[test]
 fn low_frequencies_are_noted() {
-    let audible = template("microscale").replace("150 MHz", "20 kHz");
+    let audible = template("microscale").replace("250 MHz", "20 kHz");
     let plan = plan_of(&audible);
     // The radius of mean volume is 20 um exp(1.5 ln² 1.3) = 22.176 um; k a = 2 pi 2e4 Hz x 22.176 um / 1500 m/s.
     assert!(plan.notes.iter().any(|note| note.contains("k a = 0.001858")), "{:?}", plan.notes);
     assert!(!plan_of(template("microscale")).notes.iter().any(|note| note.contains("k a")));
-    let silent = template("microscale").replace("frequency = \"150 MHz\"", "");
+    let silent = template("microscale").replace("frequency = \"250 MHz\"", "");
     assert!(plan_of(&silent).notes.iter().any(|note| note.contains("no frequency")));
 }
 
