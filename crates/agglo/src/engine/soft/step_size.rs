@@ -9,6 +9,7 @@
 //! Rayleigh time: Y. Li, Y. Xu, C. Thornton, *Powder Technol.* 160, 219 (2005).
 
 use crate::contact::{Bonds, Normal, Touch};
+use crate::particles::Material;
 use crate::scenario::Scenario;
 
 use super::system::System;
@@ -30,16 +31,21 @@ pub fn critical(scenario: &Scenario, system: &System) -> f64 {
     rayleigh(scenario, system).min(contact(scenario, system)).min(bonds(scenario, system))
 }
 
+/// Rayleigh's time [s] of a grain of this radius [m]; nothing for a material without a Young's modulus.
+pub fn rayleigh_time(material: &Material, radius: f64) -> Option<f64> {
+    let poisson = material.poisson_ratio.unwrap_or(0.0);
+    let shear = material.youngs_modulus?.si() / (2.0 * (1.0 + poisson));
+    let time = std::f64::consts::PI * radius * (material.density.si() / shear).sqrt();
+    Some(time / (0.1631 * poisson + 0.8766))
+}
+
 fn rayleigh(scenario: &Scenario, system: &System) -> f64 {
     let is_hertz = matches!(scenario.contact.as_ref().map(|laws| &laws.normal), Some(Normal::Hertz(_)));
     let materials: Vec<_> = scenario.materials.values().collect();
     let grains = &system.grains;
     let times = (0..grains.len()).filter_map(|at| {
         let material = materials[grains.material[at] as usize];
-        let poisson = material.poisson_ratio.unwrap_or(0.0);
-        let shear = material.youngs_modulus?.si() / (2.0 * (1.0 + poisson));
-        let time = std::f64::consts::PI * grains.radius[at] * (material.density.si() / shear).sqrt();
-        Some(time / (0.1631 * poisson + 0.8766))
+        rayleigh_time(material, grains.radius[at])
     });
     if is_hertz { times.fold(f64::INFINITY, f64::min) } else { f64::INFINITY }
 }

@@ -1,7 +1,6 @@
 //! Rules of the fields.
 
 use super::Check;
-use super::grains::largest_radius;
 use crate::fields::near_field::NearFieldLaw;
 use crate::fields::{Drag, NearField};
 use crate::scenario::figures::readable;
@@ -42,7 +41,7 @@ fn drag(check: &mut Check, scenario: &Scenario, law: &Drag) {
 
 fn near_field(check: &mut Check, scenario: &Scenario, law: &NearField) {
     if let Some(cutoff) = law.cutoff {
-        let largest = scenario.grains.iter().map(|group| largest_radius(&group.size)).fold(0.0, f64::max);
+        let largest = scenario.grains.iter().map(|group| group.size.largest()).fold(0.0, f64::max);
         if cutoff.si() <= 2.0 * largest {
             let (found, least) = (readable(cutoff.si(), "m"), readable(2.0 * largest, "m"));
             let message =

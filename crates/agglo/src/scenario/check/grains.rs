@@ -7,13 +7,10 @@ use std::path::Path;
 use super::materials::named;
 use super::{Check, shown};
 use crate::domain::Region;
-use crate::packing::{GrainList, Lattice, Placement, RandomAddition, Size};
+use crate::packing::{GrainList, Lattice, Placement, RandomAddition, SATURATION, Size};
 use crate::scenario::figures::{digits, readable};
 use crate::scenario::types::{GrainGroup, Scenario};
 use crate::units::Length;
-
-/// Solid fraction at which random sequential addition of equal spheres jams (Widom 1966).
-pub(in crate::scenario) const SATURATION: f64 = 0.382;
 
 pub(super) fn check(check: &mut Check, scenario: &Scenario) {
     if scenario.grains.is_empty() {
@@ -37,26 +34,6 @@ pub(super) fn check(check: &mut Check, scenario: &Scenario) {
         if let Placement::List(list) = &group.placement {
             written_out(check, &format!("{key}.placement.list"), list, &mut places);
         }
-    }
-}
-
-/// Smallest radius [m] of a size distribution.
-pub(in crate::scenario) fn smallest_radius(size: &Size) -> f64 {
-    match size {
-        Size::Constant(law) => law.radius.si(),
-        Size::Uniform(law) => law.smallest.si(),
-        Size::Lognormal(law) => law.smallest.si(),
-        Size::Table(law) => law.radii.iter().map(|radius| radius.si()).fold(f64::INFINITY, f64::min),
-    }
-}
-
-/// Largest radius [m] of a size distribution.
-pub(in crate::scenario) fn largest_radius(size: &Size) -> f64 {
-    match size {
-        Size::Constant(law) => law.radius.si(),
-        Size::Uniform(law) => law.largest.si(),
-        Size::Lognormal(law) => law.largest.si(),
-        Size::Table(law) => law.radii.iter().map(|radius| radius.si()).fold(0.0, f64::max),
     }
 }
 
@@ -163,7 +140,7 @@ fn random(check: &mut Check, key: &str, law: &RandomAddition, size: &Size) {
 /// Random addition jams: a denser packing must be refused, not waited for.
 fn saturation(check: &mut Check, key: &str, fraction: f64, law: &RandomAddition, size: &Size) {
     let limit = if matches!(size, Size::Constant(_)) { SATURATION } else { 0.6 };
-    let swollen = (1.0 + 0.5 * law.gap.si() / largest_radius(size)).powi(3) * fraction;
+    let swollen = (1.0 + 0.5 * law.gap.si() / size.largest()).powi(3) * fraction;
     if swollen > limit {
         let of_what = if law.gap.si() > 0.0 { ", with half the gap around each grain," } else { "" };
         let message = format!(
@@ -198,7 +175,7 @@ pub(in crate::scenario) fn mean_volume(size: &Size) -> f64 {
 
 /// Whether the largest grain fits into the region.
 fn holds(check: &mut Check, key: &str, region: &Region, size: &Size) -> bool {
-    let radius = largest_radius(size);
+    let radius = size.largest();
     let fits = region.contains(region.center(), radius);
     if !fits {
         let diameter = shown(2.0 * radius, Length::DIMENSION);
@@ -212,7 +189,7 @@ fn lattice(check: &mut Check, key: &str, law: &Lattice, size: &Size) {
     if check.region(&format!("{key}.region"), &law.region) {
         holds(check, key, &law.region, size);
     }
-    let diameter = 2.0 * largest_radius(size);
+    let diameter = 2.0 * size.largest();
     check.positive(&format!("{key}.spacing"), law.spacing);
     // The bound leaves room for the rounding of a spacing that is written as twice a radius.
     if law.spacing.si() > 0.0 && law.spacing.si() < diameter * (1.0 - 1e-12) {

@@ -7,7 +7,7 @@ mod grains;
 mod materials;
 mod time;
 
-pub(super) use grains::{SATURATION, largest_radius, mean_volume, smallest_radius};
+pub(super) use grains::mean_volume;
 
 use std::collections::BTreeSet;
 use std::path::Path;

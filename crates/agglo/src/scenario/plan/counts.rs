@@ -6,8 +6,9 @@ use std::path::Path;
 
 use super::Plan;
 use crate::domain::Region;
+use crate::packing::SATURATION;
 use crate::packing::{Lattice, LatticeKind, Placement, RandomAddition};
-use crate::scenario::check::{SATURATION, largest_radius, mean_volume};
+use crate::scenario::check::mean_volume;
 use crate::scenario::types::{GrainGroup, Scenario};
 
 const BYTES_PER_GRAIN: f64 = 400.0;
@@ -54,7 +55,7 @@ pub(super) fn pulses_before(beam: &crate::acoustics::Beam, end: f64) -> u32 {
 pub(super) fn count_of(group: &GrainGroup) -> u64 {
     match &group.placement {
         Placement::Random(law) => random(law, mean_volume(&group.size)),
-        Placement::Lattice(law) => lattice(law, largest_radius(&group.size)),
+        Placement::Lattice(law) => lattice(law, group.size.largest()),
         Placement::List(list) => list.positions.len() as u64,
         Placement::Table(_) => 0,
     }

@@ -6,11 +6,11 @@ use super::Plan;
 use crate::acoustics::{Acoustics, RayForce};
 use crate::contact::{Bonds, Normal};
 use crate::engine::soft::Engine;
+use crate::engine::soft::step_size::rayleigh_time;
 use crate::packing::Placement;
 use crate::particles::Material;
-use crate::scenario::check::{mean_volume, smallest_radius};
+use crate::scenario::check::mean_volume;
 use crate::scenario::types::{GrainGroup, Scenario};
-use crate::units::Quantity;
 
 /// Time [s] of one evaluation of all forces on one grain by one thread; measured runs are within a few times of it.
 const SECONDS_PER_GRAIN: f64 = 4e-7;
@@ -72,15 +72,11 @@ fn critical_step(scenario: &Scenario) -> f64 {
 
 /// Rayleigh's time for Hertz contact, 2/omega of the contact spring otherwise, of the smallest grains.
 fn contact_step(scenario: &Scenario, group: &GrainGroup, material: &Material) -> f64 {
-    let radius = smallest_radius(&group.size);
+    let radius = group.size.smallest();
     let (volume, density) = (4.0 / 3.0 * PI * radius.powi(3), material.density.si());
     match scenario.contact.as_ref().map(|laws| &laws.normal) {
         None => f64::INFINITY,
-        Some(Normal::Hertz(_)) => {
-            let poisson = material.poisson_ratio.unwrap_or(0.0);
-            let shear = material.youngs_modulus.map_or(0.0, Quantity::si) / (2.0 * (1.0 + poisson));
-            PI * radius * (density / shear).sqrt() / (0.1631 * poisson + 0.8766)
-        }
+        Some(Normal::Hertz(_)) => rayleigh_time(material, radius).unwrap_or(f64::INFINITY),
         Some(Normal::Hooke(law)) => 2.0 * (0.5 * density * volume / law.stiffness.si()).sqrt(),
         Some(Normal::StrainPower(_)) => {
             let slope = material.stiffness_at(group.temperature.si()) * PI * radius * scenario.limits.strain;
@@ -91,7 +87,7 @@ fn contact_step(scenario: &Scenario, group: &GrainGroup, material: &Material) ->
 
 fn bond_step(scenario: &Scenario, group: &GrainGroup, material: &Material) -> f64 {
     let Some(Bonds::Beam(bond)) = &scenario.bonds else { return f64::INFINITY };
-    let radius = smallest_radius(&group.size);
+    let radius = group.size.smallest();
     let stiffness = bond.youngs_modulus.si() * PI * (bond.radius_ratio * radius).powi(2) / (2.0 * radius);
     let mass = material.density.si() * 4.0 / 3.0 * PI * radius.powi(3);
     2.0 * (mass / stiffness).sqrt()
