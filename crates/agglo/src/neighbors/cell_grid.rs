@@ -57,7 +57,9 @@ impl Level {
         self.lower = lower;
         self.cells_per_metre = 1.0 / cell;
         // A motion that blew up may be anywhere; it is found after the search, which must get that far.
-        let count = |axis: usize| (((upper[axis] - lower[axis]) / cell).floor() as i64).saturating_add(1);
+        // Counted with the rounding of the search: a quotient may fall just below a whole number where the product with
+        // the inverse does not.
+        let count = |axis: usize| self.coordinate(upper[axis], axis).saturating_add(1);
         self.counts = [0, 1, 2].map(count);
         let limit = CELLS_PER_SPHERE * spheres.len() as u64;
         let cells = self.counts.iter().try_fold(1_u64, |product, count| product.checked_mul(*count as u64));
@@ -151,6 +153,39 @@ impl CellGrid {
                     visit(other);
                 }
             });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 0.6/0.2 is just below 3, 0.6 times 5 is not: the outermost of spheres in a row at whole numbers of cells must
+    /// still have a cell, and meet its neighbour, along every axis.
+    #[test]
+    fn the_outermost_sphere_has_a_cell() {
+        let mut grid = CellGrid::default();
+        for axis in Vec3::AXES {
+            for count in 2..200 {
+                let row = |k: u32| axis * (f64::from(k) * 0.6 / f64::from(count - 1) + f64::from(count / 50));
+                let mut positions: Vec<Vec3> = (0..count).map(row).collect();
+                // Not a row of one cell across.
+                positions.push(positions[0] + Vec3::new(0.45, 0.45, 0.45));
+                let radii = vec![0.1; positions.len()];
+                grid.build(&positions, &radii, 0.0);
+                for sphere in 0..positions.len() {
+                    let near =
+                        |other: usize| other > sphere && (positions[other] - positions[sphere]).norm() < 0.2;
+                    let mut found = Vec::new();
+                    grid.visit_partners(&positions, &radii, sphere as u32, 0.0, |other| {
+                        found.push(other as usize);
+                    });
+                    assert!(
+                        (0..positions.len()).filter(|&other| near(other)).all(|other| found.contains(&other))
+                    );
+                }
+            }
         }
     }
 }
