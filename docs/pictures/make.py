@@ -28,7 +28,8 @@ from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy  # noqa: E402
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-SCENARIO = ROOT / "scenarios/acoustic-dispersal-sound.toml"
+DISPERSAL = "acoustic-dispersal-sound"
+REACTING = "reacting-agglomeration"
 
 PULSES = 4
 PERIOD = 0.5
@@ -42,12 +43,18 @@ BLUE, VERMILION, PURPLE, GREY = "#0072B2", "#D55E00", "#CC79A7", "#999999"
 VIEW_HEIGHT = 4.8
 VIEW_CENTRE = (0.15, 0.0, 0.0)
 
+# Half the edge of the reacting grains' box [m], their number, and starts of each set.
+HALF_EDGE = 0.01
+REACTING_GRAINS = 1000
+STARTS = 12
 
-def run(agglo, folder, *settings):
-    """Runs the scenario into `folder`, unless it has been."""
+
+def run(agglo, folder, scenario, *settings, seed=None):
+    """Runs a shipped scenario into `folder`, unless it has been."""
     if not (folder / "summary.json").exists():
-        sets = [word for setting in settings for word in ("--set", setting)]
-        subprocess.run([agglo, "run", str(SCENARIO), "-o", str(folder), *sets], check=True)
+        words = [word for setting in settings for word in ("--set", setting)]
+        words += [] if seed is None else ["--seed", str(seed)]
+        subprocess.run([agglo, "run", str(ROOT / f"scenarios/{scenario}.toml"), "-o", str(folder), *words], check=True)
     return folder
 
 
@@ -84,13 +91,13 @@ def lookup(colours, norm):
     return table
 
 
-def grains_actor(grains, colours, norm):
-    """Grains as spheres, coloured by the size of their cluster."""
+def grains_actor(grains, sizes, colours, norm):
+    """Grains as spheres, coloured by a size that each has."""
     data = vtk.vtkPolyData()
     data.ShallowCopy(grains)
-    sizes = numpy_to_vtk(cluster_sizes(grains).astype(float), deep=True)
-    sizes.SetName("cluster_size")
-    data.GetPointData().AddArray(sizes)
+    column = numpy_to_vtk(sizes.astype(float), deep=True)
+    column.SetName("size")
+    data.GetPointData().AddArray(column)
     sphere = vtk.vtkSphereSource()
     sphere.SetRadius(1.0)
     sphere.SetThetaResolution(24)
@@ -103,7 +110,7 @@ def grains_actor(grains, colours, norm):
     mapper.SetLookupTable(lookup(colours, norm))
     mapper.SetUseLookupTableScalarRange(True)
     mapper.SetScalarModeToUsePointFieldData()
-    mapper.SelectColorArray("cluster_size")
+    mapper.SelectColorArray("size")
     actor = vtk.vtkActor()
     actor.SetMapper(mapper)
     light = actor.GetProperty()
@@ -136,8 +143,9 @@ def rays_actor(rays, colour):
     return actor
 
 
-def render(actors, width, height):
-    """The picture of actors seen along y, x to the right and z up, as an array."""
+def render(actors, width, height, view=(VIEW_CENTRE, VIEW_HEIGHT)):
+    """The picture of actors seen along y, x to the right and z up, as an array; a view has a centre and a height."""
+    (x, y, z), tall = view
     renderer = vtk.vtkRenderer()
     renderer.SetBackground(1.0, 1.0, 1.0)
     for actor in actors:
@@ -149,9 +157,9 @@ def render(actors, width, height):
     window.AddRenderer(renderer)
     camera = renderer.GetActiveCamera()
     camera.ParallelProjectionOn()
-    camera.SetParallelScale(VIEW_HEIGHT / 2)
-    camera.SetFocalPoint(*VIEW_CENTRE)
-    camera.SetPosition(VIEW_CENTRE[0], -10.0, VIEW_CENTRE[2])
+    camera.SetParallelScale(tall / 2)
+    camera.SetFocalPoint(x, y, z)
+    camera.SetPosition(x, y - 2.0 * tall, z)
     camera.SetViewUp(0.0, 0.0, 1.0)
     renderer.ResetCameraClippingRange()
     window.Render()
@@ -197,7 +205,7 @@ def dispersal(sound, flight, path):
     aspect = 1.25
     extent = (VIEW_CENTRE[0] - aspect * half, VIEW_CENTRE[0] + aspect * half, -half, half)
     for axes, (grains, title, flying) in zip(panels.flat, states):
-        actors = [grains_actor(grains, colours, norm)]
+        actors = [grains_actor(grains, cluster_sizes(grains), colours, norm)]
         if flying is not None:
             actors.append(rays_actor(flying, VERMILION))
         axes.imshow(render(actors, 1000, 800), extent=extent, interpolation="antialiased")
@@ -311,20 +319,125 @@ def energy_picture(sound, path):
     save(figure, path, 110)
 
 
+def primaries(grains):
+    """How many primary grains each grain is made of."""
+    return vtk_to_numpy(grains.GetPointData().GetArray("primaries")).astype(int)
+
+
+def agglomeration(early, whole, path):
+    """The cloud of reacting grains at the start, as grains merge, and at the end."""
+    shades = matplotlib.colormaps["viridis"](np.linspace(0.15, 1.0, 256))
+    colours, norm = matplotlib.colors.ListedColormap(shades), LogNorm(1, 100)
+    moments = [(early, 0.0), (early, 10e-6), (early, 50e-6), (whole, 0.01)]
+    states = [frame(folder, "grains", at) for folder, at in moments]
+    titles = ["at the start", "after 10 \u00b5s", "after 50 \u00b5s", "after 10 ms"]
+    figure, panels = plt.subplots(2, 2, figsize=(10.4, 11.4))
+    figure.subplots_adjust(left=0.01, right=0.99, top=0.945, bottom=0.095, wspace=0.02, hspace=0.13)
+    half = 1.4 * HALF_EDGE
+    for axes, (grains, _), title in zip(panels.flat, states, titles):
+        sizes = primaries(grains)
+        picture = render([grains_actor(grains, sizes, colours, norm)], 900, 900, ((0.0, 0.0, 0.0), 2 * half))
+        axes.imshow(picture, extent=(-half, half, -half, half), interpolation="antialiased")
+        box = np.array([-1, 1, 1, -1, -1]) * HALF_EDGE
+        axes.plot(box, np.roll(box, -1)[[0, 1, 2, 3, 0]], color=GREY, linewidth=0.8, linestyle="--")
+        largest = f"largest of {sizes.max():,} primaries" if sizes.max() > 1 else "one primary each"
+        axes.set_title(f"{title}\n{sizes.size:,} grains; {largest}", fontsize=13)
+        axes.set_xlim(-half, half)
+        axes.set_ylim(-half, half)
+        axes.set_xticks([])
+        axes.set_yticks([])
+        for side in axes.spines.values():
+            side.set_color("#cccccc")
+        right, bottom = half - 0.6e-3, -half + 0.5e-3
+        axes.plot([right - 5e-3, right], [bottom, bottom], color=BLACK, linewidth=3, solid_capstyle="butt")
+        axes.text(right - 2.5e-3, bottom + 0.3e-3, "5 mm", ha="center", va="bottom", fontsize=11)
+    bar = figure.add_axes((0.2, 0.056, 0.6, 0.016))
+    figure.colorbar(matplotlib.cm.ScalarMappable(norm, colours), cax=bar, orientation="horizontal")
+    bar.set_xlabel("primary grains that a grain is made of", fontsize=12)
+    bar.set_xticks([1, 10, 100], ["1", "10", "100"])
+    bar.minorticks_off()
+    save(figure, path, 85)
+
+
+def growth_picture(sets, early, whole, path):
+    """Mean radius over time of the six sets, and where the mass is as grains of set 1 grow."""
+    figure, (left, right) = plt.subplots(1, 2, figsize=(14, 5.4), constrained_layout=True)
+    colours = [BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY]
+    for (number, folders), colour, style in zip(sets.items(), colours, ["-", "--", "-.", ":", "-", "--"]):
+        tables = [series(folder, "grains") for folder in folders]
+        ratio = np.array([table["radius_ratio"] for table in tables])
+        time, mean = tables[0]["time_s"][1:] * 1e6, ratio.mean(axis=0)[1:]
+        error = ratio.std(axis=0, ddof=1)[1:] / len(tables) ** 0.5
+        left.plot(time, mean, color=colour, linestyle=style, linewidth=2, label=f"set {number}")
+        left.fill_between(time, mean - error, mean + error, color=colour, alpha=0.2, linewidth=0)
+    left.set_xscale("log")
+    left.set_xlim(2, 1e4)
+    left.set_ylim(1, None)
+    left.set_xlabel("time (\u00b5s)")
+    left.set_ylabel("mean radius over that at the start")
+    left.set_title(f"Growth ends after a few milliseconds (means of {STARTS} starts)")
+    left.legend(loc="upper left", handlelength=3)
+    edges = 2 ** np.arange(8)
+    shades = matplotlib.colormaps["viridis"](np.linspace(0, 0.9, 5))
+    moments = [(early, 0.0), (early, 10e-6), (early, 50e-6), (early, 0.2e-3), (whole, 0.01)]
+    labels = ["at the start", "10 \u00b5s", "50 \u00b5s", "200 \u00b5s", "10 ms"]
+    for place, ((folder, at), shade, label) in enumerate(zip(moments, shades, labels)):
+        sizes = primaries(frame(folder, "grains", at)[0])
+        mass = np.histogram(sizes, edges, weights=sizes)[0] / sizes.sum()
+        words = f"{label}: {sizes.size:,} grains"
+        right.bar(np.arange(7) + 0.16 * (place - 2), 100 * mass, 0.16, color=shade, label=words)
+    right.set_xticks(np.arange(7), [f"{low}-{2 * low - 1}" if low > 1 else "1" for low in edges[:-1]])
+    right.set_xlabel("primary grains that a grain is made of")
+    right.set_ylabel("part of the mass (%)")
+    right.set_title("Mass moves to large grains (set 1, one start)")
+    right.legend(loc="upper right")
+    for axes in (left, right):
+        axes.grid(alpha=0.3)
+        axes.set_axisbelow(True)
+    save(figure, path, 105)
+
+
+def dispersal_pictures(agglo, runs):
+    """Runs the agglomerate under acoustic pulses and draws it."""
+    sound = run(agglo, runs / "sound", DISPERSAL, 'output.series="0.1 ms"')
+    flight = run(
+        agglo, runs / "flight", DISPERSAL, 'time.end="1.5 ms"', 'output.frames="0.25 ms"', 'output.series="0.25 ms"'
+    )
+    dispersal(sound, flight, HERE / "dispersal.png")
+    rays_picture(sound, HERE / "rays.png")
+    energy_picture(sound, HERE / "energy.png")
+
+
+def reacting_pictures(agglo, runs):
+    """Runs the reacting grains and draws them."""
+    whole = run(agglo, runs / "reacting", REACTING)
+    early = run(
+        agglo, runs / "reacting-early", REACTING, 'time.end="0.2 ms"', 'output.frames="5 us"', 'output.series="5 us"'
+    )
+    often = ('output.series="2 us"', 'output.frames="10 ms"', 'output.checkpoints="10 ms"')
+    sets = {
+        number: [
+            run(agglo, runs / f"set-{number}-{seed}", f"reacting-set-{number}", *often, seed=seed)
+            for seed in range(1, STARTS + 1)
+        ]
+        for number in range(1, 7)
+    }
+    agglomeration(early, whole, HERE / "agglomeration.png")
+    growth_picture(sets, early, whole, HERE / "growth.png")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--agglo", default=str(ROOT / "target/release/agglo"), help="the program")
     parser.add_argument("--runs", type=Path, help="folder for the runs, kept")
+    parser.add_argument("--only", choices=["dispersal", "reacting"], help="draw only the pictures of one kind")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as temporary:
         runs = options.runs or Path(temporary)
-        sound = run(options.agglo, runs / "sound", 'output.series="0.1 ms"')
-        flight = run(
-            options.agglo, runs / "flight", 'time.end="1.5 ms"', 'output.frames="0.25 ms"', 'output.series="0.25 ms"'
-        )
-        dispersal(sound, flight, HERE / "dispersal.png")
-        rays_picture(sound, HERE / "rays.png")
-        energy_picture(sound, HERE / "energy.png")
+        if options.only in (None, "dispersal"):
+            dispersal_pictures(options.agglo, runs)
+        if options.only in (None, "reacting"):
+            reacting_pictures(options.agglo, runs)
 
 
 if __name__ == "__main__":

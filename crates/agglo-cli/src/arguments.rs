@@ -15,7 +15,7 @@ pub(crate) struct Arguments {
 /// The verbs.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Verb {
-    /// Print a commented scenario to start from: acoustic, acoustic-sound or microscale
+    /// Print a commented scenario to start from: acoustic, acoustic-sound, microscale, reacting or reacting-published
     New {
         /// Which one
         template: String,

@@ -17,8 +17,8 @@ pub(crate) struct Display {
     bar: ProgressBar,
     on_terminal: bool,
     started: Instant,
-    /// Simulated time [s] and steps at the first report: a resumed run does not begin at zero.
-    origin: Option<(f64, u64)>,
+    /// Nothing before the first report: a resumed run does not begin at zero.
+    pace: Option<Pace>,
     last_line: Instant,
     warnings: usize,
     shown: BTreeSet<String>,
@@ -38,7 +38,7 @@ impl Display {
             bar,
             on_terminal,
             started: now,
-            origin: None,
+            pace: None,
             last_line: now,
             warnings: 0,
             shown: BTreeSet::new(),
@@ -53,9 +53,10 @@ impl Display {
                 self.line(&format!("warning: {warning}"));
             }
         }
-        let (begin, first_step) = *self.origin.get_or_insert((progress.time, progress.step));
-        let elapsed = self.started.elapsed().as_secs_f64().max(1e-9);
-        let state = state(progress, begin, first_step, elapsed);
+        let wall = self.started.elapsed().as_secs_f64();
+        let pace = self.pace.get_or_insert_with(|| Pace::from(progress, wall));
+        pace.note(progress, wall);
+        let state = state(progress, pace);
         if self.on_terminal {
             self.bar.set_position((PARTS * part(progress)) as u64);
             self.bar.set_message(state);
@@ -90,16 +91,62 @@ fn part(progress: &Progress) -> f64 {
     if progress.end > 0.0 { (progress.time / progress.end).clamp(0.0, 1.0) } else { 0.0 }
 }
 
+/// How fast the run goes: means over the reports so far that forget with [`Pace::MEMORY`].
+///
+/// Simulated time by itself is a poor guide to the time that is left: steps are short while rays fly, and impacts
+/// become rare as hard spheres grow. The last seconds tell more than the whole run.
+#[derive(Clone, Copy, Debug)]
+struct Pace {
+    last: (f64, f64, u64),
+    /// Sums of wall time [s], simulated time [s] and steps, each weighted by its age.
+    sums: [f64; 3],
+}
+
+impl Pace {
+    /// Wall time [s] in which weights fall by a factor of e.
+    const MEMORY: f64 = 8.0;
+
+    /// Begins at a report at the wall time `wall` [s].
+    fn from(progress: &Progress, wall: f64) -> Self {
+        Self { last: (wall, progress.time, progress.step), sums: [0.0; 3] }
+    }
+
+    /// Takes a report at the wall time `wall` [s] into account.
+    fn note(&mut self, progress: &Progress, wall: f64) {
+        let (before, time, step) = self.last;
+        let passed = wall - before;
+        let parts = [passed, progress.time - time, progress.step.saturating_sub(step) as f64];
+        let kept = (-passed / Self::MEMORY).exp();
+        for (sum, part) in self.sums.iter_mut().zip(parts) {
+            *sum = *sum * kept + part;
+        }
+        self.last = (wall, progress.time, progress.step);
+    }
+
+    fn per_second(part: f64, wall: f64) -> f64 {
+        if wall > 0.0 { part / wall } else { 0.0 }
+    }
+
+    /// Steps in a second.
+    fn steps(&self) -> f64 {
+        Self::per_second(self.sums[2], self.sums[0])
+    }
+
+    /// Wall time left [s], if that can be said.
+    fn left(&self, progress: &Progress) -> Option<f64> {
+        let speed = Self::per_second(self.sums[1], self.sums[0]);
+        (speed > 0.0).then(|| (progress.end - progress.time).max(0.0) / speed)
+    }
+}
+
 /// "0.310 of 2 s, 812 steps/s, 1:02 left, pulse 2 of 4".
-fn state(progress: &Progress, begin: f64, first_step: u64, elapsed: f64) -> String {
-    let steps = progress.step.saturating_sub(first_step) as f64;
-    let done = progress.time - begin;
-    let left =
-        if done > 0.0 { clock(elapsed * (progress.end - progress.time).max(0.0) / done) } else { "?".into() };
-    let rate = steps / elapsed;
+fn state(progress: &Progress, pace: &Pace) -> String {
+    let left = pace.left(progress).map_or("?".to_owned(), clock);
+    let rate = pace.steps();
     let rate = if rate >= 10.0 { format!("{rate:.0}") } else { format!("{rate:.1}") };
     let now = if progress.now.is_empty() { String::new() } else { format!(", {}", progress.now) };
-    format!("{}, {rate} steps/s, {left} left{now}", time_of(progress.time, progress.end))
+    let (time, steps_are) = (time_of(progress.time, progress.end), progress.steps_are);
+    format!("{time}, {rate} {steps_are}/s, {left} left{now}")
 }
 
 /// Simulated time in the unit in which the end reads well: "35.120 of 120 us".
@@ -123,13 +170,33 @@ fn clock(seconds: f64) -> String {
 mod tests {
     use super::*;
 
+    fn report(time: f64, step: u64) -> Progress {
+        let now = "pulse 2 of 4".into();
+        Progress { time, end: 2.0, step, steps_are: "steps", now, warnings: Vec::new() }
+    }
+
     #[test]
     fn the_state_counts_from_where_the_run_began() {
-        let progress =
-            Progress { time: 1.5, end: 2.0, step: 300, now: "pulse 2 of 4".into(), warnings: Vec::new() };
+        let mut pace = Pace::from(&report(1.0, 100), 5.0);
+        assert_eq!(state(&report(1.0, 100), &pace), "1.000 of 2 s, 0.0 steps/s, ? left, pulse 2 of 4");
+        pace.note(&report(1.5, 300), 65.0);
         // Half a second of simulated time in 60 s: another half takes 60 s; 200 steps in 60 s are 3.3 a second.
-        let text = state(&progress, 1.0, 100, 60.0);
-        assert_eq!(text, "1.500 of 2 s, 3.3 steps/s, 1:00 left, pulse 2 of 4");
+        assert_eq!(state(&report(1.5, 300), &pace), "1.500 of 2 s, 3.3 steps/s, 1:00 left, pulse 2 of 4");
+    }
+
+    /// A slow beginning is forgotten: after 40 s at 0.02 of simulated time a second, exp(-5) of it is left.
+    #[test]
+    fn the_time_left_follows_the_last_seconds() {
+        let mut pace = Pace::from(&report(0.0, 0), 0.0);
+        let mut time = 0.0;
+        for second in 1..=140_u64 {
+            time += if second <= 100 { 1e-4 } else { 0.02 };
+            pace.note(&report(time, second), second as f64);
+        }
+        let left = pace.left(&report(time, 140)).unwrap();
+        let wanted = (2.0 - time) / 0.02;
+        assert!((left / wanted - 1.0).abs() < 0.01, "{left} s instead of {wanted} s");
+        assert!((pace.steps() - 1.0).abs() < 1e-12);
     }
 
     #[test]

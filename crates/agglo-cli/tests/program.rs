@@ -37,7 +37,7 @@ fn listing(folder: &Path) -> Vec<String> {
 #[test]
 fn templates_pass_their_own_check() {
     let folder = tempfile::tempdir().unwrap();
-    for name in ["acoustic", "acoustic-sound", "microscale"] {
+    for name in ["acoustic", "acoustic-sound", "microscale", "reacting", "reacting-published"] {
         let printed = agglo(folder.path(), &["new", name]);
         assert_eq!(code(&printed), 0);
         fs::write(folder.path().join("my.toml"), &printed.stdout).unwrap();

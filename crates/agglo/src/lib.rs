@@ -14,6 +14,7 @@ pub mod packing;
 
 pub mod contact;
 pub mod fields;
+pub mod impact;
 
 pub mod acoustics;
 

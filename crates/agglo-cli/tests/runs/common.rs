@@ -7,12 +7,19 @@ use std::process::{Child, Command, Output, Stdio};
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
-use agglo::engine::soft::SimulationState;
+use agglo::engine::{hard, soft};
 
-/// Steps of adaptive length, some of them rejected.
+/// Soft spheres with steps of adaptive length, some of them rejected.
 pub const STAGGERED: &str = include_str!("staggered.toml");
-/// Steps of fixed length.
+/// Soft spheres with steps of fixed length.
 pub const VERLET: &str = include_str!("verlet.toml");
+/// Hard spheres that bounce, merge, break and cool, from impact to impact in a periodic volume.
+pub const EVENTS: &str = include_str!("events.toml");
+/// The same step by step, fewer of them, between walls.
+pub const STEPS: &str = include_str!("steps.toml");
+/// All of them by name.
+pub const SCENARIOS: [(&str, &str); 4] =
+    [("staggered", STAGGERED), ("verlet", VERLET), ("events", EVENTS), ("steps", STEPS)];
 
 /// Bytes at the end of a checkpoint that tell the wall time [8] and the checksum [4].
 const AFTER_THE_STATE: usize = 12;
@@ -169,8 +176,9 @@ pub fn assert_same(run: &Path, reference: &Path) {
 
 /// An uninterrupted run of the scenario, made once for all tests.
 pub fn reference(scenario: &'static str) -> &'static Path {
-    static RUNS: [OnceLock<PathBuf>; 2] = [OnceLock::new(), OnceLock::new()];
-    let (which, name) = if scenario == STAGGERED { (0, "staggered") } else { (1, "verlet") };
+    static RUNS: [OnceLock<PathBuf>; 4] = [const { OnceLock::new() }; 4];
+    let which = SCENARIOS.iter().position(|known| known.1 == scenario).unwrap();
+    let name = SCENARIOS[which].0;
     RUNS[which].get_or_init(|| {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("reference-{name}"));
         // What an earlier test run left; it may not be there.
@@ -193,6 +201,14 @@ pub fn state(run: &Path) -> Vec<u8> {
     let file = fs::read(&checkpoints(run).last().unwrap().1).unwrap();
     // Magic and format [12], the version with its length [1 + n], step and length [16]; see `record/checkpoint.rs`.
     let payload = &file[12 + 1 + usize::from(file[12]) + 16..];
-    let ((_, simulation), _) = postcard::take_from_bytes::<(String, SimulationState)>(payload).unwrap();
-    postcard::to_stdvec(&simulation).unwrap()
+    // The number of the engine's kind stands before the scenario.
+    if payload[0] == 0 {
+        type Saved = (u8, String, soft::SimulationState<'static>);
+        let ((_, _, simulation), _) = postcard::take_from_bytes::<Saved>(payload).unwrap();
+        postcard::to_stdvec(&simulation).unwrap()
+    } else {
+        type Saved = (u8, String, hard::SimulationState<'static>);
+        let ((_, _, simulation), _) = postcard::take_from_bytes::<Saved>(payload).unwrap();
+        postcard::to_stdvec(&simulation).unwrap()
+    }
 }

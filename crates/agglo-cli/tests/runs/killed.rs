@@ -1,7 +1,8 @@
 //! A run that is killed or stopped, and goes on.
 
 use crate::common::{
-    Bench, STAGGERED, VERLET, assert_same, complained, ended, reference, said, signal, steps, wait_for_step,
+    Bench, EVENTS, STAGGERED, STEPS, VERLET, assert_same, complained, ended, reference, said, signal, steps,
+    wait_for_step,
 };
 
 /// SIGKILL at ten moments spread over the run, each time in the sitting that went on after the last; then the rest.
@@ -33,6 +34,16 @@ fn a_run_killed_at_ten_moments_ends_with_the_same_files_staggered() {
 #[test]
 fn a_run_killed_at_ten_moments_ends_with_the_same_files_verlet() {
     killed_ten_times(VERLET);
+}
+
+#[test]
+fn a_run_killed_at_ten_moments_ends_with_the_same_files_events() {
+    killed_ten_times(EVENTS);
+}
+
+#[test]
+fn a_run_killed_at_ten_moments_ends_with_the_same_files_steps() {
+    killed_ten_times(STEPS);
 }
 
 /// Half-written files that a kill left are gone, whichever folder they are in.

@@ -8,6 +8,7 @@ mod common;
 mod damage;
 mod disk;
 mod end;
+mod hard;
 mod killed;
 mod output;
 mod summary;

@@ -1,5 +1,7 @@
-//! Where things are: regions of space. Periodic and reflecting faces and walls have their place here.
+//! Where things are: regions of space, and the volume that a hard-sphere run is about with its faces.
 
 mod region;
+mod volume;
 
 pub use region::{Ball, Block, Cylinder, Region};
+pub use volume::{Boundary, Volume};

@@ -96,4 +96,46 @@ pub enum SimError {
         /// What counts as rest [m/s].
         limit: f64,
     },
+    /// A scenario of soft spheres was given to the engine of hard ones.
+    #[error("hard spheres need engine.event_driven or engine.time_stepped, [volume] and [impact]")]
+    NoImpact,
+    /// A hard sphere moves in a way that is not finite.
+    #[error("t = {time:.6e} s: the motion of grain {grain} is not finite after an impact under {laws}")]
+    ImpactNotFinite {
+        /// When [s].
+        time: f64,
+        /// Stable name of the grain.
+        grain: u32,
+        /// The laws that act.
+        laws: String,
+    },
+    /// Impacts follow one another without end at one moment.
+    #[error(
+        "t = {time:.6e} s: {events} impacts at one moment, the last between grains {} and {}; raise \
+         engine.event_driven.contact_duration",
+        grains[0], grains[1]
+    )]
+    Standstill {
+        /// When [s].
+        time: f64,
+        /// How many events at that moment.
+        events: u64,
+        /// Stable names of the last pair.
+        grains: [u32; 2],
+    },
+    /// A sphere has grown wider than a periodic volume.
+    #[error(
+        "t = {time:.6e} s: grain {grain} has grown to a diameter of {diameter:.3e} m, wider than the periodic volume \
+         ({edge:.3e} m), and would meet itself; use a larger volume or fewer grains"
+    )]
+    Outgrown {
+        /// When [s].
+        time: f64,
+        /// Stable name of the grain.
+        grain: u32,
+        /// Its diameter [m].
+        diameter: f64,
+        /// Shortest edge of the volume [m].
+        edge: f64,
+    },
 }

@@ -1,8 +1,11 @@
-//! What advances the clock. Soft spheres today; hard spheres have their place here.
+//! What advances the clock: soft spheres, and hard spheres.
 
 mod error;
+pub mod hard;
 pub mod soft;
+mod types;
 mod warnings;
 
 pub use error::{Moment, SimError};
+pub use types::Engine;
 pub use warnings::Warnings;

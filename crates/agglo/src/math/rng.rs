@@ -38,6 +38,8 @@ pub enum Purpose {
     Beam = 4,
     /// Random checks in tests and studies.
     Sampling = 5,
+    /// Pieces of agglomerates that break.
+    Fragment = 6,
 }
 
 /// An endless sequence of random numbers that belongs to (seed, purpose, part).

@@ -1,15 +1,21 @@
 //! Figures taken from a state: moments, clusters, sizes, the ledger. Nothing here changes a state.
 
 mod clusters;
+mod dimensionless;
 mod ledger;
 mod moments;
 mod nearest;
 mod pairs;
 mod shape;
+mod size_classes;
+mod size_rates;
 
 pub use clusters::{Clusters, Joiner};
+pub use dimensionless::{biot_number, reynolds_number};
 pub use ledger::{Balance, Flows, Ledger, Momentum, Stores};
 pub use moments::{Moments, moment_about, moments};
 pub use nearest::mean_nearest_distance;
 pub use pairs::close_pairs;
 pub use shape::{ClusterSummary, center_of_mass, fractal_dimension, radius_of_gyration, summarize};
+pub use size_classes::{SizeClass, size_classes};
+pub use size_rates::{BreakageRow, DaughterRow, KernelRow, SizeRates};

@@ -6,5 +6,5 @@ mod pair_list;
 pub mod ray_grid;
 
 pub use cell_grid::CellGrid;
-pub use order::morton_order;
+pub use order::{morton_code, morton_order};
 pub use pair_list::PairList;

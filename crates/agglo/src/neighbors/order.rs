@@ -14,14 +14,17 @@ pub fn morton_order(positions: &[Vec3]) -> Vec<u32> {
     }
     let extent = (upper - lower).to_array().into_iter().fold(f64::MIN_POSITIVE, f64::max);
     let scale = f64::from(1_u32 << BITS) * (1.0 - 1e-9) / extent;
-    let key = |at: Vec3| {
-        let [x, y, z] = ((at - lower) * scale).to_array().map(|along| spread_bits(along as u64));
-        x | y << 1 | z << 2
-    };
+    let key = |at: Vec3| morton_code(((at - lower) * scale).to_array().map(|along| along as u64));
     let mut keyed: Vec<(u64, u32)> =
         positions.iter().zip(0..).map(|(at, number)| (key(*at), number)).collect();
     keyed.sort_unstable();
     keyed.into_iter().map(|(_, number)| number).collect()
+}
+
+/// Number along Morton's curve of a cell, by the lowest 21 bits of its coordinates.
+pub fn morton_code(cell: [u64; 3]) -> u64 {
+    let [x, y, z] = cell.map(spread_bits);
+    x | y << 1 | z << 2
 }
 
 /// Puts two empty bits between the lowest 21 bits.

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::scenario::readable;
+
 /// Solid fraction at which random sequential addition of equal spheres comes to its end.
 pub const SATURATION: f64 = 0.382;
 
@@ -84,4 +86,44 @@ pub enum PackingError {
         /// Their place [m].
         z: f64,
     },
+    /// Two hard spheres that overlap.
+    #[error(
+        "{who} by {depth} at the start; hard spheres must not: move them apart, or place them with `fill` or \
+         `random`",
+        who = overlapping(*.first, *.second),
+        depth = readable(*.overlap, "m")
+    )]
+    Overlapping {
+        /// Name of one grain.
+        first: u32,
+        /// Name of the other; the same where a grain overlaps its own image.
+        second: u32,
+        /// How far they overlap [m].
+        overlap: f64,
+    },
+    /// A hard sphere beyond the faces of the control volume.
+    #[error(
+        "grain {grain} at ({x} m, {y} m, {z} m) {where_}; move it inside, enlarge [volume], or make its boundary `open`",
+        where_ = if *.walls { "reaches past the walls of [volume]" } else { "lies outside [volume]" }
+    )]
+    Outside {
+        /// Name of the grain.
+        grain: u32,
+        /// Whether the faces are walls, which the whole grain must keep within.
+        walls: bool,
+        /// Its place [m].
+        x: f64,
+        /// Its place [m].
+        y: f64,
+        /// Its place [m].
+        z: f64,
+    },
+}
+
+fn overlapping(first: u32, second: u32) -> String {
+    if first == second {
+        format!("grain {first} is too large for the periodic [volume]: it overlaps its own image")
+    } else {
+        format!("grains {first} and {second} overlap")
+    }
 }

@@ -3,16 +3,24 @@
 mod error;
 mod lattice;
 mod occupied;
+mod overlap;
 mod place;
 mod placement;
 mod random;
+mod room;
 mod size;
 mod table;
+mod velocity;
 
 pub use error::{PackingError, SATURATION};
+pub use overlap::{Overlap, first_overlap};
 pub use place::place;
-pub use placement::{GrainList, Lattice, LatticeKind, Placement, RandomAddition, Table};
-pub use size::{ConstantSize, LognormalSize, Size, SizeTable, UniformSize};
+pub use placement::{Fill, GrainList, Lattice, LatticeKind, Placement, RandomAddition, Table};
+pub use random::fill_with;
+pub use size::{ConstantSize, LengthRatio, LognormalSize, Size, SizeTable, UniformSize};
+pub use velocity::{Maxwell, UniformSpread, VelocitySpread};
 
+#[cfg(test)]
+mod hard_tests;
 #[cfg(test)]
 mod tests;

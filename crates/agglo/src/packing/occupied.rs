@@ -1,6 +1,7 @@
 //! Which space is taken: spheres in cell grids, one grid per size class.
 //!
-//! Size classes differ by a factor of two, so that a search costs about the same for any spread of sizes.
+//! Size classes differ by a factor of two, so that a search costs about the same for any spread of sizes. Where space
+//! repeats itself, a place near a face is looked up once more on the opposite side.
 
 use crate::math::Vec3;
 
@@ -11,6 +12,9 @@ const CLASSES: usize = 16;
 
 /// Spheres that must not be overlapped, with a least distance `gap` [m] between surfaces.
 pub(super) struct Occupied {
+    bounds: (Vec3, Vec3),
+    /// Whether space repeats itself beyond the bounds.
+    repeats: bool,
     gap: f64,
     largest: f64,
     classes: Vec<Class>,
@@ -34,9 +38,17 @@ struct Sphere {
 
 impl Occupied {
     /// Empty space in the box `bounds` [m] that will take spheres of the given radii [m].
-    pub fn new(bounds: (Vec3, Vec3), gap: f64, radii: impl Iterator<Item = f64> + Clone) -> Self {
+    ///
+    /// If it `repeats` itself, the images of all spheres are kept clear of too; centres must then lie in the box, and
+    /// no diameter may be above an edge.
+    pub fn new(
+        bounds: (Vec3, Vec3),
+        repeats: bool,
+        gap: f64,
+        radii: impl Iterator<Item = f64> + Clone,
+    ) -> Self {
         let largest = radii.clone().fold(0.0, f64::max);
-        let mut found = Self { gap, largest, classes: Vec::new() };
+        let mut found = Self { bounds, repeats, gap, largest, classes: Vec::new() };
         let mut counts = [0_usize; CLASSES];
         for radius in radii {
             counts[found.class_of(radius)] += 1;
@@ -66,27 +78,52 @@ impl Occupied {
 
     /// Whether a sphere here would keep its distance from all others.
     pub fn is_free(&self, center: Vec3, radius: f64) -> bool {
-        let keeps_away = |other: &Sphere| {
-            let least = radius + other.radius + self.gap;
-            (center - other.center).norm_squared() >= least * least
+        let keeps_away = |between: Vec3, other: f64| {
+            let least = radius + other + self.gap;
+            between.norm_squared() >= least * least
         };
         self.classes.iter().all(|class| {
-            class.spheres.is_empty() || class.all_near(center, radius + class.largest + self.gap, keeps_away)
+            class.spheres.is_empty()
+                || self.all_near(class, center, radius + class.largest + self.gap, keeps_away)
         })
     }
 
     /// Whether no sphere of `radius` has room with its centre anywhere in the cube about `middle` [m].
     pub fn covers(&self, middle: Vec3, half_edge: f64, radius: f64) -> bool {
-        let covers_cube = |other: &Sphere| {
-            let least = radius + other.radius + self.gap;
-            let [x, y, z] = (middle - other.center).to_array().map(|along| along.abs() + half_edge);
-            x * x + y * y + z * z < least * least
+        let leaves_some = |between: Vec3, other: f64| {
+            let least = radius + other + self.gap;
+            let [x, y, z] = between.to_array().map(|along| along.abs() + half_edge);
+            x * x + y * y + z * z >= least * least
         };
         self.classes.iter().any(|class| {
             // A sphere that covers the cube reaches at least half an edge past its middle.
             let reach = (radius + class.largest + self.gap - half_edge).max(0.0);
-            !class.spheres.is_empty() && !class.all_near(middle, reach, |other| !covers_cube(other))
+            !class.spheres.is_empty() && !self.all_near(class, middle, reach, leaves_some)
         })
+    }
+
+    /// Whether the predicate holds for every sphere of a class within `reach` of `center`, images included; it is
+    /// asked with the vector from the sphere and its radius.
+    fn all_near(
+        &self,
+        class: &Class,
+        center: Vec3,
+        reach: f64,
+        holds: impl Fn(Vec3, f64) -> bool + Copy,
+    ) -> bool {
+        if !self.repeats {
+            return class.all_near(center, reach, holds);
+        }
+        let (lower, upper) = self.bounds;
+        // Seen from the opposite side, the centre is a period farther on.
+        let images = |axis: usize| {
+            let (at, period) = (center[axis], upper[axis] - lower[axis]);
+            let below = (at - reach < lower[axis]).then_some(at + period);
+            let above = (at + reach > upper[axis]).then_some(at - period);
+            [Some(at), below, above].into_iter().flatten()
+        };
+        images(2)
+            .all(|z| images(1).all(|y| images(0).all(|x| class.all_near(Vec3::new(x, y, z), reach, holds))))
     }
 }
 
@@ -126,8 +163,9 @@ impl Class {
         *cell = (self.spheres.len() - 1) as u32;
     }
 
-    /// Whether the predicate holds for every sphere in the cells within `reach` of `center`.
-    fn all_near(&self, center: Vec3, reach: f64, holds: impl Fn(&Sphere) -> bool) -> bool {
+    /// Whether the predicate holds for every sphere in the cells within `reach` of `center`; it is asked with the
+    /// vector from the sphere and its radius.
+    fn all_near(&self, center: Vec3, reach: f64, holds: impl Fn(Vec3, f64) -> bool) -> bool {
         let low = [0, 1, 2].map(|axis| self.along(axis, center[axis] - reach));
         let high = [0, 1, 2].map(|axis| self.along(axis, center[axis] + reach));
         for k in low[2]..=high[2] {
@@ -137,7 +175,7 @@ impl Class {
                     let mut at = first;
                     while at != NONE {
                         let sphere = &self.spheres[at as usize];
-                        if !holds(sphere) {
+                        if !holds(center - sphere.center, sphere.radius) {
                             return false;
                         }
                         at = sphere.next;
@@ -164,7 +202,7 @@ mod tests {
         };
         let spheres: Vec<(Vec3, f64)> =
             (0..400).map(|k| (any(2.4), 0.15 * 0.01_f64.powf(f64::from(k) / 400.0))).collect();
-        let mut occupied = Occupied::new(bounds, 0.002, spheres.iter().map(|sphere| sphere.1));
+        let mut occupied = Occupied::new(bounds, false, 0.002, spheres.iter().map(|sphere| sphere.1));
         for &(center, radius) in &spheres {
             occupied.insert(center, radius);
         }
@@ -184,5 +222,46 @@ mod tests {
             }
         }
         assert!(free > 1000 && covered > 1000, "{free} {covered}");
+    }
+
+    /// Against a comparison with 27 images of every sphere, in boxes from one diameter to many diameters wide.
+    #[test]
+    fn images_agree_with_brute_force() {
+        let mut stream = Stream::new(10, Purpose::Sampling, 0);
+        for edges in [Vec3::new(1.0, 1.0, 1.0), Vec3::new(0.2, 0.31, 0.9), Vec3::new(4.0, 0.2, 0.5)] {
+            let lower = Vec3::new(-0.7, 3.0, -0.1);
+            let mut any = || {
+                let [x, y, z] = edges.to_array().map(|edge| edge * stream.uniform());
+                lower + Vec3::new(x, y, z)
+            };
+            let spheres: Vec<(Vec3, f64)> =
+                (0..40).map(|k| (any(), 0.1 * 0.05_f64.powf(f64::from(k) / 40.0))).collect();
+            let radii = spheres.iter().map(|sphere| sphere.1);
+            let mut occupied = Occupied::new((lower, lower + edges), true, 0.002, radii);
+            for &(center, radius) in &spheres {
+                occupied.insert(center, radius);
+            }
+            let (mut free, mut covered) = (0, 0);
+            for k in 0..5_000 {
+                let (point, radius) = (any(), 0.05 * f64::from(k % 3));
+                let brute = spheres.iter().all(|&(center, other)| {
+                    (0..27).all(|image: i32| {
+                        let [i, j, k] = [image % 3 - 1, image / 3 % 3 - 1, image / 9 - 1].map(f64::from);
+                        let shift = Vec3::new(i * edges.x, j * edges.y, k * edges.z);
+                        (center + shift - point).norm() >= radius + other + 0.002
+                    })
+                });
+                assert_eq!(occupied.is_free(point, radius), brute);
+                free += usize::from(brute);
+                if occupied.covers(point, 0.01, radius) {
+                    covered += 1;
+                    for corner in 0..8 {
+                        let side = |bit: u32| if corner >> bit & 1 == 0 { -0.01 } else { 0.01 };
+                        assert!(!occupied.is_free(point + Vec3::new(side(0), side(1), side(2)), radius));
+                    }
+                }
+            }
+            assert!(free > 50 && covered > 50, "{free} {covered}");
+        }
     }
 }

@@ -3,7 +3,11 @@
 use std::path::Path;
 
 use super::error::PackingError;
-use super::{GrainList, Placement, lattice, random, table};
+use super::overlap::{first_outside, first_overlap};
+use super::random::{self, Request};
+use super::room::Room;
+use super::{GrainList, Placement, lattice, table};
+use crate::domain::Volume;
 use crate::math::Vec3;
 use crate::math::rng::{Purpose, Stream};
 use crate::particles::{Material, Particles, Row};
@@ -14,9 +18,11 @@ use crate::units::vector;
 /// placed, and a material's number is its place in the map of materials. Random grains keep clear of the grains of
 /// earlier groups; lattices, tables and lists are taken as they are. Tables are looked for below `base`.
 ///
+/// Hard spheres that overlap, or that lie outside a control volume with faces, are refused.
+///
 /// # Errors
-/// [`PackingError`] where there is no room, a table cannot be read, a value cannot be, or two grains would be at
-/// exactly the same place.
+/// [`PackingError`] where there is no room, a table cannot be read, a value cannot be, two grains would be at exactly
+/// the same place, or hard spheres could not start.
 pub fn place(scenario: &Scenario, base: &Path) -> Result<Particles, PackingError> {
     let mut grains = Particles::default();
     for (group, request) in scenario.grains.iter().enumerate() {
@@ -28,57 +34,131 @@ pub fn place(scenario: &Scenario, base: &Path) -> Result<Particles, PackingError
         if let Some(reason) = request.size.fault() {
             return Err(PackingError::Value { group, key: "size", reason });
         }
-        for spot in spots(request, scenario.seed, group, base, &grains)? {
+        let volume = scenario.volume.as_ref();
+        let mut spots = Group { request, seed: scenario.seed, number: group, base, volume }.spots(&grains)?;
+        scatter(request, scenario.seed, group, &mut spots);
+        for spot in spots {
             let row = grain(request, properties, spot);
             grains.push(Row { id: grains.len() as u32, material: material as u32, ..row });
         }
     }
     refuse_coincident(&grains)?;
+    if scenario.engine.is_hard() {
+        make_ready_for_impacts(&mut grains, scenario.volume.as_ref())?;
+    }
     Ok(grains)
 }
 
-/// Where a grain is, how large, and how fast.
+/// Where a grain is, how large, and what its row of a table or list says of it.
 #[derive(Clone, Copy)]
 struct Spot {
     position: Vec3,
     radius: f64,
     velocity: Vec3,
+    /// Whether the velocity is the grain's own and does not scatter.
+    has_own_velocity: bool,
+    temperature: f64,
 }
 
-fn spots(
-    request: &GrainGroup,
+/// A group with what it takes to place it.
+struct Group<'a> {
+    request: &'a GrainGroup,
     seed: u64,
-    group: usize,
-    base: &Path,
-    earlier: &Particles,
-) -> Result<Vec<Spot>, PackingError> {
-    let velocity = vector(request.velocity);
-    let mut stream = Stream::new(seed, Purpose::Size, group as u32);
-    let mut sized = |position| Spot { position, radius: request.size.sample(&mut stream), velocity };
-    match &request.placement {
-        Placement::Random(addition) => {
-            let taken: Vec<(Vec3, f64)> =
-                earlier.position.iter().copied().zip(earlier.radius.iter().copied()).collect();
-            let placed = random::add(addition, &request.size, seed, group, &taken)?;
-            Ok(placed.into_iter().map(|(position, radius)| Spot { position, radius, velocity }).collect())
+    number: usize,
+    base: &'a Path,
+    volume: Option<&'a Volume>,
+}
+
+impl Group<'_> {
+    fn spots(&self, earlier: &Particles) -> Result<Vec<Spot>, PackingError> {
+        let &Self { request, seed, number: group, base, volume } = self;
+        let velocity = vector(request.velocity);
+        let temperature = request.temperature.si();
+        let spot =
+            |(position, radius)| Spot { position, radius, velocity, has_own_velocity: false, temperature };
+        let mut stream = Stream::new(seed, Purpose::Size, group as u32);
+        let mut sized = |position| spot((position, request.size.sample(&mut stream)));
+        match &request.placement {
+            Placement::Random(_) | Placement::Fill(_) => {
+                let placed = random::add(&self.random_request()?, earlier, volume)?;
+                Ok(placed.into_iter().map(spot).collect())
+            }
+            Placement::Lattice(lattice) => {
+                let points = lattice::points(lattice, request.size.largest(), group)?;
+                Ok(points.into_iter().map(sized).collect())
+            }
+            Placement::Table(table) => {
+                let rows = table::read(&base.join(&table.file))?;
+                let spot = |row: table::TableGrain| {
+                    let drawn = sized(row.position);
+                    Spot {
+                        position: row.position,
+                        radius: row.radius.unwrap_or(drawn.radius),
+                        velocity: row.velocity.unwrap_or(velocity),
+                        has_own_velocity: row.velocity.is_some(),
+                        temperature: row.temperature.unwrap_or(temperature),
+                    }
+                };
+                Ok(rows.into_iter().map(spot).collect())
+            }
+            Placement::List(list) => {
+                let velocities = velocities_of(list, velocity, group)?;
+                let has_own_velocity = !list.velocities.is_empty();
+                let positions = list.positions.iter().map(|&position| vector(position));
+                let spot = |(at, velocity)| Spot { velocity, has_own_velocity, ..sized(at) };
+                Ok(positions.zip(velocities).map(spot).collect())
+            }
         }
-        Placement::Lattice(lattice) => {
-            let points = lattice::points(lattice, request.size.largest(), group)?;
-            Ok(points.into_iter().map(sized).collect())
+    }
+
+    /// What a random placement asks for.
+    fn random_request(&self) -> Result<Request<'_>, PackingError> {
+        let &Self { request: GrainGroup { size, placement, .. }, seed, number: group, volume, .. } = self;
+        match (placement, volume) {
+            (Placement::Random(addition), _) => {
+                let (room, wanted) = (Room::inside(&addition.region), addition.wanted(size));
+                let gap = addition.gap.si();
+                Ok(Request { seed, group, room, gap, wanted, size, key: "placement.random" })
+            }
+            (Placement::Fill(fill), Some(volume)) => {
+                let (room, wanted) = (Room::of_volume(volume), fill.wanted(size, volume));
+                Ok(Request { seed, group, room, gap: fill.gap.si(), wanted, size, key: "placement.fill" })
+            }
+            _ => {
+                let reason = "`fill` needs the control volume [volume]; in a region of its own take `random`";
+                Err(PackingError::Value { group, key: "placement", reason: reason.to_owned() })
+            }
         }
-        Placement::Table(table) => {
-            let rows = table::read(&base.join(&table.file))?;
-            let spot = |row: table::TableGrain| {
-                let drawn = sized(row.position);
-                let radius = row.radius.unwrap_or(drawn.radius);
-                Spot { radius, velocity: row.velocity.unwrap_or(velocity), ..drawn }
-            };
-            Ok(rows.into_iter().map(spot).collect())
+    }
+}
+
+/// Adds random velocities where the group has them and a grain none of its own.
+fn scatter(request: &GrainGroup, seed: u64, group: usize, spots: &mut [Spot]) {
+    let Some(spread) = &request.velocity_spread else { return };
+    let free = spots.iter().enumerate().filter(|(_, spot)| !spot.has_own_velocity);
+    // The grains of a group have one density: cubes of radii are as good as masses.
+    let grains: Vec<(usize, f64)> = free.map(|(number, spot)| (number, spot.radius.powi(3))).collect();
+    let draws = spread.draw(seed, group, &grains);
+    for ((number, _), draw) in grains.into_iter().zip(draws) {
+        spots[number].velocity += draw;
+    }
+}
+
+/// Hard spheres start apart from one another and within the faces; of the images of a grain, the one inside counts.
+fn make_ready_for_impacts(grains: &mut Particles, volume: Option<&Volume>) -> Result<(), PackingError> {
+    if let Some(volume) = volume {
+        if let Some(at) = first_outside(grains, volume) {
+            let Vec3 { x, y, z } = grains.position[at];
+            let walls = !volume.boundary.wraps();
+            return Err(PackingError::Outside { grain: grains.id[at], walls, x, y, z });
         }
-        Placement::List(list) => {
-            let velocities = velocities_of(list, velocity, group)?;
-            let positions = list.positions.iter().map(|&position| vector(position));
-            Ok(positions.zip(velocities).map(|(at, velocity)| Spot { velocity, ..sized(at) }).collect())
+        grains.position.iter_mut().for_each(|position| *position = volume.wrap(*position));
+    }
+    match first_overlap(grains, volume) {
+        None => Ok(()),
+        Some(found) => {
+            let [first, second] = found.ids;
+            Err(PackingError::Overlapping { first, second, overlap: found.overlap })
         }
     }
 }
@@ -97,7 +177,7 @@ fn velocities_of(list: &GrainList, of_all: Vec3, group: usize) -> Result<Vec<Vec
 }
 
 fn grain(request: &GrainGroup, properties: &Material, spot: Spot) -> Row {
-    let temperature = request.temperature.si();
+    let temperature = spot.temperature;
     Row {
         position: spot.position,
         velocity: spot.velocity,

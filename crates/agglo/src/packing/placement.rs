@@ -14,6 +14,8 @@ use crate::units::{Length, Triple, Velocity};
 pub enum Placement {
     /// Random sequential addition (Widom 1966).
     Random(RandomAddition),
+    /// The same in the control volume of hard spheres, across its faces where they are periodic.
+    Fill(Fill),
     /// A lattice.
     Lattice(Lattice),
     /// Rows of a CSV file.
@@ -34,6 +36,24 @@ pub struct RandomAddition {
     pub solid_fraction: Option<f64>,
     /// Where; grains lie wholly inside.
     pub region: Region,
+    /// Least distance between surfaces.
+    #[serde(default)]
+    pub gap: Length,
+}
+
+/// Random sequential addition in the control volume, without overlap.
+///
+/// With periodic or antipodal faces centres lie anywhere in the volume and images are kept clear of; with reflecting or
+/// open ones grains lie wholly inside.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Fill {
+    /// How many grains; or give `solid_fraction`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub count: Option<u32>,
+    /// Volume of the grains over that of the volume; or give `count`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub solid_fraction: Option<f64>,
     /// Least distance between surfaces.
     #[serde(default)]
     pub gap: Length,
@@ -68,7 +88,7 @@ pub enum LatticeKind {
     Hcp,
 }
 
-/// A CSV file with the columns x_m, y_m, z_m and optionally radius_m, vx_m_s, vy_m_s, vz_m_s.
+/// A CSV file with the columns x_m, y_m, z_m and optionally radius_m, temperature_K, vx_m_s, vy_m_s, vz_m_s.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Table {

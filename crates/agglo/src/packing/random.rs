@@ -4,6 +4,9 @@
 //! to a grain that is there already, another place is drawn. Grains never move. Where sizes differ, the larger
 //! grains go first (small ones would leave them no room), so names run from large to small within a group.
 //!
+//! Where space repeats itself beyond the control volume, centres are drawn from the whole volume, and images are kept
+//! clear of like the grains themselves.
+//!
 //! # Source
 //! B. Widom, J. Chem. Phys. 44, 3888 (1966). The search among the remaining gaps, which makes solid fractions up to
 //! saturation possible, follows G. Zhang and S. Torquato, Phys. Rev. E 88, 053312 (2013): it draws from a set of
@@ -15,9 +18,12 @@
 
 use super::error::{PackingError, SATURATION};
 use super::occupied::Occupied;
-use super::{RandomAddition, Size};
+use super::room::Room;
+use super::{Fill, RandomAddition, Size};
+use crate::domain::Volume;
 use crate::math::Vec3;
 use crate::math::rng::{Purpose, Stream};
+use crate::particles::Particles;
 
 /// Failed draws in a row after which equal grains search the remaining gaps.
 const PATIENCE: u64 = 2000;
@@ -44,82 +50,137 @@ impl RandomAddition {
     /// # Errors
     /// A sentence that says what is wrong where neither, or both, or an impossible value is given.
     pub fn wanted(&self, size: &Size) -> Result<u32, String> {
-        let volume = self.region.volume();
-        match (self.count, self.solid_fraction) {
-            _ if !volume.is_finite() || volume <= 0.0 => {
-                Err("the region must have a volume above zero".to_owned())
-            }
-            (Some(0), None) => Err("`count` must be at least 1".to_owned()),
-            (Some(count), None) if f64::from(count) > MOST_GRAINS => {
-                Err(format!("`count` is {count}, too many for a computer"))
-            }
-            (Some(count), None) => Ok(count),
-            (None, Some(fraction)) if fraction > 0.0 && fraction < 1.0 => {
-                let count = (fraction * volume / size.mean_volume()).round();
-                if count < 1.0 {
-                    Err(format!("a solid fraction of {fraction} is less than one grain"))
-                } else if count > MOST_GRAINS {
-                    Err(format!(
-                        "a solid fraction of {fraction} needs {count:.1e} grains, too many for a computer"
-                    ))
-                } else {
-                    Ok(count as u32)
-                }
-            }
-            (None, Some(fraction)) => {
-                Err(format!("`solid_fraction` must lie between 0 and 1, not {fraction}"))
-            }
-            _ => Err("give either `count` or `solid_fraction`".to_owned()),
-        }
+        wanted(self.count, self.solid_fraction, self.region.volume(), size)
     }
 }
 
-/// Places one group beside the grains `earlier` (centre [m], radius [m]); returns centres [m] and radii [m].
+impl Fill {
+    /// How many grains are asked for: `count`, or what gives `solid_fraction` on average.
+    ///
+    /// # Errors
+    /// A sentence that says what is wrong where neither, or both, or an impossible value is given.
+    pub fn wanted(&self, size: &Size, volume: &Volume) -> Result<u32, String> {
+        wanted(self.count, self.solid_fraction, volume.volume(), size)
+    }
+}
+
+/// The count for a volume [m³].
+fn wanted(count: Option<u32>, solid_fraction: Option<f64>, volume: f64, size: &Size) -> Result<u32, String> {
+    match (count, solid_fraction) {
+        _ if !volume.is_finite() || volume <= 0.0 => {
+            Err("the region must have a volume above zero".to_owned())
+        }
+        (Some(0), None) => Err("`count` must be at least 1".to_owned()),
+        (Some(count), None) if f64::from(count) > MOST_GRAINS => {
+            Err(format!("`count` is {count}, too many for a computer"))
+        }
+        (Some(count), None) => Ok(count),
+        (None, Some(fraction)) if fraction > 0.0 && fraction < 1.0 => {
+            let count = (fraction * volume / size.mean_volume()).round();
+            if count < 1.0 {
+                Err(format!("a solid fraction of {fraction} is less than one grain"))
+            } else if count > MOST_GRAINS {
+                Err(format!(
+                    "a solid fraction of {fraction} needs {count:.1e} grains, too many for a computer"
+                ))
+            } else {
+                Ok(count as u32)
+            }
+        }
+        (None, Some(fraction)) => Err(format!("`solid_fraction` must lie between 0 and 1, not {fraction}")),
+        _ => Err("give either `count` or `solid_fraction`".to_owned()),
+    }
+}
+
+/// What a group asks for.
+pub(super) struct Request<'a> {
+    /// Seed of the scenario.
+    pub seed: u64,
+    /// Which group.
+    pub group: usize,
+    /// Where grains may be.
+    pub room: Room,
+    /// Least distance [m] between surfaces.
+    pub gap: f64,
+    /// How many, or what is wrong with the request.
+    pub wanted: Result<u32, String>,
+    /// How large.
+    pub size: &'a Size,
+    /// The key below the group, for messages.
+    pub key: &'static str,
+}
+
+/// Places one group beside the grains that are there already, and their images where a `volume` repeats itself; returns
+/// centres [m] and radii [m].
 ///
 /// # Errors
 /// [`PackingError::Saturated`] where there is no room, [`PackingError::TooLarge`], [`PackingError::Value`].
 pub(super) fn add(
-    addition: &RandomAddition,
-    size: &Size,
-    seed: u64,
-    group: usize,
-    earlier: &[(Vec3, f64)],
+    request: &Request,
+    earlier: &Particles,
+    volume: Option<&Volume>,
 ) -> Result<Vec<(Vec3, f64)>, PackingError> {
-    let wanted = addition.wanted(size).map_err(|reason| PackingError::Value {
-        group,
-        key: "placement.random",
-        reason,
-    })?;
-    let gap = addition.gap.si();
+    let &Request { seed, group, ref room, gap, size, key, .. } = request;
+    let wanted = request.wanted.clone().map_err(|reason| PackingError::Value { group, key, reason })?;
     if !gap.is_finite() || gap < 0.0 {
-        let reason = "the gap must not be below zero".to_owned();
-        return Err(PackingError::Value { group, key: "placement.random.gap", reason });
+        let reason = "`gap` must not be below zero".to_owned();
+        return Err(PackingError::Value { group, key, reason });
     }
     let (largest, equal) = (size.largest(), size.largest() == size.smallest());
-    let room = addition.region.inner_radius();
-    let solid_fraction = f64::from(wanted) * size.mean_volume() / addition.region.volume();
+    let widest = room.largest_radius(gap);
+    let solid_fraction = f64::from(wanted) * size.mean_volume() / room.volume();
     let saturated = |placed, reached| {
         Err(PackingError::Saturated { group, placed, wanted: wanted as usize, solid_fraction, reached })
     };
-    let too_large = |radius| Err(PackingError::TooLarge { group, radius, room });
-    if room < size.smallest() {
+    let too_large = |radius| Err(PackingError::TooLarge { group, radius, room: widest });
+    if widest < size.smallest() {
         return too_large(size.smallest());
     }
     // Wide regions: in narrow ones walls can line grains up more densely than in the open.
-    if solid_fraction > if equal && room > NARROW * largest { SATURATION + 0.01 } else { DENSEST } {
+    if solid_fraction > if equal && widest > NARROW * largest { SATURATION + 0.01 } else { DENSEST } {
         return saturated(0, 0.0);
     }
     let radii = radii_from_large_to_small(size, wanted, seed, group);
-    if room < radii[0] {
+    if widest < radii[0] {
         return too_large(radii[0]);
     }
-    let search = Search { addition, gap, radii: &radii, earlier };
+    let search = Search { room, gap, radii: &radii, earlier, volume };
     let placed = search.run(seed, group, equal);
     if placed.len() == radii.len() {
         Ok(placed)
     } else {
         saturated(placed.len(), search.solid_fraction(placed.len()))
     }
+}
+
+/// Places spheres of given radii [n] [m] at random in the control volume, clear of one another and of their images:
+/// centres [n, 3] [m], in the order of the radii.
+///
+/// # Errors
+/// [`PackingError::Saturated`] where there is no room, [`PackingError::TooLarge`].
+pub fn fill_with(radii: &[f64], volume: &Volume, seed: u64) -> Result<Vec<Vec3>, PackingError> {
+    let mut order: Vec<u32> = (0..radii.len() as u32).collect();
+    order.sort_by(|&a, &b| radii[b as usize].total_cmp(&radii[a as usize]));
+    let sorted: Vec<f64> = order.iter().map(|&at| radii[at as usize]).collect();
+    let (Some(&largest), Some(&smallest)) = (sorted.first(), sorted.last()) else { return Ok(Vec::new()) };
+    let room = Room::of_volume(volume);
+    let (group, widest) = (0, room.largest_radius(0.0));
+    if widest < largest {
+        return Err(PackingError::TooLarge { group, radius: largest, room: widest });
+    }
+    let (earlier, volume) = (&Particles::default(), Some(volume));
+    let search = Search { room: &room, gap: 0.0, radii: &sorted, earlier, volume };
+    let placed = search.run(seed, group, largest == smallest);
+    if placed.len() < radii.len() {
+        let [solid_fraction, reached] = [radii.len(), placed.len()].map(|count| search.solid_fraction(count));
+        let (placed, wanted) = (placed.len(), radii.len());
+        return Err(PackingError::Saturated { group, placed, wanted, solid_fraction, reached });
+    }
+    let mut centers = vec![Vec3::ZERO; radii.len()];
+    for (at, (center, _)) in order.into_iter().zip(placed) {
+        centers[at as usize] = center;
+    }
+    Ok(centers)
 }
 
 fn radii_from_large_to_small(size: &Size, count: u32, seed: u64, group: usize) -> Vec<f64> {
@@ -131,16 +192,17 @@ fn radii_from_large_to_small(size: &Size, count: u32, seed: u64, group: usize) -
 
 /// The request in one place.
 struct Search<'a> {
-    addition: &'a RandomAddition,
+    room: &'a Room,
     gap: f64,
     radii: &'a [f64],
-    earlier: &'a [(Vec3, f64)],
+    earlier: &'a Particles,
+    volume: Option<&'a Volume>,
 }
 
 impl Search<'_> {
     fn solid_fraction(&self, count: usize) -> f64 {
         let cubes: f64 = self.radii[..count].iter().map(|radius| radius.powi(3)).sum();
-        4.0 / 3.0 * std::f64::consts::PI * cubes / self.addition.region.volume()
+        4.0 / 3.0 * std::f64::consts::PI * cubes / self.room.volume()
     }
 
     /// Puts grains until all are placed or no more room is found.
@@ -153,7 +215,7 @@ impl Search<'_> {
             let patience = if equal { PATIENCE } else { LONGEST_SEARCH.min(most_draws - draws) };
             let found = (0..patience).find_map(|_| {
                 draws += 1;
-                let place = self.addition.region.sample(radius, &mut stream)?;
+                let place = self.room.sample(radius, &mut stream)?;
                 occupied.is_free(place, radius).then_some(place)
             });
             let Some(place) = found else { break };
@@ -167,21 +229,33 @@ impl Search<'_> {
     }
 
     fn occupied_by_earlier(&self) -> Occupied {
-        let (lower, upper) = self.addition.region.bounds();
-        let near = self.earlier.iter().filter(|&&(center, radius)| {
+        let (lower, upper) = self.room.bounds();
+        let repeating = self.volume.filter(|volume| volume.boundary.wraps());
+        let home = |center: Vec3| repeating.map_or(center, |volume| volume.wrap(center));
+        // A room that repeats itself finds images of its own accord.
+        let shifts = match repeating {
+            Some(volume) if !self.room.repeats() => shifts(volume.edges()),
+            _ => vec![Vec3::ZERO],
+        };
+        let grains = self.earlier.position.iter().zip(&self.earlier.radius);
+        let images = grains.flat_map(|(&center, &radius)| {
+            let home = home(center);
+            shifts.iter().map(move |&shift| (home + shift, radius))
+        });
+        let near = images.filter(|&(center, radius)| {
             let reach = self.radii[0] + radius + self.gap;
             (0..3).all(|axis| center[axis] > lower[axis] - reach && center[axis] < upper[axis] + reach)
         });
-        let radii = near.clone().map(|&(_, radius)| radius).chain(self.radii.iter().copied());
-        let mut occupied = Occupied::new((lower, upper), self.gap, radii);
-        near.for_each(|&(center, radius)| occupied.insert(center, radius));
+        let radii = near.clone().map(|(_, radius)| radius).chain(self.radii.iter().copied());
+        let mut occupied = Occupied::new((lower, upper), self.room.repeats(), self.gap, radii);
+        near.for_each(|(center, radius)| occupied.insert(center, radius));
         occupied
     }
 
     /// Goes on with draws from cubes that cover all the room left, for equal grains.
     fn fill_gaps(&self, occupied: &mut Occupied, stream: &mut Stream, placed: &mut Vec<(Vec3, f64)>) {
         let radius = self.radii[0];
-        let mut cubes = Cubes::about(&self.addition.region.bounds(), radius);
+        let mut cubes = Cubes::about(&self.room.bounds(), radius);
         cubes.middles.retain(|&middle| self.may_have_room(middle, cubes.half_edge, occupied));
         for _ in 0..ROUNDS {
             let (draws, before) = (cubes.middles.len(), placed.len());
@@ -190,7 +264,7 @@ impl Search<'_> {
                     return;
                 }
                 let place = cubes.sample(stream);
-                if self.addition.region.contains(place, radius) && occupied.is_free(place, radius) {
+                if self.room.admits(place, radius) && occupied.is_free(place, radius) {
                     occupied.insert(place, radius);
                     placed.push((place, radius));
                 }
@@ -211,9 +285,16 @@ impl Search<'_> {
     /// Whether a cube is neither outside the region nor covered by one grain.
     fn may_have_room(&self, middle: Vec3, half_edge: f64, occupied: &Occupied) -> bool {
         let (radius, half_diagonal) = (self.radii[0], half_edge * 3.0_f64.sqrt());
-        self.addition.region.contains(middle, radius - half_diagonal * (1.0 + 1e-9))
+        self.room.may_admit_near(middle, radius, half_diagonal * (1.0 + 1e-9))
             && !occupied.covers(middle, half_edge, radius)
     }
+}
+
+/// The vectors [m] to a box with these edges and to the 26 about it.
+fn shifts(edges: Vec3) -> Vec<Vec3> {
+    let steps = [-1.0, 0.0, 1.0];
+    let plane = steps.iter().flat_map(|&k| steps.iter().map(move |&j| (j * edges.y, k * edges.z)));
+    plane.flat_map(|(y, z)| steps.iter().map(move |&i| Vec3::new(i * edges.x, y, z))).collect()
 }
 
 /// Equal cubes that cover the room that is left.

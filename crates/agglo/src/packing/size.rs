@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::math::rng::Stream;
-use crate::units::Length;
+use crate::units::{Length, Quantity};
 
 /// The closed set of size distributions (by number).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -23,6 +23,23 @@ pub enum Size {
     Lognormal(LognormalSize),
     /// Classes with their shares.
     Table(SizeTable),
+    /// All the same, from [B]'s ratio of radius and subvolume.
+    LengthRatio(LengthRatio),
+}
+
+/// All grains of radius b = L D / n^(1/3) ([B], section 7).
+///
+/// D is half the edge of the paper's box, so the solid fraction in that box is (4/3) pi L³ / 8, an eighth of what [B]
+/// prints.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LengthRatio {
+    /// L.
+    pub ratio: f64,
+    /// D.
+    pub half_edge: Length,
+    /// n.
+    pub count: u32,
 }
 
 /// All grains of one radius.
@@ -88,6 +105,8 @@ impl Size {
             }
             Self::Lognormal(size) => ordered(&size.smallest, &size.largest),
             Self::Table(size) => size.checked(),
+            Self::LengthRatio(size) if sound(&Quantity(size.radius())) => Ok(()),
+            Self::LengthRatio(_) => Err("the ratio, half_edge and count must be above zero"),
         };
         checked.err().map(str::to_owned)
     }
@@ -96,6 +115,7 @@ impl Size {
     pub fn largest(&self) -> f64 {
         match self {
             Self::Constant(size) => size.radius.si(),
+            Self::LengthRatio(size) => size.radius(),
             Self::Uniform(size) => size.largest.si(),
             Self::Lognormal(size) => size.largest.si(),
             Self::Table(size) => size.classes().fold(0.0, |largest, (radius, _)| radius.max(largest)),
@@ -106,6 +126,7 @@ impl Size {
     pub fn smallest(&self) -> f64 {
         match self {
             Self::Constant(size) => size.radius.si(),
+            Self::LengthRatio(size) => size.radius(),
             Self::Uniform(size) => size.smallest.si(),
             Self::Lognormal(size) => size.smallest.si(),
             Self::Table(size) => {
@@ -120,6 +141,7 @@ impl Size {
     pub fn mean_volume(&self) -> f64 {
         let mean_cube = match self {
             Self::Constant(size) => size.radius.si().powi(3),
+            Self::LengthRatio(size) => size.radius().powi(3),
             Self::Uniform(size) => {
                 // (b⁴ - a⁴)/(4 (b - a)), written so that a = b is no exception.
                 let (a, b) = (size.smallest.si(), size.largest.si());
@@ -140,6 +162,7 @@ impl Size {
     pub fn sample(&self, stream: &mut Stream) -> f64 {
         match self {
             Self::Constant(size) => size.radius.si(),
+            Self::LengthRatio(size) => size.radius(),
             Self::Uniform(size) => {
                 let (a, b) = (size.smallest.si(), size.largest.si());
                 a + (b - a) * stream.uniform()
@@ -147,6 +170,13 @@ impl Size {
             Self::Lognormal(size) => size.sample(stream),
             Self::Table(size) => size.sample(stream),
         }
+    }
+}
+
+impl LengthRatio {
+    /// The radius [m].
+    pub fn radius(&self) -> f64 {
+        self.ratio * self.half_edge.si() / f64::from(self.count).cbrt()
     }
 }
 
@@ -244,7 +274,6 @@ impl SizeTable {
 mod tests {
     use super::*;
     use crate::math::rng::Purpose;
-    use crate::units::Quantity;
 
     fn lognormal(median: f64, geometric_deviation: f64, smallest: f64, largest: f64) -> Size {
         Size::Lognormal(LognormalSize {
@@ -318,6 +347,29 @@ mod tests {
         let n = 1_000_000;
         let below = (0..n).filter(|_| size.sample(&mut stream) < 2.0).count();
         assert!((below as f64 / f64::from(n) - 0.5).abs() < 5.0 * 0.5 / f64::from(n).sqrt());
+    }
+
+    /// [B]'s best length ratio in its box: a thousand grains of 0.79041 mm, which fill (4/3) pi L³/8 = 0.25856 of it.
+    #[test]
+    fn length_ratio_by_hand() {
+        let law = LengthRatio { ratio: 0.79041, half_edge: Quantity(0.01), count: 1000 };
+        let size = Size::LengthRatio(law.clone());
+        let mut stream = Stream::new(1, Purpose::Size, 0);
+        // A cube root and two roundings.
+        for radius in [size.largest(), size.smallest(), size.sample(&mut stream)] {
+            assert!((radius / 0.790_41e-3 - 1.0).abs() < 1e-15);
+        }
+        let fraction = 1000.0 * size.mean_volume() / 0.02_f64.powi(3);
+        // Five digits are written.
+        assert!((fraction - 0.258_56).abs() < 5e-6, "{fraction}");
+        assert_eq!(size.fault(), None);
+        for bad in [
+            LengthRatio { count: 0, ..law.clone() },
+            LengthRatio { ratio: -1.0, ..law.clone() },
+            LengthRatio { half_edge: Quantity(0.0), ..law },
+        ] {
+            assert!(Size::LengthRatio(bad).fault().is_some());
+        }
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Grains from a CSV table.
 //!
-//! The first line names the columns: `x_m`, `y_m`, `z_m`, and optionally `radius_m` and the three `vx_m_s`, `vy_m_s`,
-//! `vz_m_s`, in any order. Lines that begin with `#` are passed over.
+//! The first line names the columns: `x_m`, `y_m`, `z_m`, and optionally `radius_m`, `temperature_K` and the three
+//! `vx_m_s`, `vy_m_s`, `vz_m_s`, in any order. Lines that begin with `#` are passed over.
 
 use std::path::Path;
 
@@ -17,9 +17,17 @@ pub(super) struct TableGrain {
     pub radius: Option<f64>,
     /// Velocity [m/s].
     pub velocity: Option<Vec3>,
+    /// Temperature [K].
+    pub temperature: Option<f64>,
 }
 
-const COLUMNS: [&str; 7] = ["x_m", "y_m", "z_m", "radius_m", "vx_m_s", "vy_m_s", "vz_m_s"];
+const COLUMNS: [&str; 8] = ["x_m", "y_m", "z_m", "radius_m", "vx_m_s", "vy_m_s", "vz_m_s", "temperature_K"];
+/// Columns that every table has.
+const POSITION: std::ops::Range<usize> = 0..3;
+const RADIUS: usize = 3;
+/// Columns of which a table has all or none.
+const VELOCITY: std::ops::Range<usize> = 4..7;
+const TEMPERATURE: usize = 7;
 
 /// Reads the table.
 ///
@@ -64,11 +72,11 @@ fn entries(line: &str) -> Vec<&str> {
 }
 
 /// Where each known column stands in the table.
-fn columns(header: &[&str], file: &Path, line: u64) -> Result<[Option<usize>; 7], PackingError> {
+fn columns(header: &[&str], file: &Path, line: u64) -> Result<[Option<usize>; COLUMNS.len()], PackingError> {
     let fault = |column: String, reason: String| {
         Err(PackingError::Table { file: file.to_owned(), line, column, reason })
     };
-    let mut places = [None; 7];
+    let mut places = [None; COLUMNS.len()];
     for (at, name) in header.iter().enumerate() {
         match COLUMNS.iter().position(|known| known == name) {
             Some(known) if places[known].is_none() => places[known] = Some(at),
@@ -79,9 +87,9 @@ fn columns(header: &[&str], file: &Path, line: u64) -> Result<[Option<usize>; 7]
             }
         }
     }
-    let velocities = places[4..].iter().any(Option::is_some);
-    let missing = (0..7).find(|&at| places[at].is_none() && (at < 3 || (at > 3 && velocities)));
-    match missing {
+    let velocities = places[VELOCITY].iter().any(Option::is_some);
+    let mut wanted = POSITION.chain(VELOCITY.filter(|_| velocities));
+    match wanted.find(|&at| places[at].is_none()) {
         Some(at) => fault(COLUMNS[at].to_owned(), "the column is missing".to_owned()),
         None => Ok(places),
     }
@@ -90,7 +98,7 @@ fn columns(header: &[&str], file: &Path, line: u64) -> Result<[Option<usize>; 7]
 /// One line of the table on its way to a grain.
 struct Entries<'a> {
     row: &'a [&'a str],
-    places: &'a [Option<usize>; 7],
+    places: &'a [Option<usize>; COLUMNS.len()],
     file: &'a Path,
     line: u64,
 }
@@ -101,12 +109,17 @@ impl Entries<'_> {
             let [x, y, z] = [self.number(first)?, self.number(first + 1)?, self.number(first + 2)?];
             Ok(x.zip(y).zip(z).map(|((x, y), z)| Vec3::new(x, y, z)))
         };
-        let radius = self.number(3)?;
-        if radius.is_some_and(|radius| radius <= 0.0) {
-            return Err(self.fault(3, "a radius must be above zero".to_owned()));
-        }
-        // The header has been checked: positions are there.
-        Ok(TableGrain { position: vector(0)?.unwrap_or_default(), radius, velocity: vector(4)? })
+        let above_zero = |column: usize, what: &str| match self.number(column)? {
+            Some(value) if value <= 0.0 => Err(self.fault(column, format!("{what} must be above zero"))),
+            value => Ok(value),
+        };
+        Ok(TableGrain {
+            // The header has been checked: positions are there.
+            position: vector(POSITION.start)?.unwrap_or_default(),
+            radius: above_zero(RADIUS, "a radius")?,
+            velocity: vector(VELOCITY.start)?,
+            temperature: above_zero(TEMPERATURE, "a temperature")?,
+        })
     }
 
     fn number(&self, column: usize) -> Result<Option<f64>, PackingError> {
@@ -139,11 +152,14 @@ mod tests {
             position: Vec3::new(x, y, z),
             radius: Some(radius),
             velocity: None,
+            temperature: None,
         };
         assert_eq!(grains, [grain(1.0, 2.0, 3.0, 0.5), grain(0.0, 0.0, -3.5, 1e-6)]);
         let moving = parse_text("x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s\n0,0,0,4,5,6\n").unwrap();
         assert_eq!(moving[0].velocity, Some(Vec3::new(4.0, 5.0, 6.0)));
         assert_eq!(moving[0].radius, None);
+        let hot = parse_text("temperature_K,x_m,y_m,z_m\n1234.5,0,0,0\n").unwrap();
+        assert_eq!((hot[0].temperature, hot[0].velocity), (Some(1234.5), None));
     }
 
     #[test]
@@ -152,6 +168,10 @@ mod tests {
             ("x_m,y_m,z_m\n1,2,3\n1,two,3\n", "grains.csv, line 3, column y_m: `two` is not a finite number"),
             ("x_m,y_m,z_m\n1,2,nan\n", "line 2, column z_m"),
             ("x_m,y_m,z_m,radius_m\n1,2,3,-1\n", "line 2, column radius_m: a radius must be above zero"),
+            (
+                "x_m,y_m,z_m,temperature_K\n1,2,3,0\n",
+                "line 2, column temperature_K: a temperature must be above zero",
+            ),
             ("x_m,y_m,z_m\n\n1,2\n", "line 3, column 2: 2 entries where the header has 3"),
             ("x_m,y_m\n1,2\n", "line 1, column z_m: the column is missing"),
             ("x_m,y_m,z_m,vx_m_s\n1,2,3,4\n", "line 1, column vy_m_s: the column is missing"),

@@ -10,18 +10,16 @@ use crate::particles::{Material, Particles, Softening};
 use crate::scenario::{GrainGroup, Scenario};
 use crate::units::Quantity;
 
-fn scenario(grains: Vec<GrainGroup>) -> Scenario {
+pub(super) fn scenario(grains: Vec<GrainGroup>) -> Scenario {
     let material = |density| Material {
         density: Quantity(density),
-        sound_speed: None,
-        youngs_modulus: None,
-        poisson_ratio: None,
         contact_stiffness: Some(Quantity(1e7)),
         softening: Some(Softening {
             reference_temperature: Quantity(500.0),
             sensitivity: 1.0,
             lowest_stiffness: Quantity(1e6),
         }),
+        ..Material::default()
     };
     let materials =
         BTreeMap::from([("glass".to_owned(), material(2500.0)), ("ink".to_owned(), material(900.0))]);
@@ -30,12 +28,13 @@ fn scenario(grains: Vec<GrainGroup>) -> Scenario {
     Scenario { materials, grains, ..blank }
 }
 
-fn group(material: &str, size: Size, placement: Placement) -> GrainGroup {
+pub(super) fn group(material: &str, size: Size, placement: Placement) -> GrainGroup {
     GrainGroup {
         material: material.to_owned(),
         size,
         placement,
         velocity: [1.0, 2.0, 3.0].map(Quantity),
+        velocity_spread: None,
         spin: [0.0, 0.0, 5.0].map(Quantity),
         temperature: Quantity(600.0),
         charge: Quantity(-2e-12),
@@ -43,7 +42,7 @@ fn group(material: &str, size: Size, placement: Placement) -> GrainGroup {
     }
 }
 
-fn radius(radius: f64) -> Size {
+pub(super) fn radius(radius: f64) -> Size {
     Size::Constant(ConstantSize { radius: Quantity(radius) })
 }
 
@@ -51,15 +50,15 @@ fn ball(radius: f64) -> Region {
     Region::Sphere(Ball { center: [1.0, 0.0, -2.0].map(Quantity), radius: Quantity(radius) })
 }
 
-fn cube(edge: f64) -> Region {
+pub(super) fn cube(edge: f64) -> Region {
     Region::Box(Block { lower: [0.0; 3].map(Quantity), upper: [edge; 3].map(Quantity) })
 }
 
-fn random(region: Region, count: Option<u32>, solid_fraction: Option<f64>) -> Placement {
+pub(super) fn random(region: Region, count: Option<u32>, solid_fraction: Option<f64>) -> Placement {
     Placement::Random(RandomAddition { count, solid_fraction, region, gap: Quantity(0.0) })
 }
 
-fn lattice(kind: LatticeKind, spacing: f64, region: Region, count: Option<u32>) -> Placement {
+pub(super) fn lattice(kind: LatticeKind, spacing: f64, region: Region, count: Option<u32>) -> Placement {
     Placement::Lattice(Lattice { kind, spacing: Quantity(spacing), region, count })
 }
 
@@ -156,15 +155,19 @@ fn the_seed_decides() {
 #[test]
 fn equal_spheres_saturate_where_others_found() {
     let (edge, radius) = (40.0, 0.7);
-    let addition =
-        RandomAddition { count: None, solid_fraction: Some(0.381), region: cube(edge), gap: Quantity(0.0) };
-    let error = random::add(&addition, &self::radius(radius), 1, 0, &[]).unwrap_err();
+    let size = self::radius(radius);
+    let add = |wanted| {
+        let (room, gap) = (room::Room::inside(&cube(edge)), 0.0);
+        let request =
+            random::Request { seed: 1, group: 0, room, gap, wanted: Ok(wanted), size: &size, key: "" };
+        random::add(&request, &Particles::default(), None)
+    };
+    let error = add((0.381 * edge.powi(3) / size.mean_volume()) as u32).unwrap_err();
     let message = error.to_string();
     assert!(message.contains("0.382") && message.contains("`lattice` placement"), "{message}");
     let PackingError::Saturated { placed, wanted, reached, .. } = error else { panic!("{error}") };
     assert!(placed < wanted && reached < 0.381);
-    let exactly = RandomAddition { count: Some(placed as u32), solid_fraction: None, ..addition };
-    let grains = random::add(&exactly, &self::radius(radius), 1, 0, &[]).unwrap();
+    let grains = add(placed as u32).unwrap();
     let margin = 5.0;
     let inner = |x: f64| x > margin && x < edge - margin;
     let bulk = grains.iter().filter(|(at, _)| inner(at.x) && inner(at.y) && inner(at.z)).count();

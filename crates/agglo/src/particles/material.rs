@@ -47,10 +47,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::contact::PairConstants;
-use crate::units::{Density, Pressure, Temperature, Velocity};
+use crate::units::{Conductivity, Density, Energy, Pressure, SpecificHeat, Stiffness, Temperature, Velocity};
 
 /// What grains are made of. A property that no law of the scenario uses can be left out.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
     /// Density.
@@ -70,6 +70,27 @@ pub struct Material {
     /// How heat softens the contact stiffness; not at all if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub softening: Option<Softening>,
+    /// Heat capacity C, for hard spheres that heat up.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub heat_capacity: Option<SpecificHeat>,
+    /// Hardness H0 in the limit of great heat, for restitution from hardness.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hardness: Option<Pressure>,
+    /// Activation energy Q of softening by heat, per mole; 0 if left out: the hardness does not depend on temperature.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub activation_energy: Option<Energy>,
+    /// Reaction heat per contact area, alpha; none if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reaction_heat: Option<Stiffness>,
+    /// Surface energy gamma of fragments; the material does not break if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub surface_energy: Option<Stiffness>,
+    /// Emissivity, from 0 to 1; 0 if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub emissivity: Option<f64>,
+    /// Thermal conductivity, for the Biot number only.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thermal_conductivity: Option<Conductivity>,
 }
 
 /// K = max(K0 exp(-a (T/T* - 1)), K_lim) (Zohdi 2016, eqs 35-36).
@@ -181,6 +202,7 @@ mod tests {
                 sensitivity: 1.0,
                 lowest_stiffness: Quantity(1e6),
             }),
+            ..Material::default()
         }
     }
 

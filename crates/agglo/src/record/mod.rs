@@ -9,4 +9,4 @@ pub mod frames;
 mod series;
 
 pub use error::RecordError;
-pub use series::Series;
+pub use series::{Cell, Series};

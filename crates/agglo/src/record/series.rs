@@ -7,6 +7,17 @@ use std::path::{Path, PathBuf};
 
 use super::RecordError;
 
+/// An entry of a row that mixes numbers and words.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cell {
+    /// A quantity.
+    Number(f64),
+    /// A name or a count.
+    Count(u64),
+    /// A word without commas.
+    Word(&'static str),
+}
+
 /// A CSV table of numbers with one header line; names of columns carry their unit (`time_s`).
 ///
 /// Numbers are written with as few digits as bring back the same bits.
@@ -80,13 +91,21 @@ impl Series {
         self.end_line()
     }
 
-    /// Adds a row of words without commas, such as a mixture of numbers and names.
+    /// Adds a row that mixes numbers and words.
     ///
     /// # Errors
     /// [`RecordError::Shape`] where the row does not fit the header, [`RecordError::File`].
-    pub fn words(&mut self, words: &[&str]) -> Result<(), RecordError> {
-        self.check_length(words.len())?;
-        self.line.push_str(&words.join(","));
+    pub fn cells(&mut self, cells: &[Cell]) -> Result<(), RecordError> {
+        self.check_length(cells.len())?;
+        for (k, cell) in cells.iter().enumerate() {
+            let comma = if k == 0 { "" } else { "," };
+            // Writing to a string cannot fail.
+            let _ = match cell {
+                Cell::Number(value) => write!(self.line, "{comma}{value:?}"),
+                Cell::Count(count) => write!(self.line, "{comma}{count}"),
+                Cell::Word(word) => write!(self.line, "{comma}{word}"),
+            };
+        }
         self.end_line()
     }
 

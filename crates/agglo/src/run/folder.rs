@@ -74,10 +74,6 @@ impl Folder {
     pub fn summary(&self) -> PathBuf {
         self.root.join("summary.json")
     }
-    /// Events of bonds.
-    pub fn events(&self) -> PathBuf {
-        self.root.join("events.csv")
-    }
     /// Tables over time.
     pub fn series(&self) -> PathBuf {
         self.root.join("series")

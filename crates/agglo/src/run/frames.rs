@@ -43,12 +43,17 @@ impl Frames {
         self.lists.last_time
     }
 
-    /// Writes the grains at `time` [s] with the cluster [n] of each.
-    pub fn grains(&mut self, time: f64, grains: &Particles, clusters: &[u32]) -> Result<(), RecordError> {
+    /// Writes the grains at `time` [s] with an integer field [n] of this name.
+    pub fn grains(
+        &mut self,
+        time: f64,
+        grains: &Particles,
+        (field, values): (&str, &[u32]),
+    ) -> Result<(), RecordError> {
         self.lists.last_time = Some(time);
         let name = next_name("grains", &self.lists.grains);
-        let cluster = Field::new("cluster", ColumnValues::Integers(clusters));
-        write_grains(&self.folder.join(&name), time, grains, &[cluster])?;
+        let extra = Field::new(field, ColumnValues::Integers(values));
+        write_grains(&self.folder.join(&name), time, grains, &[extra])?;
         self.lists.grains.add(time, &name);
         self.lists.grains.write(&self.folder.join("grains.pvd"))
     }

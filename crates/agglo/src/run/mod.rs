@@ -3,21 +3,31 @@
 mod error;
 mod folder;
 mod frames;
+mod hard;
+mod job;
 mod recorder;
 mod session;
+mod soft;
 mod summary;
 mod tables;
+mod timers;
 
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
 pub use error::RunError;
-pub use summary::{Clusters, EnergyFigures, PulseFigures, Summary};
+pub use hard::{Growth, HardSummary};
+pub use soft::{Clusters, EnergyFigures, PulseFigures, SoftSummary};
+pub use summary::Summary;
 
+use crate::particles::Particles;
 use crate::scenario::Scenario;
 use folder::Folder;
+use hard::Hard;
+use job::{AnySaved, Job};
 use session::Session;
+use soft::Soft;
 
 /// What an observer is told while a run goes on, about ten times a second.
 #[derive(Clone, Debug)]
@@ -26,8 +36,10 @@ pub struct Progress {
     pub time: f64,
     /// Simulated time at the end [s].
     pub end: f64,
-    /// Accepted steps so far.
+    /// Accepted steps so far, or events.
     pub step: u64,
+    /// What `step` counts: "steps", "events".
+    pub steps_are: &'static str,
     /// What happens now, in words: "pulse 2 of 4, 7312 rays in flight".
     pub now: String,
     /// Warnings that came up for the first time since the last call.
@@ -38,7 +50,7 @@ pub struct Progress {
 #[derive(Clone, Debug)]
 pub enum Ending {
     /// It reached its end.
-    Finished(Box<Summary>),
+    Finished(Summary),
     /// The observer asked to stop; a checkpoint at this simulated time [s] was written.
     Interrupted(f64),
 }
@@ -61,9 +73,21 @@ pub fn run(
     let grains = crate::packing::place(&scenario, base)?;
     let folder = Folder::create(dir)?;
     on_a_worker(|| {
-        let started = Session::start(&scenario, grains, folder.clone(), sat_down);
-        started.inspect_err(|_| folder.abandon())?.carry_on(observer)
+        let go = if scenario.engine.is_hard() { sit::<Hard> } else { sit::<Soft> };
+        go(&scenario, grains, &folder, sat_down, observer)
     })
+}
+
+/// The first sitting of a run.
+fn sit<J: Job>(
+    scenario: &Scenario,
+    grains: Particles,
+    folder: &Folder,
+    sat_down: Instant,
+    observer: &mut Observer<'_>,
+) -> Result<Ending, RunError> {
+    let started = Session::<J>::start(scenario, grains, folder.clone(), sat_down);
+    started.inspect_err(|_| folder.abandon())?.carry_on(observer)
 }
 
 /// Goes on with the run in `dir` from its newest sound checkpoint.
@@ -75,9 +99,15 @@ pub fn run(
 pub fn resume(dir: &Path, observer: &mut Observer<'_>) -> Result<Ending, RunError> {
     let folder = Folder::open(dir)?;
     if let Some(summary) = finished(dir) {
-        return Ok(Ending::Finished(Box::new(summary)));
+        return Ok(Ending::Finished(summary));
     }
-    on_a_worker(|| Session::resume(folder)?.carry_on(observer))
+    on_a_worker(|| {
+        let (saved, refused) = session::load(&folder)?;
+        match saved {
+            AnySaved::Soft(saved) => Session::<Soft>::resume(folder, *saved, &refused)?.carry_on(observer),
+            AnySaved::Hard(saved) => Session::<Hard>::resume(folder, *saved, &refused)?.carry_on(observer),
+        }
+    })
 }
 
 /// The summary of the run in `dir`, if it has finished.

@@ -3,35 +3,37 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use serde::{Deserialize, Serialize};
-
-use crate::engine::soft::{Simulation, SimulationState};
 use crate::particles::Particles;
-use crate::record::{RecordError, atomic, checkpoint};
+use crate::record::checkpoint::{self, Refused};
+use crate::record::{RecordError, atomic};
 use crate::scenario::Scenario;
 
 use super::folder::Folder;
-use super::recorder::{Recorder, RecorderState};
-use super::summary::Summary;
+use super::job::{AnySaved, Job, Saved};
+use super::recorder::Recorder;
 use super::{Ending, Observer, Progress, RunError};
 
 /// How often the observer is told.
 const TELL_EVERY: Duration = Duration::from_millis(100);
 
-/// What a checkpoint holds.
-#[derive(Serialize, Deserialize)]
-struct Saved<'a> {
-    scenario: String,
-    simulation: SimulationState<'a>,
-    recorder: RecorderState,
-    wall_s: f64,
+/// Reads the newest sound checkpoint in the folder, and what was wrong with newer ones.
+///
+/// # Errors
+/// [`RunError`] where there is none.
+pub fn load(folder: &Folder) -> Result<(AnySaved<'static>, Vec<Refused>), RunError> {
+    match checkpoint::load_newest::<AnySaved<'_>>(&folder.checkpoints()) {
+        Err(RecordError::NoCheckpoint { refused, .. }) if refused.is_empty() => {
+            Err(RunError::NoCheckpointYet { dir: folder.root().to_owned() })
+        }
+        found => found.map(|(saved, _, refused)| (saved, refused)).map_err(RunError::from),
+    }
 }
 
 /// One sitting of a run.
-pub struct Session {
+pub struct Session<J> {
     scenario: Scenario,
     folder: Folder,
-    simulation: Simulation,
+    job: J,
     recorder: Recorder,
     wall_before: f64,
     sat_down: Instant,
@@ -39,7 +41,7 @@ pub struct Session {
     notes: Vec<String>,
 }
 
-impl Session {
+impl<J: Job> Session<J> {
     /// Starts a run in an empty folder; its wall time counts from `sat_down`.
     ///
     /// # Errors
@@ -50,58 +52,51 @@ impl Session {
         folder: Folder,
         sat_down: Instant,
     ) -> Result<Self, RunError> {
-        let simulation = Simulation::start(scenario, grains).map_err(RunError::Start)?;
+        let job = J::start(scenario, grains).map_err(RunError::Start)?;
         let head = format!(
             "# Resolved scenario of a run of agglo {}: every default is written out.\n",
             env!("CARGO_PKG_VERSION")
         );
         let text = scenario.to_toml()?;
         atomic::write(&folder.scenario(), (head + &text).as_bytes())?;
-        let recorder = Recorder::create(scenario, &folder)?;
+        let recorder = Recorder::create::<J>(scenario, &folder)?;
         let mut session = Self {
             scenario: scenario.clone(),
             folder,
-            simulation,
+            job,
             recorder,
             wall_before: 0.0,
             sat_down,
             told: sat_down,
             notes: Vec::new(),
         };
-        session.recorder.record_due(&mut session.simulation)?;
+        session.recorder.record_due(&mut session.job)?;
         session.save()?;
         Ok(session)
     }
 
-    /// Goes on from the newest sound checkpoint.
+    /// Goes on from a checkpoint; `refused` are newer ones that are damaged.
     ///
     /// # Errors
-    /// [`RunError`] where there is none, or a file cannot be brought back to its state at that time.
-    pub fn resume(folder: Folder) -> Result<Self, RunError> {
-        let dir = folder.root().to_owned();
-        let (saved, _, refused) = match checkpoint::load_newest::<Saved<'_>>(&folder.checkpoints()) {
-            Err(RecordError::NoCheckpoint { refused, .. }) if refused.is_empty() => {
-                return Err(RunError::NoCheckpointYet { dir });
-            }
-            found => found?,
-        };
-        let scenario = Scenario::from_toml(&saved.scenario)
-            .map_err(|faults| RunError::BadCheckpoint { dir, reason: faults.to_string() })?;
-        let recorder = Recorder::resume(&scenario, &folder, saved.recorder)?;
+    /// [`RunError`] where a file cannot be brought back to its state at that time.
+    pub fn resume(folder: Folder, saved: Saved<J::State<'_>>, refused: &[Refused]) -> Result<Self, RunError> {
+        let bad = |reason: String| RunError::BadCheckpoint { dir: folder.root().to_owned(), reason };
+        let scenario = Scenario::from_toml(&saved.scenario).map_err(|faults| bad(faults.to_string()))?;
+        let job = J::resume(&scenario, saved.state).map_err(|error| bad(error.to_string()))?;
+        let recorder = Recorder::resume::<J>(&folder, saved.recorder)?;
         folder.sweep()?;
         let now = Instant::now();
+        let passed_over =
+            |damaged: &Refused| format!("a checkpoint is damaged and was passed over: {damaged}");
         Ok(Self {
-            simulation: Simulation::resume(&scenario, saved.simulation),
             scenario,
             folder,
+            job,
             recorder,
             wall_before: saved.wall_s,
             sat_down: now,
             told: now,
-            notes: refused
-                .iter()
-                .map(|damaged| format!("a checkpoint is damaged and was passed over: {damaged}"))
-                .collect(),
+            notes: refused.iter().map(passed_over).collect(),
         })
     }
 
@@ -122,14 +117,14 @@ impl Session {
         if self.tell(observer).is_break() {
             return self.interrupted();
         }
-        while !self.simulation.is_finished() {
-            let stepped = self.simulation.step();
+        while !self.job.is_finished() {
+            let stepped = self.job.advance(self.recorder.next_due());
             if let Err(error) = stepped {
                 self.recorder.sync()?;
                 return Err(RunError::Step { error, checkpoints: self.folder.checkpoints() });
             }
-            self.recorder.record_due(&mut self.simulation)?;
-            if self.recorder.checkpoint_is_due(&self.simulation) {
+            self.recorder.record_due(&mut self.job)?;
+            if self.recorder.checkpoint_is_due(self.job.time()) {
                 self.save()?;
             }
             if self.told.elapsed() >= TELL_EVERY && self.tell(observer).is_break() {
@@ -141,30 +136,28 @@ impl Session {
 
     fn interrupted(mut self) -> Result<Ending, RunError> {
         self.save()?;
-        Ok(Ending::Interrupted(self.simulation.clock().time))
+        Ok(Ending::Interrupted(self.job.time()))
     }
 
     fn finish(mut self, observer: &mut Observer<'_>) -> Result<Ending, RunError> {
-        self.recorder.record_end(&self.simulation)?;
-        let clusters = self.recorder.clusters(&self.simulation);
-        let title = &self.scenario.title;
-        let summary = Summary::new(title, self.scenario.seed, &self.simulation, &clusters, self.wall_s());
+        self.recorder.record_end(&mut self.job, &self.folder)?;
+        let summary = self.job.summary(&self.scenario, self.wall_s());
         let text = summary.to_json();
         self.save()?;
         atomic::write(&self.folder.summary(), text.as_bytes())?;
         let _ = self.tell(observer);
-        Ok(Ending::Finished(Box::new(summary)))
+        Ok(Ending::Finished(summary))
     }
 
     fn save(&mut self) -> Result<(), RunError> {
         self.recorder.sync()?;
-        let saved = Saved {
+        let saved = self.job.save(Saved {
             scenario: self.scenario.to_toml()?,
-            simulation: self.simulation.state(),
+            state: (),
             recorder: self.recorder.state(),
             wall_s: self.wall_s(),
-        };
-        checkpoint::save(&self.folder.checkpoints(), self.simulation.clock().step, &saved)?;
+        });
+        checkpoint::save(&self.folder.checkpoints(), self.job.step(), &saved)?;
         Ok(())
     }
 
@@ -174,42 +167,16 @@ impl Session {
 
     fn tell(&mut self, observer: &mut Observer<'_>) -> ControlFlow<()> {
         self.told = Instant::now();
-        let clock = self.simulation.clock();
         let mut warnings = std::mem::take(&mut self.notes);
+        warnings.extend(self.job.fresh_warnings());
         let progress = Progress {
-            time: clock.time,
+            time: self.job.time(),
             end: self.scenario.time.end.si(),
-            step: clock.step,
-            now: what_happens(&self.simulation),
-            warnings: {
-                warnings.extend(self.simulation.warnings.take_fresh());
-                warnings
-            },
+            step: self.job.step(),
+            steps_are: self.job.steps_are(),
+            now: self.job.now(),
+            warnings,
         };
         observer(&progress)
     }
-}
-
-/// What happens now, in words.
-fn what_happens(simulation: &Simulation) -> String {
-    let pulses = &simulation.pulses;
-    let bonds = simulation.system.network.bonds().len();
-    let rays = pulses.flight().rays().len();
-    let mut words = Vec::new();
-    if rays > 0 {
-        words.push(format!(
-            "pulse {} of {}, {rays} rays in flight",
-            pulses.counts().len(),
-            pulses.scheduled()
-        ));
-    } else if pulses.scheduled() > 0 {
-        words.push(match pulses.counts().len() {
-            0 => format!("before pulse 1 of {}", pulses.scheduled()),
-            number => format!("after pulse {number} of {}", pulses.scheduled()),
-        });
-    }
-    if simulation.system.network.made_at_start() > 0 {
-        words.push(format!("{bonds} bonds"));
-    }
-    words.join(", ")
 }

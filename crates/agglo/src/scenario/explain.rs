@@ -44,10 +44,25 @@ pages! {
     "magnetic" "fields" "magnetic" [];
     "gravity" "fields" "gravity" [];
     "drag" "fields" "drag" ["stokes" "schiller_naumann"];
+    "hardness" "impact/restitution" "hardness" ["bracketed" "fixed_point"];
+    "constant" "impact/restitution" "constant" [];
+    "contact_area" "impact" "contact_area" [];
+    "contact_time" "impact" "contact_time" [];
+    "softening" "impact" "softening" [];
+    "tangential" "impact" "tangential" ["no_slip"];
+    "sticking" "impact" "sticking" ["merge" "never"];
+    "fragmentation" "impact" "fragmentation" ["center_of_mass" "power_law"];
+    "heat" "impact" "heat" [];
+    "work" "impact" "work" [];
+    "reaction_heat" "impact" "reaction_heat" [];
+    "cooling" "impact" "cooling" [];
+    "self_gravity" "impact" "self_gravity" [];
     "beams" "acoustics" "beam" [];
     "fresnel" "acoustics" "fresnel" [];
     "staggered" "engine/soft" "staggered" [];
     "verlet" "engine/soft" "verlet" [];
+    "event_driven" "engine/hard" "event_driven" [];
+    "time_stepped" "engine/hard" "time_stepped" [];
     "ray_force" "acoustics" "ray_force" ["impulse" "published_step" "radiation_pressure"];
 }
 
@@ -87,15 +102,16 @@ mod tests {
     use crate::scenario::{enums, schema};
 
     /// A choice whose variants are one file each, with the folder of those files.
-    const ONE_FILE_EACH: [(&str, &str); 4] = [
+    const ONE_FILE_EACH: [(&str, &str); 5] = [
         ("Normal", "contact/normal"),
         ("Damping", "contact/damping"),
         ("Friction", "contact/friction"),
         ("Bonds", "contact/bond"),
+        ("Restitution", "impact/restitution"),
     ];
 
     #[test]
-    fn every_contact_law_has_a_file_and_a_page_of_its_name() {
+    fn every_contact_and_impact_law_has_a_file_and_a_page_of_its_name() {
         let schema = schema();
         for (choice, folder) in ONE_FILE_EACH {
             let words = enums::words(&schema["$defs"][choice]);
@@ -117,8 +133,14 @@ mod tests {
                 assert!(explain(word).is_some(), "no page for {word}");
             }
         }
-        for word in schema["$defs"]["Fields"]["properties"].as_object().unwrap().keys() {
-            assert!(explain(word).is_some(), "no page for {word}");
+        for word in enums::words(&schema["$defs"]["Sticking"]) {
+            assert_eq!(explain(word).unwrap().name, "sticking");
+        }
+        for part in ["Fields", "Impact"] {
+            let words = schema["$defs"][part]["properties"].as_object().unwrap().keys();
+            for word in words.filter(|word| *word != "restitution") {
+                assert!(explain(word).is_some(), "no page for {word}");
+            }
         }
     }
 

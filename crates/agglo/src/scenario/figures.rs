@@ -9,6 +9,8 @@ pub fn readable(value: f64, unit: &str) -> String {
     if value == 0.0 || !value.is_finite() || !takes_prefix {
         return format!("{} {unit}", digits(value)).trim_end().to_owned();
     }
+    // Rounded first: 0.9999999 mm is 1 mm and not 1000 um.
+    let value: f64 = format!("{value:.3e}").parse().unwrap_or(value);
     let decade = value.abs().log10().floor() as i32;
     let wanted = decade.div_euclid(3) * 3;
     match PREFIXES.iter().find(|(power, _)| *power == wanted) {
@@ -42,6 +44,7 @@ mod tests {
         assert_eq!(readable(-0.02, "m/s"), "-20 mm/s");
         assert_eq!(readable(7.06e13, "W"), "7.06e13 W");
         assert_eq!(readable(6000.0, "kg/m^3"), "6000 kg/m^3");
+        assert_eq!(readable(0.000_999_999_9, "m"), "1 mm");
         assert_eq!(digits(0.381_99), "0.382");
     }
 }

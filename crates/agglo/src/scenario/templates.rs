@@ -28,6 +28,16 @@ pub const TEMPLATES: &[Template] = &[
         title: "pigment grains of some 10 um in water under four short pulses",
         text: include_str!("../../../../scenarios/ink-agglomerate.toml"),
     },
+    Template {
+        name: "reacting",
+        title: "hard grains that collide, react, stick and grow, with laws that converge",
+        text: include_str!("../../../../scenarios/reacting-agglomeration.toml"),
+    },
+    Template {
+        name: "reacting-published",
+        title: "the same grains with the model of the paper as printed",
+        text: include_str!("../../../../scenarios/reacting-agglomeration-published.toml"),
+    },
 ];
 
 /// The template with this name.

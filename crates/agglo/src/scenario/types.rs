@@ -7,9 +7,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::acoustics::{Acoustics, Medium};
 use crate::contact::{Bonds, ContactLaws};
-use crate::engine::soft::{Engine, Limits};
+use crate::domain::Volume;
+use crate::engine::Engine;
+use crate::engine::soft::Limits;
 use crate::fields::Fields;
-use crate::packing::{Placement, Size};
+use crate::impact::Impact;
+use crate::packing::{Placement, Size, VelocitySpread};
 use crate::particles::{Material, Mixture};
 use crate::units::{Charge, Frequency, Temperature, Time, Triple, Velocity};
 
@@ -45,7 +48,13 @@ pub struct Scenario {
     /// What happens before the clock starts.
     #[serde(default)]
     pub start: Start,
-    /// Laws of contact; grains pass through one another if left out.
+    /// The control volume; hard spheres only.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub volume: Option<Volume>,
+    /// Laws of impact; hard spheres only.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub impact: Option<Impact>,
+    /// Laws of contact; soft spheres only. They pass through one another if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact: Option<ContactLaws>,
     /// What holds grains together; nothing if left out.
@@ -90,6 +99,9 @@ pub struct GrainGroup {
     /// Velocity of all.
     #[serde(default)]
     pub velocity: Triple<Velocity>,
+    /// How velocities scatter about that; not at all if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub velocity_spread: Option<VelocitySpread>,
     /// Angular velocity of all.
     #[serde(default)]
     pub spin: Triple<Frequency>,

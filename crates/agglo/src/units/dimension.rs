@@ -49,6 +49,9 @@ kinds! {
     [1, 1, -2, 0, 0], "a force", "N", "3 nN";
     [1, 2, -2, 0, 0], "an energy", "J", "2 nJ";
     [1, 2, -3, 0, 0], "a power", "W", "150 W";
+    [0, 2, -2, -1, 0], "a specific heat", "J/(kg K)", "1000 J/(kg K)";
+    [1, 0, -3, -1, 0], "a heat transfer coefficient", "W/(m^2 K)", "10 W/(m2 K)";
+    [1, 1, -3, -1, 0], "a thermal conductivity", "W/(m K)", "0.5 W/(m K)";
     [0, 0, 1, 0, 1], "a charge", "C", "1 pC";
     [-1, 2, 2, 0, 2], "an energy per squared flux density", "J/T^2", "1e-9 J/T^2";
     [1, 0, -2, 0, -1], "a magnetic flux density", "T", "0.1 T";

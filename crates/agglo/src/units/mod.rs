@@ -58,6 +58,12 @@ quantities! {
     Energy = 1 2 -2 0 0;
     /// Power [W].
     Power = 1 2 -3 0 0;
+    /// Heat capacity per mass [J/(kg K)].
+    SpecificHeat = 0 2 -2 -1 0;
+    /// Heat transfer coefficient [W/(m² K)].
+    HeatTransfer = 1 0 -3 -1 0;
+    /// Thermal conductivity [W/(m K)].
+    Conductivity = 1 1 -3 -1 0;
     /// Electric charge [C].
     Charge = 0 0 1 0 1;
     /// Energy per squared magnetic flux density [J/T²].

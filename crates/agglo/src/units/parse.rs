@@ -1,4 +1,7 @@
-//! Reads `"150 MPa"`, `"0.25 ms"`, `"1e5 Pa s/m"`, `"6000 kg/m3"`.
+//! Reads `"150 MPa"`, `"0.25 ms"`, `"1e5 Pa s/m"`, `"6000 kg/m3"`, `"10 W/(m2 K)"`, `"350 J/mol"`.
+//!
+//! A slash divides by the next unit only, or by all that stands in parentheses. A mole is a number without a dimension:
+//! molar quantities are told from others by the key they stand at.
 //!
 //! A decimal prefix is applied to the exponent in the text, not by multiplication, so that `"100 um"` is
 //! the `f64` nearest to 1e-4 and not 100 times the one nearest to 1e-6.
@@ -37,6 +40,16 @@ pub enum UnitError {
         text: String,
         /// The word that is not a unit.
         unit: String,
+        /// The kind that is wanted.
+        expected: &'static str,
+        /// A value of that kind.
+        example: &'static str,
+    },
+    /// Parentheses that do not pair up.
+    #[error("the parentheses in \"{text}\" do not pair up; {expected} is wanted, such as \"{example}\"")]
+    Parentheses {
+        /// What stood in the file.
+        text: String,
         /// The kind that is wanted.
         expected: &'static str,
         /// A value of that kind.
@@ -102,6 +115,7 @@ const UNITS: &[Unit] = &[
     unit("L", [0, 3, 0, 0, 0], -3, 1.0, true),
     unit("P", [1, -1, -1, 0, 0], -1, 1.0, true),
     unit("rad", [0, 0, 0, 0, 0], 0, 1.0, true),
+    unit("mol", [0, 0, 0, 0, 0], 0, 1.0, true),
     unit("min", [0, 0, 1, 0, 0], 0, 60.0, false),
     unit("h", [0, 0, 1, 0, 0], 0, 3600.0, false),
     unit("deg", [0, 0, 0, 0, 0], 0, std::f64::consts::PI / 180.0, false),
@@ -154,8 +168,10 @@ pub fn parse_quantity(text: &str, wanted: Dimension) -> Result<f64, UnitError> {
     if rest.trim().is_empty() && wanted != Dimension::default() {
         return Err(UnitError::NoUnit { text: owned(), expected, example });
     }
-    let product =
-        read_units(rest).map_err(|unit| UnitError::UnknownUnit { text: owned(), unit, expected, example })?;
+    let product = read_units(rest).map_err(|word| match word.as_str() {
+        "(" | ")" => UnitError::Parentheses { text: owned(), expected, example },
+        _ => UnitError::UnknownUnit { text: owned(), unit: word, expected, example },
+    })?;
     if product.dimension != wanted {
         let found = kind_of(product.dimension).name;
         return Err(UnitError::WrongDimension {
@@ -194,16 +210,41 @@ struct Product {
     factor: f64,
 }
 
-/// Reads a product of units such as `kg/m3`, `Pa s/m` or `N m^-1`; one slash divides by the next factor only.
+/// Reads a product of units such as `kg/m3`, `Pa s/m`, `N m^-1` or `J/(kg K)`; one slash divides by the next factor
+/// only. What cannot be read comes back as the error.
 fn read_units(text: &str) -> Result<Product, String> {
     let mut product = Product { dimension: Dimension::default(), decimal: 0, factor: 1.0 };
-    let mut sign = 1_i8;
-    let spaced = text.replace('/', " / ").replace(['*', '\u{b7}'], " ");
+    // The sign of powers in each open parenthesis, and whether a slash waits for its factor.
+    let mut signs = vec![1_i8];
+    let mut divides = false;
+    let spaced =
+        text.replace('/', " / ").replace('(', " ( ").replace(')', " ) ").replace(['*', '\u{b7}'], " ");
     for word in spaced.split_whitespace() {
-        if word == "/" {
-            sign = -1;
-            continue;
+        let outer = signs.last().copied().unwrap_or(1);
+        let sign = if divides { -outer } else { outer };
+        match word {
+            "/" if divides => return Err(word.to_owned()),
+            "/" => {
+                divides = true;
+                continue;
+            }
+            "(" => signs.push(sign),
+            ")" if divides || signs.len() == 1 => return Err(word.to_owned()),
+            ")" => drop(signs.pop()),
+            _ => product.multiply(word, sign)?,
         }
+        divides = false;
+    }
+    match (divides, signs.len()) {
+        (true, _) => Err("/".to_owned()),
+        (false, 1) => Ok(product),
+        (false, _) => Err("(".to_owned()),
+    }
+}
+
+impl Product {
+    /// Takes in a unit with its prefix and power, such as `mm^2`, to the power `sign`.
+    fn multiply(&mut self, word: &str, sign: i8) -> Result<(), String> {
         let start = word.find(|c: char| c.is_ascii_digit() || matches!(c, '^' | '-')).filter(|at| *at > 0);
         let (symbol, power_text) = word.split_at(start.unwrap_or(word.len()));
         let power_text = power_text.trim_start_matches('^');
@@ -211,12 +252,11 @@ fn read_units(text: &str) -> Result<Product, String> {
             if power_text.is_empty() { 1 } else { power_text.parse::<i8>().map_err(|_| word.to_owned())? };
         let (unit, prefix) = find_unit(symbol).ok_or_else(|| symbol.to_owned())?;
         let power = power.checked_mul(sign).ok_or_else(|| word.to_owned())?;
-        product.dimension = product.dimension.times(unit.dimension, power).ok_or_else(|| word.to_owned())?;
-        product.decimal += i32::from(power) * (prefix + unit.decimal);
-        product.factor *= unit.factor.powi(i32::from(power));
-        sign = 1;
+        self.dimension = self.dimension.times(unit.dimension, power).ok_or_else(|| word.to_owned())?;
+        self.decimal += i32::from(power) * (prefix + unit.decimal);
+        self.factor *= unit.factor.powi(i32::from(power));
+        Ok(())
     }
-    Ok(product)
 }
 
 #[cfg(test)]
@@ -249,6 +289,30 @@ mod tests {
         assert_eq!(si("1 mJ/m2", [1, 0, -2, 0, 0]), 1e-3);
         assert_eq!(si("1 Hz", [0, 0, -1, 0, 0]), si("1 rad/s", [0, 0, -1, 0, 0]));
         assert_eq!(si("-2 kV/m", [1, 1, -3, 0, -1]), -2000.0);
+        // A calorie warms a gram of water by a kelvin: 4.184 J/(g K).
+        let (specific_heat, transfer) = ([0, 2, -2, -1, 0], [1, 0, -3, -1, 0]);
+        assert_eq!(si("4.184 J/(g K)", specific_heat), 4184.0);
+        assert_eq!(si("4184 J/kg/K", specific_heat), 4184.0);
+        assert_eq!(si("4184 m2/(s2 K)", specific_heat), 4184.0);
+        assert_eq!(si("1 W/(cm2 K)", transfer), 1e4);
+        assert_eq!(si("1 W/(cm2*K)", transfer), 1e4);
+        assert_eq!(si("1 W/cm2/K", transfer), 1e4);
+        assert_eq!(si("1 W / ( m^2 K )", transfer), 1.0);
+        assert_eq!(si("0.4 kW/(m K)", [1, 1, -3, -1, 0]), 400.0);
+        // The gas constant in J/(mol K) and, per thousand moles, in kJ.
+        let molar = [1, 2, -2, -1, 0];
+        assert_eq!(si("8.314462618 J/(mol K)", molar), 8.314_462_618);
+        assert_eq!(si("8.314462618 kJ/(kmol K)", molar), 8.314_462_618);
+        assert_eq!(si("352 J/mol", [1, 2, -2, 0, 0]), 352.0);
+        assert_eq!(si("0.352 kJ/mol", [1, 2, -2, 0, 0]), 352.0);
+    }
+
+    /// 1/(a/(b c)) is b c/a.
+    #[test]
+    fn parentheses_nest() {
+        assert_eq!(si("3 1/(s/(kg m))", [1, 1, -1, 0, 0]), 3.0);
+        assert_eq!(si("3 (kg m)/s", [1, 1, -1, 0, 0]), 3.0);
+        assert_eq!(si("3 J/((kg) (K)) s", [0, 2, -1, -1, 0]), 3.0);
     }
 
     #[test]
@@ -275,5 +339,10 @@ mod tests {
         assert!(message("1e999 m").contains("not a finite number"));
         assert!(message("3 m^200").contains("unknown unit"));
         assert!(message("").contains("does not begin"));
+        for text in ["3 J/(kg K", "3 J/kg K)", "3 )m(", "3 m/(s/)"] {
+            assert!(message(text).contains("parentheses in"), "{}", message(text));
+        }
+        assert!(message("3 m/").contains("unknown unit \"/\""));
+        assert!(message("3 m//s").contains("unknown unit \"/\""));
     }
 }

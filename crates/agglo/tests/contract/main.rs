@@ -8,6 +8,7 @@ mod common;
 mod books;
 mod crowd;
 mod halving;
+mod hard;
 mod order_of_input;
 mod pairs;
 mod rest;

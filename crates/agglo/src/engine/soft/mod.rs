@@ -20,4 +20,4 @@ pub use loads::{Loads, Rates, Supplies, Supply};
 pub use pulses::Pulses;
 pub use simulation::{Clock, Simulation, SimulationState};
 pub use system::System;
-pub use types::{Breach, Engine, Limits, Staggered, Verlet};
+pub use types::{Breach, Limits, Staggered, Verlet};

@@ -18,7 +18,7 @@ use super::loads::{Loads, Rates};
 use super::pulses::{PulseState, Pulses};
 use super::step_size;
 use super::system::System;
-use super::types::{Breach, Engine, Limits};
+use super::types::{Breach, Limits, Scheme};
 use super::{staggered, validity, verlet};
 
 /// Steps between two sortings of the grains in space. Counted in steps, so that it is the same after a resume.
@@ -70,7 +70,7 @@ pub struct Simulation {
     /// Bonds that broke or were made since they were last taken.
     pub events: Vec<BondEvent>,
     clock: Clock,
-    engine: Engine,
+    scheme: Scheme,
     limits: Limits,
     end: f64,
 }
@@ -118,7 +118,7 @@ impl Simulation {
             warnings: Warnings::default(),
             events: Vec::new(),
             clock,
-            engine: scenario.engine.clone(),
+            scheme: scheme_of(scenario),
             limits: scenario.limits.clone(),
             end: scenario.time.end.si(),
         }
@@ -141,7 +141,7 @@ impl Simulation {
             warnings: state.warnings,
             events: Vec::new(),
             clock: state.clock,
-            engine: scenario.engine.clone(),
+            scheme: scheme_of(scenario),
             limits: scenario.limits.clone(),
             end: scenario.time.end.si(),
         }
@@ -214,8 +214,8 @@ impl Simulation {
 
     fn try_step(&mut self, dt: f64) -> Result<Step, SimError> {
         let time = self.clock.time;
-        match &self.engine {
-            Engine::Staggered(scheme) => {
+        match &self.scheme {
+            Scheme::Staggered(scheme) => {
                 let accepted = staggered::step(&mut self.system, scheme, time, dt)
                     .map_err(|trouble| self.not_converged(&trouble))?;
                 self.clock.iterations += u64::from(accepted.iterations);
@@ -227,7 +227,7 @@ impl Simulation {
                     phi: scheme.implicitness,
                 })
             }
-            Engine::Verlet(_) => {
+            Scheme::Verlet(_) => {
                 let change = verlet::step(&mut self.system, time, dt);
                 Ok(Step { dt, next: self.clock.next_step, change, phi: 0.5 })
             }
@@ -352,4 +352,9 @@ fn beam_of(scenario: &Scenario) -> Option<&crate::contact::bond::Beam> {
         Some(Bonds::Beam(law)) => Some(law),
         _ => None,
     }
+}
+
+/// The scheme of a scenario; the verbs `run` and `resume` bring those of soft spheres only.
+fn scheme_of(scenario: &Scenario) -> Scheme {
+    Scheme::of(&scenario.engine).expect("an engine of soft spheres")
 }

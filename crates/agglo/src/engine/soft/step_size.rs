@@ -13,7 +13,7 @@ use crate::particles::Material;
 use crate::scenario::Scenario;
 
 use super::system::System;
-use super::types::Engine;
+use crate::engine::Engine;
 
 /// The first step [s] of a scenario.
 pub fn first(scenario: &Scenario, system: &System) -> f64 {
@@ -23,6 +23,8 @@ pub fn first(scenario: &Scenario, system: &System) -> f64 {
             Some(step) => step.si(),
             None => (scheme.safety * critical(scenario, system)).min(scenario.time.end.si() / 100.0),
         },
+        // Hard spheres have no forces that bound a step.
+        Engine::EventDriven(_) | Engine::TimeStepped(_) => scenario.time.end.si(),
     }
 }
 

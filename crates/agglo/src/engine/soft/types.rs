@@ -1,18 +1,27 @@
-//! What a scenario says of the time stepping.
+//! What a scenario says of the time stepping of soft spheres.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::engine::Engine;
 use crate::units::Time;
 
-/// The closed set of time-stepping schemes.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Engine {
-    /// The staggered implicit scheme of [A] 31-34 with adaptive steps.
+/// The schemes of soft spheres.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Scheme {
     Staggered(Staggered),
-    /// Explicit velocity Verlet.
     Verlet(Verlet),
+}
+
+impl Scheme {
+    /// The scheme of an engine of soft spheres.
+    pub fn of(engine: &Engine) -> Option<Self> {
+        match engine {
+            Engine::Staggered(scheme) => Some(Self::Staggered(scheme.clone())),
+            Engine::Verlet(scheme) => Some(Self::Verlet(scheme.clone())),
+            Engine::EventDriven(_) | Engine::TimeStepped(_) => None,
+        }
+    }
 }
 
 /// The staggered implicit scheme.

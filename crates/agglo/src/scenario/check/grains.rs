@@ -1,14 +1,13 @@
-//! Rules of sizes and placements.
+//! Rules of sizes, velocities and written-out places.
 
 use std::collections::BTreeMap;
-use std::f64::consts::PI;
 use std::path::Path;
 
 use super::materials::named;
-use super::{Check, shown};
-use crate::domain::Region;
-use crate::packing::{GrainList, Lattice, Placement, RandomAddition, SATURATION, Size};
-use crate::scenario::figures::{digits, readable};
+use super::{Check, placement};
+use crate::domain::Volume;
+use crate::packing::{GrainList, LengthRatio, Placement, Size, VelocitySpread};
+use crate::scenario::figures::readable;
 use crate::scenario::types::{GrainGroup, Scenario};
 use crate::units::Length;
 
@@ -29,7 +28,13 @@ pub(super) fn check(check: &mut Check, scenario: &Scenario) {
             check.fail(&format!("{key}.polarity"), format!("found {}; 1 or -1 is wanted", group.polarity));
         }
         if size(check, &format!("{key}.size"), &group.size) {
-            placement(check, &format!("{key}.placement"), group);
+            placement::check(check, &format!("{key}.placement"), group, scenario);
+            if let Size::LengthRatio(law) = &group.size {
+                length_ratio(check, &format!("{key}.size.length_ratio"), law, group, scenario);
+            }
+        }
+        if let Some(spread) = &group.velocity_spread {
+            velocity_spread(check, &format!("{key}.velocity_spread"), spread);
         }
         if let Placement::List(list) = &group.placement {
             written_out(check, &format!("{key}.placement.list"), list, &mut places);
@@ -71,6 +76,11 @@ fn size(check: &mut Check, key: &str, size: &Size) -> bool {
                 check.fail_with(&format!("{key}.lognormal.geometric_deviation"), message, help);
             }
         }
+        Size::LengthRatio(law) => {
+            check.above_zero(&format!("{key}.length_ratio.ratio"), law.ratio);
+            check.positive(&format!("{key}.length_ratio.half_edge"), law.half_edge);
+            check.at_least_one(&format!("{key}.length_ratio.count"), law.count);
+        }
         Size::Table(law) => {
             let (radii, shares) = (law.radii.len(), law.shares.len());
             if radii != shares || radii == 0 {
@@ -88,6 +98,50 @@ fn size(check: &mut Check, key: &str, size: &Size) -> bool {
     check.faults.len() == before
 }
 
+/// [B]'s ratio says a radius through the number of grains and half the edge of their box: they must be the true ones.
+fn length_ratio(check: &mut Check, key: &str, law: &LengthRatio, group: &GrainGroup, scenario: &Scenario) {
+    let (placed, by_fraction) = match &group.placement {
+        Placement::Random(law) => (law.count, law.solid_fraction.is_some()),
+        Placement::Fill(law) => (law.count, law.solid_fraction.is_some()),
+        Placement::Lattice(law) => (law.count, false),
+        Placement::List(list) => (u32::try_from(list.positions.len()).ok(), false),
+        Placement::Table(_) => (None, false),
+    };
+    match placed {
+        Some(placed) if placed != law.count && placed > 0 => {
+            let message = format!("found {}, but the placement has {placed} grains", law.count);
+            check.fail_with(&format!("{key}.count"), message, "make them equal: the radius follows from it");
+        }
+        None if by_fraction => {
+            let message = "the placement is asked for a solid fraction and not for this count".to_owned();
+            check.fail_with(&format!("{key}.count"), message, "give the placement the same count");
+        }
+        _ => {}
+    }
+    let Some(edges) = scenario.volume.as_ref().map(Volume::edges) else { return };
+    let is_close = |a: f64, b: f64| (a - b).abs() <= 1e-9 * b.abs();
+    let cube = is_close(edges.y, edges.x) && is_close(edges.z, edges.x);
+    if cube && edges.x > 0.0 && !is_close(2.0 * law.half_edge.si(), edges.x) {
+        let found = readable(law.half_edge.si(), "m");
+        let half = readable(0.5 * edges.x, "m");
+        let message = format!("found {found}; half the edge of [volume] is {half}");
+        check.fail(&format!("{key}.half_edge"), message);
+    }
+}
+
+fn velocity_spread(check: &mut Check, key: &str, spread: &VelocitySpread) {
+    match spread {
+        VelocitySpread::Uniform(law) => {
+            for (axis, bound) in law.bounds.iter().enumerate() {
+                check.not_negative(&format!("{key}.uniform.bounds.{axis}"), *bound);
+            }
+        }
+        VelocitySpread::Maxwell(law) => {
+            check.not_negative(&format!("{key}.maxwell.deviation"), law.deviation);
+        }
+    }
+}
+
 /// Lengths that must not fall from one to the next.
 fn ordered(check: &mut Check, key: &str, bounds: &[(&str, Length)]) {
     for pair in bounds.windows(2) {
@@ -98,107 +152,6 @@ fn ordered(check: &mut Check, key: &str, bounds: &[(&str, Length)]) {
             let bound = readable(small.si(), "m");
             check.fail(&format!("{key}.{high}"), format!("{high} = {found} is below {low} = {bound}"));
         }
-    }
-}
-
-fn placement(check: &mut Check, key: &str, group: &GrainGroup) {
-    match &group.placement {
-        Placement::Random(law) => random(check, &format!("{key}.random"), law, &group.size),
-        Placement::Lattice(law) => lattice(check, &format!("{key}.lattice"), law, &group.size),
-        Placement::Table(law) if law.file.as_os_str().is_empty() => {
-            check.fail(&format!("{key}.table.file"), "is empty; the name of a CSV file is wanted".to_owned());
-        }
-        Placement::Table(_) | Placement::List(_) => {}
-    }
-}
-
-fn random(check: &mut Check, key: &str, law: &RandomAddition, size: &Size) {
-    check.not_negative(&format!("{key}.gap"), law.gap);
-    let fits = check.region(&format!("{key}.region"), &law.region) && holds(check, key, &law.region, size);
-    match (law.count, law.solid_fraction) {
-        (None, None) => check.fail(key, "needs count or solid_fraction; neither is given".to_owned()),
-        (Some(_), Some(_)) => {
-            let message = "count and solid_fraction are both given; one is wanted".to_owned();
-            check.fail_with(&format!("{key}.solid_fraction"), message, "remove one of them");
-        }
-        (Some(0), None) => check.at_least_one(&format!("{key}.count"), 0),
-        (None, Some(fraction)) if fraction <= 0.0 || fraction >= 1.0 => {
-            let message = format!("found {fraction}; a number above 0 and below 1 is wanted");
-            check.fail(&format!("{key}.solid_fraction"), message);
-        }
-        (Some(count), None) if fits => {
-            let fraction = f64::from(count) * mean_volume(size) / law.region.volume();
-            if count >= 10 {
-                saturation(check, &format!("{key}.count"), fraction, law, size);
-            }
-        }
-        (None, Some(fraction)) => saturation(check, &format!("{key}.solid_fraction"), fraction, law, size),
-        _ => {}
-    }
-}
-
-/// Random addition jams: a denser packing must be refused, not waited for.
-fn saturation(check: &mut Check, key: &str, fraction: f64, law: &RandomAddition, size: &Size) {
-    let limit = if matches!(size, Size::Constant(_)) { SATURATION } else { 0.6 };
-    let swollen = (1.0 + 0.5 * law.gap.si() / size.largest()).powi(3) * fraction;
-    if swollen > limit {
-        let of_what = if law.gap.si() > 0.0 { ", with half the gap around each grain," } else { "" };
-        let message = format!(
-            "the solid fraction{of_what} is {}; random sequential addition saturates at {limit}",
-            digits(swollen)
-        );
-        let help = "take fewer grains or a larger region, or place them with `lattice` (relax afterwards)";
-        check.fail_with(key, message, help);
-    }
-}
-
-/// Mean volume [m³] of one grain; that of a lognormal without its cuts.
-pub(in crate::scenario) fn mean_volume(size: &Size) -> f64 {
-    let cube = match size {
-        Size::Constant(law) => law.radius.si().powi(3),
-        Size::Uniform(law) => {
-            let (a, b) = (law.smallest.si(), law.largest.si());
-            0.25 * (a + b) * (a * a + b * b)
-        }
-        Size::Lognormal(law) => {
-            let spread = law.geometric_deviation.ln();
-            let whole = law.median.si().powi(3) * (4.5 * spread * spread).exp();
-            whole.clamp(law.smallest.si().powi(3), law.largest.si().powi(3))
-        }
-        Size::Table(law) => {
-            let total: f64 = law.shares.iter().sum();
-            law.radii.iter().zip(&law.shares).map(|(r, share)| share * r.si().powi(3)).sum::<f64>() / total
-        }
-    };
-    4.0 / 3.0 * PI * cube
-}
-
-/// Whether the largest grain fits into the region.
-fn holds(check: &mut Check, key: &str, region: &Region, size: &Size) -> bool {
-    let radius = size.largest();
-    let fits = region.contains(region.center(), radius);
-    if !fits {
-        let diameter = shown(2.0 * radius, Length::DIMENSION);
-        let message = format!("a grain of diameter {diameter} does not fit into it");
-        check.fail_with(&format!("{key}.region"), message, "enlarge the region or take smaller grains");
-    }
-    fits
-}
-
-fn lattice(check: &mut Check, key: &str, law: &Lattice, size: &Size) {
-    if check.region(&format!("{key}.region"), &law.region) {
-        holds(check, key, &law.region, size);
-    }
-    let diameter = 2.0 * size.largest();
-    check.positive(&format!("{key}.spacing"), law.spacing);
-    // The bound leaves room for the rounding of a spacing that is written as twice a radius.
-    if law.spacing.si() > 0.0 && law.spacing.si() < diameter * (1.0 - 1e-12) {
-        let (spacing, least) = (readable(law.spacing.si(), "m"), readable(diameter, "m"));
-        let message = format!("{spacing} is less than the largest diameter {least}: grains would overlap");
-        check.fail(&format!("{key}.spacing"), message);
-    }
-    if law.count == Some(0) {
-        check.at_least_one(&format!("{key}.count"), 0);
     }
 }
 

@@ -4,6 +4,7 @@ use super::Check;
 use crate::contact::{Damping, Friction};
 use crate::particles::{Material, Mixture};
 use crate::scenario::fault::nearest;
+use crate::scenario::figures::readable;
 use crate::scenario::types::Scenario;
 
 pub(super) fn check(check: &mut Check, scenario: &Scenario) {
@@ -37,6 +38,7 @@ fn one(check: &mut Check, key: &str, material: &Material) {
     if let Some(stiffness) = material.contact_stiffness {
         check.positive(&format!("{key}.contact_stiffness"), stiffness);
     }
+    thermal(check, key, material);
     if let Some(law) = &material.softening {
         check.positive(&format!("{key}.softening.reference_temperature"), law.reference_temperature);
         check.zero_or_more(&format!("{key}.softening.sensitivity"), law.sensitivity);
@@ -45,6 +47,38 @@ fn one(check: &mut Check, key: &str, material: &Material) {
             let message = "there is no contact_stiffness to soften".to_owned();
             check.fail_with(&format!("{key}.softening"), message, format!("give {key}.contact_stiffness"));
         }
+    }
+}
+
+/// What hard spheres ask of a material.
+fn thermal(check: &mut Check, key: &str, material: &Material) {
+    if let Some(capacity) = material.heat_capacity {
+        check.positive(&format!("{key}.heat_capacity"), capacity);
+    }
+    if let Some(hardness) = material.hardness {
+        check.positive(&format!("{key}.hardness"), hardness);
+    }
+    if let Some(energy) = material.activation_energy {
+        check.not_negative(&format!("{key}.activation_energy"), energy);
+    }
+    // Both have the dimension of a stiffness, whose unit would not be understood here.
+    if let Some(heat) = material.reaction_heat
+        && heat.si() < 0.0
+    {
+        let found = readable(heat.si(), "J/m^2");
+        check.fail(&format!("{key}.reaction_heat"), format!("found {found}; 0 or more is wanted"));
+    }
+    if let Some(energy) = material.surface_energy
+        && energy.si() <= 0.0
+    {
+        let found = readable(energy.si(), "J/m^2");
+        check.fail(&format!("{key}.surface_energy"), format!("found {found}; more than 0 is wanted"));
+    }
+    if let Some(emissivity) = material.emissivity {
+        check.within(&format!("{key}.emissivity"), emissivity, 0.0, 1.0);
+    }
+    if let Some(conductivity) = material.thermal_conductivity {
+        check.positive(&format!("{key}.thermal_conductivity"), conductivity);
     }
 }
 
@@ -67,30 +101,35 @@ fn pair(check: &mut Check, scenario: &Scenario, index: usize, mixture: &Mixture)
     }
     if let Some(restitution) = mixture.restitution {
         check.within(&format!("{key}.restitution"), restitution, 0.0, 1.0);
-        let used = scenario.contact.as_ref().and_then(|laws| laws.damping.as_ref());
-        if !matches!(used, Some(Damping::Restitution(_))) {
+        if !uses_restitution(scenario) {
             let message = "no law of the scenario uses it".to_owned();
-            check.fail_with(
-                &format!("{key}.restitution"),
-                message,
-                "use [contact.damping.restitution] or remove it",
-            );
+            let help = "use [contact.damping.restitution] or remove it";
+            check.fail_with(&format!("{key}.restitution"), message, help);
         }
     }
     friction(check, scenario, &key, mixture);
 }
 
+/// Impacts of hard spheres have a restitution whatever their law; the mixture's takes its place.
+fn uses_restitution(scenario: &Scenario) -> bool {
+    let law = scenario.contact.as_ref().and_then(|laws| laws.damping.as_ref());
+    scenario.engine.is_hard() || matches!(law, Some(Damping::Restitution(_)))
+}
+
 fn friction(check: &mut Check, scenario: &Scenario, key: &str, mixture: &Mixture) {
     let given =
         [("static_friction", mixture.static_friction), ("dynamic_friction", mixture.dynamic_friction)];
+    let hard = scenario.engine.is_hard();
     let law = scenario.contact.as_ref().and_then(|laws| laws.friction.as_ref());
     for (name, value) in given {
         let Some(value) = value else { continue };
         check.zero_or_more(&format!("{key}.{name}"), value);
-        if law.is_none() {
-            let message = "no law of the scenario uses it".to_owned();
-            check.fail_with(&format!("{key}.{name}"), message, "give [contact.friction] a law or remove it");
-        }
+        let help = match name {
+            "static_friction" if hard => "impacts of hard spheres take dynamic_friction",
+            _ if hard || law.is_some() => continue,
+            _ => "give [contact.friction] a law or remove it",
+        };
+        check.fail_with(&format!("{key}.{name}"), "no law of the scenario uses it".to_owned(), help);
     }
     let of_law = match law {
         Some(Friction::Mindlin(law)) => (law.static_friction, law.dynamic_friction),

@@ -4,10 +4,11 @@ mod acoustics;
 mod contact;
 mod fields;
 mod grains;
+mod impact;
 mod materials;
+mod placement;
 mod time;
-
-pub(super) use grains::mean_volume;
+mod volume;
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -17,7 +18,7 @@ use super::figures::readable;
 use super::types::Scenario;
 use crate::domain::Region;
 use crate::math::Vec3;
-use crate::units::{Dimension, Quantity};
+use crate::units::{Dimension, Length, Quantity, Triple};
 
 /// Everything that is wrong with a scenario whose form is right; the keys are paths in it.
 ///
@@ -33,6 +34,8 @@ pub(super) fn faults(scenario: &Scenario, base: Option<&Path>) -> Vec<Fault> {
     contact::check(&mut check, scenario);
     fields::check(&mut check, scenario);
     acoustics::check(&mut check, scenario);
+    impact::check(&mut check, scenario);
+    volume::check(&mut check, scenario);
     check.faults
 }
 
@@ -103,22 +106,27 @@ impl Check {
         }
     }
 
+    /// Two corners, the upper above the lower along each axis.
+    fn corners(&mut self, key: &str, lower: Triple<Length>, upper: Triple<Length>) -> bool {
+        let before = self.faults.len();
+        for (axis, name) in ["x", "y", "z"].iter().enumerate() {
+            let (low, high) = (lower[axis].si(), upper[axis].si());
+            if high <= low {
+                let (low, high) = (readable(low, "m"), readable(high, "m"));
+                let message = format!("upper {name} = {high} is not above lower {name} = {low}");
+                self.fail(&format!("{key}.upper.{axis}"), message);
+            }
+        }
+        self.faults.len() == before
+    }
+
     /// A region with a volume.
     fn region(&mut self, key: &str, region: &Region) -> bool {
         let before = self.faults.len();
         match region {
             Region::Sphere(ball) => self.positive(&format!("{key}.sphere.radius"), ball.radius),
             Region::Box(block) => {
-                for (axis, name) in ["x", "y", "z"].iter().enumerate() {
-                    let (low, high) = (block.lower[axis].si(), block.upper[axis].si());
-                    if high <= low {
-                        let (low, high) = (readable(low, "m"), readable(high, "m"));
-                        self.fail(
-                            &format!("{key}.box.upper.{axis}"),
-                            format!("upper {name} = {high} is not above lower {name} = {low}"),
-                        );
-                    }
-                }
+                self.corners(&format!("{key}.box"), block.lower, block.upper);
             }
             Region::Cylinder(cylinder) => {
                 self.positive(&format!("{key}.cylinder.radius"), cylinder.radius);

@@ -1,7 +1,8 @@
 //! Rules of time, stepping, limits, start, medium and output.
 
 use super::Check;
-use crate::engine::soft::Engine;
+use crate::engine::Engine;
+use crate::engine::hard::TimeStepped;
 use crate::scenario::figures::readable;
 use crate::scenario::types::Scenario;
 
@@ -52,6 +53,12 @@ fn engine(check: &mut Check, engine: &Engine) {
             check.at_least_one(&key("target_iterations"), law.target_iterations);
             check.within(&key("implicitness"), law.implicitness, 0.0, 1.0);
         }
+        Engine::EventDriven(law) => {
+            if let Some(duration) = law.contact_duration {
+                check.not_negative("engine.event_driven.contact_duration", duration);
+            }
+        }
+        Engine::TimeStepped(law) => time_stepped(check, law),
         Engine::Verlet(law) => {
             if let Some(step) = law.step {
                 check.positive("engine.verlet.step", step);
@@ -61,6 +68,22 @@ fn engine(check: &mut Check, engine: &Engine) {
                 check.fail("engine.verlet.safety", message);
             }
         }
+    }
+}
+
+fn time_stepped(check: &mut Check, law: &TimeStepped) {
+    let key = |name: &str| format!("engine.time_stepped.{name}");
+    if law.fraction <= 0.0 || law.fraction > 1.0 {
+        let message = format!("found {}; a number above 0 and up to 1 is wanted", law.fraction);
+        check.fail(&key("fraction"), message);
+    }
+    check.positive(&key("shortest_step"), law.shortest_step);
+    check.positive(&key("longest_step"), law.longest_step);
+    if law.longest_step.si() > 0.0 && law.shortest_step > law.longest_step {
+        let (shortest, longest) =
+            (readable(law.shortest_step.si(), "s"), readable(law.longest_step.si(), "s"));
+        let message = format!("{shortest} is longer than longest_step = {longest}");
+        check.fail(&key("shortest_step"), message);
     }
 }
 

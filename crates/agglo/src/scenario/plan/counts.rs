@@ -5,10 +5,8 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 use super::Plan;
-use crate::domain::Region;
-use crate::packing::SATURATION;
-use crate::packing::{Lattice, LatticeKind, Placement, RandomAddition};
-use crate::scenario::check::mean_volume;
+use crate::domain::{Region, Volume};
+use crate::packing::{Lattice, LatticeKind, Placement, SATURATION};
 use crate::scenario::types::{GrainGroup, Scenario};
 
 const BYTES_PER_GRAIN: f64 = 400.0;
@@ -17,7 +15,9 @@ const BYTES_PER_RAY: f64 = 120.0;
 /// Contacts and bonds per grain: a random packing has about six neighbours each, shared by two.
 const CONTACTS_PER_GRAIN: f64 = 3.0;
 
-pub(super) fn grains(plan: &mut Plan, scenario: &Scenario, base: &Path) {
+/// Expected number of grains of each group.
+pub(super) fn grains(plan: &mut Plan, scenario: &Scenario, base: &Path) -> Vec<u64> {
+    let mut counts = Vec::new();
     for (index, group) in scenario.grains.iter().enumerate() {
         let count = match &group.placement {
             Placement::Table(table) => rows(&base.join(&table.file)).unwrap_or_else(|reason| {
@@ -25,11 +25,14 @@ pub(super) fn grains(plan: &mut Plan, scenario: &Scenario, base: &Path) {
                 plan.notes.push(format!("grains.{index}: cannot count the rows of {file}: {reason}"));
                 0
             }),
-            _ => count_of(group),
+            _ => count_of(group, scenario.volume.as_ref()),
         };
-        plan.grains += count;
+        counts.push(count);
     }
-    plan.memory = plan.grains as f64 * (BYTES_PER_GRAIN + CONTACTS_PER_GRAIN * BYTES_PER_CONTACT);
+    plan.grains = counts.iter().sum();
+    let contacts = if scenario.engine.is_hard() { 0.0 } else { CONTACTS_PER_GRAIN };
+    plan.memory = plan.grains as f64 * (BYTES_PER_GRAIN + contacts * BYTES_PER_CONTACT);
+    counts
 }
 
 pub(super) fn pulses(plan: &mut Plan, scenario: &Scenario) {
@@ -52,19 +55,15 @@ pub(super) fn pulses_before(beam: &crate::acoustics::Beam, end: f64) -> u32 {
 }
 
 /// Expected number of grains of a group that is not read from a table.
-pub(super) fn count_of(group: &GrainGroup) -> u64 {
+pub(super) fn count_of(group: &GrainGroup, volume: Option<&Volume>) -> u64 {
     match &group.placement {
-        Placement::Random(law) => random(law, mean_volume(&group.size)),
+        Placement::Random(law) => law.wanted(&group.size).map_or(0, u64::from),
+        Placement::Fill(law) => {
+            volume.map_or(0, |volume| law.wanted(&group.size, volume).map_or(0, u64::from))
+        }
         Placement::Lattice(law) => lattice(law, group.size.largest()),
         Placement::List(list) => list.positions.len() as u64,
         Placement::Table(_) => 0,
-    }
-}
-
-fn random(law: &RandomAddition, volume: f64) -> u64 {
-    match (law.count, law.solid_fraction) {
-        (Some(count), _) => u64::from(count),
-        (None, fraction) => (fraction.unwrap_or(0.0) * law.region.volume() / volume).round() as u64,
     }
 }
 
@@ -103,10 +102,14 @@ fn rows(path: &Path) -> std::io::Result<u64> {
     Ok(count.saturating_sub(1))
 }
 
-/// Solid fraction that a random addition is asked for.
-pub(super) fn asked_fraction(law: &RandomAddition, volume: f64) -> f64 {
-    law.count
-        .map_or(law.solid_fraction.unwrap_or(0.0), |count| f64::from(count) * volume / law.region.volume())
+/// Solid fraction that random addition is asked for.
+pub(super) fn asked_fraction(group: &GrainGroup, volume: Option<&Volume>) -> Option<f64> {
+    let (count, fraction, room) = match &group.placement {
+        Placement::Random(law) => (law.count, law.solid_fraction, law.region.volume()),
+        Placement::Fill(law) => (law.count, law.solid_fraction, volume?.volume()),
+        Placement::Lattice(_) | Placement::Table(_) | Placement::List(_) => return None,
+    };
+    fraction.or_else(|| count.map(|count| f64::from(count) * group.size.mean_volume() / room))
 }
 
 /// Solid fraction from which random addition becomes slow.

@@ -3,6 +3,8 @@
 //! Everything here is an estimate from closed forms; nothing is simulated.
 
 mod counts;
+mod gas;
+mod hard;
 mod notes;
 mod push;
 mod steps;
@@ -22,7 +24,9 @@ pub struct Plan {
     pub rays_per_pulse: u64,
     /// Pulses of all beams that start before the end.
     pub pulses: u64,
-    /// Expected number of steps; with adaptive steps the least.
+    /// Expected number of impacts of hard spheres; where they stick or soften, the most.
+    pub impacts: f64,
+    /// Expected number of steps; with adaptive steps the least, from impact to impact none.
     pub steps: f64,
     /// Length of a step [s].
     pub step: f64,
@@ -40,9 +44,13 @@ impl Plan {
     /// Works out the plan; `base` is the folder that the scenario's tables are relative to.
     pub fn new(scenario: &Scenario, base: &Path) -> Self {
         let mut plan = Self::default();
-        counts::grains(&mut plan, scenario, base);
-        counts::pulses(&mut plan, scenario);
-        steps::estimate(&mut plan, scenario);
+        let counts = counts::grains(&mut plan, scenario, base);
+        if scenario.engine.is_hard() {
+            hard::estimate(&mut plan, scenario, &counts);
+        } else {
+            counts::pulses(&mut plan, scenario);
+            steps::estimate(&mut plan, scenario);
+        }
         let pushes = push::all(scenario);
         push::describe(&mut plan, &pushes);
         notes::collect(&mut plan, scenario, &pushes);
@@ -55,10 +63,13 @@ impl Plan {
             rows.push(("rays per pulse".to_owned(), self.rays_per_pulse.to_string()));
             rows.push(("pulses".to_owned(), self.pulses.to_string()));
         }
-        rows.push((
-            "steps".to_owned(),
-            format!("{} of {}", digits(self.steps.ceil()), readable(self.step, "s")),
-        ));
+        if self.impacts > 0.0 {
+            rows.push(("impacts".to_owned(), format!("at most about {}", digits(self.impacts.ceil()))));
+        }
+        if self.steps > 0.0 {
+            let steps = format!("{} of {}", digits(self.steps.ceil()), readable(self.step, "s"));
+            rows.push(("steps".to_owned(), steps));
+        }
         rows.extend(self.figures.iter().cloned());
         rows.push(("memory".to_owned(), readable(self.memory, "B")));
         rows.push(("time of the run".to_owned(), format!("{}, very roughly", duration(self.seconds))));
@@ -91,5 +102,7 @@ impl fmt::Display for Plan {
     }
 }
 
+#[cfg(test)]
+mod hard_tests;
 #[cfg(test)]
 mod tests;

@@ -2,16 +2,15 @@
 
 use std::f64::consts::TAU;
 
-use super::Plan;
 use super::counts::{SLOW_FRACTION, asked_fraction, pulses_before};
 use super::push::Push;
+use super::{Plan, hard};
 use crate::acoustics::RayForce;
 use crate::contact::{Bonds, Friction, Normal};
 use crate::fields::DragLaw;
 use crate::fields::near_field::{NearFieldLaw, Scaling};
 use crate::math::Vec3;
 use crate::packing::Placement;
-use crate::scenario::check::mean_volume;
 use crate::scenario::figures::{digits, readable};
 use crate::scenario::types::{GrainGroup, Scenario};
 use crate::units::vector;
@@ -23,6 +22,7 @@ pub(super) fn collect(plan: &mut Plan, scenario: &Scenario, pushes: &[Push]) {
     let notes = &mut plan.notes;
     wavelengths(notes, scenario, pushes);
     published_laws(notes, scenario);
+    hard::notes(notes, scenario);
     motion(notes, scenario, pushes);
     without_effect(notes, scenario);
     packing(notes, scenario);
@@ -69,7 +69,7 @@ fn published_laws(notes: &mut Vec<String>, scenario: &Scenario) {
     if let Some(RayForce::PublishedStep(_)) = scenario.acoustics.as_ref().map(|acoustics| &acoustics.force) {
         notes.push("acoustics.force.published_step: the impulse of a hit is proportional to the step and does not converge; impulse does".to_owned());
     }
-    if laws.is_none() {
+    if laws.is_none() && !scenario.engine.is_hard() {
         notes.push("there is no [contact]: grains pass through one another".to_owned());
     }
 }
@@ -134,7 +134,7 @@ fn passing_by(notes: &mut Vec<String>, scenario: &Scenario) {
             let region = match &group.placement {
                 Placement::Random(law) => &law.region,
                 Placement::Lattice(law) => &law.region,
-                Placement::Table(_) | Placement::List(_) => return true,
+                Placement::Table(_) | Placement::List(_) | Placement::Fill(_) => return true,
             };
             let (way, reach) = (region.center() - start, region.enclosing_radius());
             way.rejected_from(axis).norm() < reach + beam.radius.si() && way.dot(axis) > -reach
@@ -147,12 +147,13 @@ fn passing_by(notes: &mut Vec<String>, scenario: &Scenario) {
 
 fn packing(notes: &mut Vec<String>, scenario: &Scenario) {
     for (index, group) in scenario.grains.iter().enumerate() {
-        if let Placement::Random(law) = &group.placement {
-            let fraction = asked_fraction(law, mean_volume(&group.size));
-            if fraction > SLOW_FRACTION {
-                let fraction = digits(fraction);
-                notes.push(format!("grains.{index}: a solid fraction of {fraction} is close to saturation; placing takes long"));
-            }
+        if let Some(fraction) = asked_fraction(group, scenario.volume.as_ref())
+            && fraction > SLOW_FRACTION
+        {
+            let fraction = digits(fraction);
+            notes.push(format!(
+                "grains.{index}: a solid fraction of {fraction} is close to saturation; placing takes long"
+            ));
         }
     }
 }

@@ -6,7 +6,6 @@ use super::Plan;
 use crate::acoustics::{Beam, RayForce, Strength};
 use crate::contact::Normal;
 use crate::particles::Material;
-use crate::scenario::check::mean_volume;
 use crate::scenario::figures::{digits, readable};
 use crate::scenario::types::{GrainGroup, Scenario};
 
@@ -65,7 +64,7 @@ fn of_beam(
     let area = PI * beam.radius.si().powi(2);
     let (power, pressure) = power_and_pressure(beam.strength, area, outer);
     let (ray_power, ray_area) = (power / f64::from(beam.rays), area / f64::from(beam.rays));
-    let volume = mean_volume(&group.size);
+    let volume = group.size.mean_volume();
     let radius = (0.75 * volume / PI).cbrt();
     // [A] 7, or the momentum of a ray that is partly reflected head-on.
     let printed = (ray_power * (1.0 - reflected) * inner * ray_area).sqrt();

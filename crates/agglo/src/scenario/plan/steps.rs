@@ -5,11 +5,10 @@ use std::f64::consts::PI;
 use super::Plan;
 use crate::acoustics::{Acoustics, RayForce};
 use crate::contact::{Bonds, Normal};
-use crate::engine::soft::Engine;
+use crate::engine::Engine;
 use crate::engine::soft::step_size::rayleigh_time;
 use crate::packing::Placement;
 use crate::particles::Material;
-use crate::scenario::check::mean_volume;
 use crate::scenario::types::{GrainGroup, Scenario};
 
 /// Time [s] of one evaluation of all forces on one grain by one thread; measured runs are within a few times of it.
@@ -30,6 +29,7 @@ pub(super) fn estimate(plan: &mut Plan, scenario: &Scenario) {
             Some(step) => (step.si(), 1.0),
             None => ((law.safety * critical_step(scenario)).min(end / 100.0), 1.0),
         },
+        Engine::EventDriven(_) | Engine::TimeStepped(_) => return,
     };
     plan.step = step;
     plan.steps = end / step + flights;
@@ -52,12 +52,12 @@ fn extent(group: &GrainGroup) -> f64 {
     match &group.placement {
         Placement::Random(law) => 2.0 * law.region.enclosing_radius(),
         Placement::Lattice(law) => 2.0 * law.region.enclosing_radius(),
-        Placement::Table(_) | Placement::List(_) => 2.0 * mean_radius(group),
+        Placement::Table(_) | Placement::List(_) | Placement::Fill(_) => 2.0 * mean_radius(group),
     }
 }
 
 fn mean_radius(group: &GrainGroup) -> f64 {
-    (0.75 * mean_volume(&group.size) / PI).cbrt()
+    (0.75 * group.size.mean_volume() / PI).cbrt()
 }
 
 /// Shortest of the critical steps [s] of all groups; infinite where nothing is stiff.

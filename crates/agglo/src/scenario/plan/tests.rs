@@ -55,11 +55,22 @@ fn the_overlap_of_an_impact() {
 fn low_frequencies_are_noted() {
     let audible = template("microscale").replace("250 MHz", "20 kHz");
     let plan = plan_of(&audible);
-    // The radius of mean volume is 20 um exp(1.5 ln² 1.3) = 22.176 um; k a = 2 pi 2e4 Hz x 22.176 um / 1500 m/s.
-    assert!(plan.notes.iter().any(|note| note.contains("k a = 0.001858")), "{:?}", plan.notes);
+    // The radius of mean volume of the uncut lognormal is 20 um exp(1.5 s²) = 22.176 um, s = ln 1.3. The cuts lie at
+    // ±y, y = ln 2/s = 2.6419; between them the mean cube is that of the uncut one times
+    // (Φ(y - 3s) - Φ(-y - 3s))/(Φ(y) - Φ(-y)) = 0.96788/0.99176, so the radius is 21.996 um and
+    // k a = 2 pi 2e4 Hz x 21.996 um / 1500 m/s = 0.0018427.
+    assert!(plan.notes.iter().any(|note| note.contains("k a = 0.001843")), "{:?}", plan.notes);
     assert!(!plan_of(template("microscale")).notes.iter().any(|note| note.contains("k a")));
     let silent = template("microscale").replace("frequency = \"250 MHz\"", "");
     assert!(plan_of(&silent).notes.iter().any(|note| note.contains("no frequency")));
+}
+
+/// The plan counts the grains that are placed, cuts of a lognormal included: 0.25 (300 um)³/(21.996 um)³ = 634.
+#[test]
+fn the_plan_counts_what_is_placed() {
+    let scenario = Scenario::from_toml(template("microscale")).unwrap();
+    let placed = crate::packing::place(&scenario, Path::new("")).unwrap().len() as u64;
+    assert_eq!((Plan::new(&scenario, Path::new("")).grains, placed), (634, 634));
 }
 
 #[test]

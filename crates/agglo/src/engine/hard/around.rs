@@ -1,0 +1,67 @@
+//! What is near: for pieces that need room, and for memory that will be needed soon.
+
+use crate::math::{Vec3, prefetch};
+
+use super::agenda::Agenda;
+use super::cloud::Surroundings;
+use super::grid::Grid;
+use super::queue::Soon;
+use super::spheres::Spheres;
+
+/// From this many spheres on, they are fetched from memory ahead of their events: fewer stay near the processor anyway.
+const MANY: usize = 40_000;
+
+/// Fetches from memory what the next event of a sphere will need: first its own, then the cells that it will look into,
+/// then the spheres there.
+#[inline]
+pub fn fetch(soon: Soon, agendas: &[Agenda], grid: &Grid, spheres: &Spheres, sphere: u32) {
+    if agendas.len() < MANY {
+        return;
+    }
+    let at = sphere as usize;
+    match soon {
+        Soon::Later => {
+            prefetch(agendas, at);
+            prefetch(&spheres.motion, at);
+            grid.fetch_link(sphere);
+        }
+        Soon::Next => {
+            if agendas[at].collision < agendas[at].crossing {
+                prefetch(&spheres.bulk, at);
+            }
+            grid.fetch_cells(&agendas[at]);
+        }
+        Soon::Now => grid.fetch_spheres(&agendas[at], &spheres.motion),
+    }
+}
+
+/// What is near a point, by the cells.
+pub struct Around<'a> {
+    /// The cells.
+    pub grid: &'a Grid,
+}
+
+impl Surroundings for Around<'_> {
+    fn visit_near(
+        &self,
+        spheres: &Spheres,
+        center: Vec3,
+        reach: f64,
+        time: f64,
+        visit: &mut dyn FnMut(u32, Vec3),
+    ) {
+        for (number, level) in self.grid.levels().iter().enumerate() {
+            if level.population > 0 {
+                // Cells are about where spheres were when they last moved into one: rounding apart, where they are.
+                let farthest = (reach + 0.5 * level.widest()) * (1.0 + 1e-9);
+                self.grid.visit_within(number, center, farthest, |at, image| {
+                    let sphere = &spheres.motion[at as usize];
+                    let place = sphere.at(time) + self.grid.shift(image);
+                    if (place - center).norm() <= reach + sphere.radius {
+                        visit(at, place);
+                    }
+                });
+            }
+        }
+    }
+}

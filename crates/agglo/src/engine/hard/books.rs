@@ -1,0 +1,224 @@
+//! Energy, momentum and counts of hard spheres since the start.
+
+use serde::{Deserialize, Serialize};
+
+use crate::impact::ImpactEnergy;
+use crate::math::Vec3;
+
+use super::spheres::Spheres;
+
+/// What happened since the start.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Counts {
+    /// Impacts.
+    pub impacts: u64,
+    /// Of these, bounces.
+    pub bounces: u64,
+    /// Merges.
+    pub merges: u64,
+    /// Agglomerates that broke.
+    pub fragmentations: u64,
+    /// Bounces that were made elastic, since a partner had just bounced.
+    pub guarded: u64,
+    /// Merges, and impacts in which one or both partners broke: lines of the table of events.
+    pub events: u64,
+    /// Agglomerates that did not break since there was no room for the pieces.
+    pub no_room: u64,
+    /// Impacts of spheres that overlapped: after a merge, or a step, or at a face.
+    pub overlapping: u64,
+    /// Bounces off walls.
+    pub walls: u64,
+    /// Iterations of all coupled solves.
+    pub iterations: u64,
+    /// Most iterations of one solve.
+    pub most_iterations: u32,
+    /// Solves that did not end within their tolerance.
+    pub not_converged: u64,
+}
+
+/// Energy in the stores [J].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Stores {
+    /// Kinetic energy.
+    #[serde(rename = "kinetic_J")]
+    pub kinetic: f64,
+    /// Thermal energy m C T.
+    #[serde(rename = "thermal_J")]
+    pub thermal: f64,
+}
+
+/// Flows of energy and momentum since the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Flows {
+    /// Of all impacts.
+    pub impacts: ImpactEnergy,
+    /// Heat of impacts that bodies without heat capacity could not keep [J].
+    pub unkept: f64,
+    /// Heat given to gas and surroundings [J].
+    pub cooled: f64,
+    /// Momentum from walls [kg m/s].
+    pub walls: Vec3,
+}
+
+/// The ledger of hard spheres.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Books {
+    /// Stores at the start.
+    pub stores_at_start: Stores,
+    /// Momentum at the start [kg m/s].
+    pub momentum_at_start: Vec3,
+    /// Sum of the momenta's sizes at the start [kg m/s].
+    pub momentum_size_at_start: f64,
+    /// Mass at the start [kg].
+    pub mass_at_start: f64,
+    /// Flows since.
+    pub flows: Flows,
+    /// What rounding left out of the sums over impacts so far.
+    left_out: ImpactEnergy,
+}
+
+/// The ledger drawn up at one moment.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Balance {
+    /// Stores now.
+    #[serde(flatten)]
+    pub stores: Stores,
+    /// Kinetic energy at the start [J].
+    #[serde(rename = "kinetic_at_start_J")]
+    pub kinetic_at_start: f64,
+    /// Thermal energy at the start [J].
+    #[serde(rename = "thermal_at_start_J")]
+    pub thermal_at_start: f64,
+    /// Kinetic energy lost along the normals [J].
+    #[serde(rename = "lost_normal_J")]
+    pub normal: f64,
+    /// Kinetic energy lost to friction [J].
+    #[serde(rename = "lost_friction_J")]
+    pub tangential: f64,
+    /// Heat of reactions [J].
+    #[serde(rename = "reaction_J")]
+    pub reaction: f64,
+    /// Energy of new surfaces [J].
+    #[serde(rename = "surface_J")]
+    pub surface: f64,
+    /// Heat of impacts [J].
+    #[serde(rename = "heat_J")]
+    pub heat: f64,
+    /// Heat that a published sum made out of nothing [J]; 0 in the sound balance.
+    #[serde(rename = "unbalanced_J")]
+    pub unbalanced: f64,
+    /// Heat given to gas and surroundings [J].
+    #[serde(rename = "cooled_J")]
+    pub cooled: f64,
+    /// Kinetic energy that losses do not explain, over that at the start.
+    pub kinetic_drift_relative: f64,
+    /// Energy of all kinds that flows do not explain [J].
+    #[serde(rename = "drift_J")]
+    pub drift: f64,
+    /// The same over all energy that was there or came in.
+    pub drift_relative: f64,
+}
+
+impl Books {
+    /// Opens the books on spheres at the start.
+    pub fn open(spheres: &Spheres) -> Self {
+        let momentum_size = |at: u32| {
+            let (motion, bulk) = (&spheres.motion[at as usize], &spheres.bulk[at as usize]);
+            bulk.mass * motion.velocity.norm()
+        };
+        let order = spheres.by_id();
+        Self {
+            stores_at_start: stores(spheres, &order, |at| spheres.bulk[at as usize].temperature),
+            momentum_at_start: momentum(spheres, &order),
+            momentum_size_at_start: order.iter().map(|&at| momentum_size(at)).sum(),
+            mass_at_start: order.iter().map(|&at| spheres.bulk[at as usize].mass).sum(),
+            flows: Flows::default(),
+            left_out: ImpactEnergy::default(),
+        }
+    }
+
+    /// Draws up the ledger; `pending` is heat given off since the last heating of each sphere, not yet in the flows.
+    pub fn balance(&self, stores: Stores, pending: f64) -> Balance {
+        let (flows, start) = (&self.flows, &self.stores_at_start);
+        let impacts = &flows.impacts;
+        let cooled = flows.cooled + pending;
+        let explained = impacts.normal + impacts.tangential + impacts.reaction - impacts.surface;
+        let unbalanced = impacts.heat - explained;
+        let kinetic_drift = stores.kinetic - (start.kinetic - impacts.normal - impacts.tangential);
+        let thermal_drift = stores.thermal - (start.thermal + impacts.heat - flows.unkept - cooled);
+        let drift = kinetic_drift + thermal_drift;
+        let all = start.kinetic + start.thermal + impacts.reaction + unbalanced.max(0.0);
+        let over = |part: f64, whole: f64| if whole > 0.0 { part / whole } else { 0.0 };
+        Balance {
+            stores,
+            kinetic_at_start: start.kinetic,
+            thermal_at_start: start.thermal,
+            normal: impacts.normal,
+            tangential: impacts.tangential,
+            reaction: impacts.reaction,
+            surface: impacts.surface,
+            heat: impacts.heat,
+            unbalanced,
+            cooled,
+            kinetic_drift_relative: over(kinetic_drift, start.kinetic),
+            drift,
+            drift_relative: over(drift, all),
+        }
+    }
+
+    /// Adds the energies of an impact. The sums are compensated (W. Kahan, Commun. ACM 8, 40 (1965)): in a gas that has cooled,
+    /// millions of impacts each lose less than the last digit of the sum.
+    pub fn add(&mut self, energy: &ImpactEnergy) {
+        let (sum, left_out) = (&mut self.flows.impacts, &mut self.left_out);
+        compensated(&mut sum.normal, &mut left_out.normal, energy.normal);
+        compensated(&mut sum.tangential, &mut left_out.tangential, energy.tangential);
+        compensated(&mut sum.reaction, &mut left_out.reaction, energy.reaction);
+        compensated(&mut sum.surface, &mut left_out.surface, energy.surface);
+        compensated(&mut sum.heat, &mut left_out.heat, energy.heat);
+    }
+}
+
+/// Adds to a sum, and keeps what rounding leaves out for the next time.
+#[inline]
+fn compensated(sum: &mut f64, left_out: &mut f64, part: f64) {
+    let part = part + *left_out;
+    let before = *sum;
+    *sum = before + part;
+    *left_out = part - (*sum - before);
+}
+
+/// Energies of spheres [J], summed in `order`; `temperature` gives that of the sphere at a place.
+pub fn stores(spheres: &Spheres, order: &[u32], mut temperature: impl FnMut(u32) -> f64) -> Stores {
+    let mut stores = Stores::default();
+    for &at in order {
+        let (motion, bulk) = (&spheres.motion[at as usize], &spheres.bulk[at as usize]);
+        stores.kinetic += 0.5 * bulk.mass * motion.velocity.norm_squared();
+        stores.thermal += bulk.heat_capacity * temperature(at);
+    }
+    stores
+}
+
+/// Momentum of spheres [kg m/s], summed in `order`.
+pub fn momentum(spheres: &Spheres, order: &[u32]) -> Vec3 {
+    let of = |at: u32| spheres.motion[at as usize].velocity * spheres.bulk[at as usize].mass;
+    order.iter().fold(Vec3::ZERO, |sum, &at| sum + of(at))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A million parts, each a tenth of the last digit of the sum, come to 2.2e-11; added one by one they would be lost.
+    #[test]
+    fn small_losses_are_not_forgotten() {
+        let mut books = Books::default();
+        let loss = |joule: f64| ImpactEnergy { normal: joule, heat: joule, ..ImpactEnergy::default() };
+        books.add(&loss(1.0));
+        let part = 0.1 * f64::EPSILON;
+        (0..1_000_000).for_each(|_| books.add(&loss(part)));
+        // One rounding of the sum.
+        let wanted = 1.0 + 1e6 * part;
+        assert!((books.flows.impacts.normal - wanted).abs() < 3e-16);
+        assert!((books.flows.impacts.heat - wanted).abs() < 3e-16);
+    }
+}

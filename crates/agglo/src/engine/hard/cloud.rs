@@ -1,0 +1,370 @@
+//! The spheres of a run with their laws and books, and what an impact does to them. Both drivers use it; they find out
+//! who meets whom and when.
+
+use serde::{Deserialize, Serialize};
+
+use crate::domain::Volume;
+use crate::engine::Warnings;
+use crate::impact::{Body, ImpactLaws, Outcome};
+use crate::math::Vec3;
+use crate::measure::SizeRates;
+
+use super::books::{Books, Counts};
+use super::events::{Descent, EventKind, GrainEvent};
+use super::pieces;
+use super::spheres::{Bulk, Sphere, Spheres};
+
+/// Two spheres that meet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// Their places.
+    pub spheres: [u32; 2],
+    /// What is added to the second one's position to get the image that meets the first [m].
+    pub shift: Vec3,
+}
+
+/// What became of two spheres that met.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Change {
+    /// Both go on, with new velocities.
+    Bounced,
+    /// The first went on as both; the second is no more.
+    Merged {
+        /// Place of the sphere that is both now, larger and elsewhere.
+        kept: u32,
+        /// Empty place.
+        gone: u32,
+    },
+    /// One or both broke: [`Cloud::pieces`] has the places of all pieces and of a partner that stayed whole, and the
+    /// places of both partners were given up or reused.
+    Broke,
+}
+
+/// Finds spheres near a point.
+pub trait Surroundings {
+    /// Visits every sphere whose surface may be nearer to `center` than `reach` [m] at `time` [s], with the position of
+    /// its image that is near; may visit more.
+    fn visit_near(
+        &self,
+        spheres: &Spheres,
+        center: Vec3,
+        reach: f64,
+        time: f64,
+        visit: &mut dyn FnMut(u32, Vec3),
+    );
+}
+
+/// All that changes and is not a driver's own; a checkpoint holds it.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct CloudState {
+    /// The spheres.
+    pub spheres: Spheres,
+    /// The ledger.
+    pub books: Books,
+    /// Counts.
+    pub counts: Counts,
+    /// Collision and aggregation by size.
+    pub rates: SizeRates,
+    /// Warnings.
+    pub warnings: Warnings,
+}
+
+/// The spheres of a run.
+#[derive(Clone, Debug)]
+pub struct Cloud {
+    /// All that changes.
+    pub state: CloudState,
+    /// Laws of impact.
+    pub laws: ImpactLaws,
+    /// Control volume.
+    pub volume: Volume,
+    /// Merges and fragmentations since they were last taken.
+    pub events: Vec<GrainEvent>,
+    /// Who became whom in them.
+    pub descents: Vec<Descent>,
+    /// Whether events are written down.
+    pub keeps_events: bool,
+    /// Bounces within this time [s] of the last one are elastic.
+    pub contact_duration: f64,
+    /// Seed of random numbers.
+    pub seed: u64,
+    /// Places of the spheres that came out of the last fragmentation.
+    pub pieces: Vec<u32>,
+}
+
+impl Cloud {
+    /// Lets two spheres meet at `time` [s]. Their motions are brought up to that time.
+    ///
+    /// The outcome does not depend on which is named first, but for the order in memory.
+    pub fn meet(&mut self, contact: Contact, time: f64, surroundings: &dyn Surroundings) -> Change {
+        let places = contact.spheres.map(|at| at as usize);
+        for at in places {
+            self.bring_up(at, time);
+        }
+        let [a, b] = places.map(|at| self.state.spheres.motion[at]);
+        // Written so that swapping the partners turns it round exactly.
+        let distance = (b.position - a.position) + contact.shift;
+        let length = distance.norm();
+        let normal = if length > 0.0 { distance / length } else { Vec3::AXES[0] };
+        let bodies = places.map(|at| self.body(at));
+        let outcome = self.outcome(places, &bodies, normal, time);
+        let approach = (a.velocity - b.velocity).dot(normal);
+        self.count(&outcome, length < (a.radius + b.radius) * (1.0 - 1e-9));
+        if outcome.pieces != [1, 1] {
+            let whole = outcome.pieces.map(|pieces| pieces == 1);
+            match pieces::find_room(self, contact, &outcome, time, surroundings) {
+                Some(found) => return pieces::break_up(self, contact, &outcome, found, time, approach),
+                None => return self.too_narrow(contact, bodies, whole, normal, time, approach),
+            }
+        }
+        self.carry_out(contact, &bodies, &outcome, distance, time, approach)
+    }
+
+    /// The same impact where there is no room for pieces: those that would break stay whole.
+    fn too_narrow(
+        &mut self,
+        contact: Contact,
+        mut bodies: [Body; 2],
+        whole: [bool; 2],
+        normal: Vec3,
+        time: f64,
+        approach: f64,
+    ) -> Change {
+        self.state.counts.no_room += 1;
+        self.state.warnings.add("an agglomerate could not break: there was no room for its pieces");
+        for (body, is_whole) in bodies.iter_mut().zip(whole) {
+            if !is_whole {
+                body.primaries = 1;
+            }
+        }
+        let outcome = self.laws.impact([&bodies[0], &bodies[1]], normal);
+        let [a, b] = contact.spheres.map(|at| self.state.spheres.motion[at as usize].position);
+        let distance = (b - a) + contact.shift;
+        self.carry_out(contact, &bodies, &outcome, distance, time, approach)
+    }
+
+    fn carry_out(
+        &mut self,
+        contact: Contact,
+        bodies: &[Body; 2],
+        outcome: &Outcome,
+        distance: Vec3,
+        time: f64,
+        approach: f64,
+    ) -> Change {
+        self.book(bodies, outcome);
+        let classes = contact.spheres.map(|at| self.state.spheres.bulk[at as usize].primaries);
+        self.state.rates.collide(classes, outcome.sticks);
+        for (at, k) in contact.spheres.into_iter().zip(0..) {
+            self.state.spheres.motion[at as usize].velocity = outcome.velocities[k];
+            let bulk = &mut self.state.spheres.bulk[at as usize];
+            bulk.temperature = outcome.temperatures[k];
+            bulk.bounced_at = time;
+        }
+        if outcome.sticks {
+            self.merge(contact, outcome, distance, time, approach)
+        } else {
+            self.state.counts.bounces += 1;
+            Change::Bounced
+        }
+    }
+
+    fn outcome(&mut self, places: [usize; 2], bodies: &[Body; 2], normal: Vec3, time: f64) -> Outcome {
+        let outcome = self.laws.impact([&bodies[0], &bodies[1]], normal);
+        let bounces = !outcome.sticks && outcome.pieces == [1, 1] && outcome.restitution < 1.0;
+        let since = |at: usize| time - self.state.spheres.bulk[at].bounced_at;
+        if bounces && places.into_iter().any(|at| since(at) < self.contact_duration) {
+            self.state.counts.guarded += 1;
+            return self.laws.elastic([&bodies[0], &bodies[1]], normal);
+        }
+        outcome
+    }
+
+    fn count(&mut self, outcome: &Outcome, overlap: bool) {
+        let counts = &mut self.state.counts;
+        counts.impacts += 1;
+        counts.overlapping += u64::from(overlap);
+        counts.iterations += u64::from(outcome.iterations);
+        counts.most_iterations = counts.most_iterations.max(outcome.iterations);
+        if !outcome.converged {
+            counts.not_converged += 1;
+            self.state
+                .warnings
+                .add("the coupled equations of an impact were not solved within the tolerance");
+        }
+    }
+
+    pub(super) fn book(&mut self, bodies: &[Body; 2], outcome: &Outcome) {
+        let books = &mut self.state.books;
+        books.add(&outcome.energy);
+        if bodies.iter().any(|body| body.heat_capacity == 0.0) {
+            let kept = |k: usize| bodies[k].heat_capacity * (outcome.temperatures[k] - bodies[k].temperature);
+            books.flows.unkept += outcome.energy.heat - (kept(0) + kept(1));
+        }
+    }
+
+    /// Brings a sphere's position and temperature up to `time` [s].
+    pub fn bring_up(&mut self, at: usize, time: f64) {
+        let motion = &mut self.state.spheres.motion[at];
+        motion.position = motion.at(time);
+        motion.time = time;
+        if self.laws.cools() {
+            let (temperature, given_off) = self.cooled(at, time);
+            if self.laws.cooling_overshoots(&self.body(at), time - self.state.spheres.bulk[at].heated_at) {
+                self.state.warnings.add("a published cooling step would fall to zero or below; it was held");
+            }
+            let bulk = &mut self.state.spheres.bulk[at];
+            bulk.temperature = temperature;
+            bulk.heated_at = time;
+            self.state.books.flows.cooled += given_off;
+        }
+    }
+
+    /// Temperature [K] of the sphere at a place at `time` [s], and the heat [J] that it has given off since its last
+    /// heating.
+    pub fn cooled(&self, at: usize, time: f64) -> (f64, f64) {
+        let bulk = &self.state.spheres.bulk[at];
+        let body = self.body(at);
+        let temperature = self.laws.cooled(&body, time - bulk.heated_at);
+        (temperature, body.heat_capacity * (body.temperature - temperature))
+    }
+
+    pub(super) fn body(&self, at: usize) -> Body {
+        let (motion, bulk) = (&self.state.spheres.motion[at], &self.state.spheres.bulk[at]);
+        Body {
+            velocity: motion.velocity,
+            mass: bulk.mass,
+            radius: motion.radius,
+            temperature: bulk.temperature,
+            heat_capacity: bulk.heat_capacity,
+            material: bulk.material,
+            primaries: bulk.primaries,
+        }
+    }
+
+    fn merge(
+        &mut self,
+        contact: Contact,
+        outcome: &Outcome,
+        distance: Vec3,
+        time: f64,
+        approach: f64,
+    ) -> Change {
+        let [a, b] = contact.spheres;
+        let (kept, gone, to_gone) =
+            if self.is_first(a, b) { (a, b, distance) } else { (b, a, Vec3::ZERO - distance) };
+        let event = self.note(EventKind::Merge, contact, outcome, time, approach);
+        let spheres = &mut self.state.spheres;
+        let [one, other] = [kept, gone].map(|at| spheres.bulk[at as usize]);
+        let (radius, added) = (spheres.motion[kept as usize].radius, spheres.motion[gone as usize].radius);
+        let mass = one.mass + other.mass;
+        let motion = &mut spheres.motion[kept as usize];
+        motion.position = self.volume.wrap(motion.position + to_gone * (other.mass / mass));
+        motion.radius = (radius * radius * radius + added * added * added).cbrt();
+        let heat_capacity = one.heat_capacity + other.heat_capacity;
+        spheres.bulk[kept as usize] = Bulk {
+            mass,
+            heat_capacity,
+            temperature: mixed_temperature(&one, &other),
+            bounced_at: f64::NEG_INFINITY,
+            primaries: one.primaries + other.primaries,
+            ..one
+        };
+        spheres.remove(gone);
+        self.state.counts.merges += 1;
+        self.state.rates.merge([one.primaries, other.primaries], time);
+        self.descend(event, [&one, &other].map(|bulk| (bulk.id, one.id, bulk.primaries, bulk.mass)));
+        Change::Merged { kept, gone }
+    }
+
+    /// Which of two spheres goes on when they merge: the heavier one; of equals the one whose place comes first in
+    /// space, so that names do not matter.
+    pub(super) fn is_first(&self, a: u32, b: u32) -> bool {
+        let of = |at: u32| {
+            let (motion, bulk) =
+                (&self.state.spheres.motion[at as usize], &self.state.spheres.bulk[at as usize]);
+            [-bulk.mass, motion.position.x, motion.position.y, motion.position.z]
+        };
+        let (first, second) = (of(a), of(b));
+        let orders = first.iter().zip(&second).map(|(x, y)| x.total_cmp(y));
+        orders.reduce(std::cmp::Ordering::then).is_none_or(std::cmp::Ordering::is_le)
+    }
+
+    /// Writes an event down and gives its number.
+    pub(super) fn note(
+        &mut self,
+        kind: EventKind,
+        contact: Contact,
+        outcome: &Outcome,
+        time: f64,
+        speed: f64,
+    ) -> u64 {
+        self.state.counts.events += 1;
+        let number = self.state.counts.events;
+        if self.keeps_events {
+            let mut partners = contact.spheres.map(|at| {
+                let bulk = &self.state.spheres.bulk[at as usize];
+                (bulk.id, bulk.mass)
+            });
+            partners.sort_unstable_by_key(|partner| partner.0);
+            self.events.push(GrainEvent {
+                number,
+                time,
+                kind,
+                grains: partners.map(|partner| partner.0),
+                masses: partners.map(|partner| partner.1),
+                speed,
+                restitution: outcome.restitution,
+                energy: outcome.energy,
+            });
+        }
+        number
+    }
+
+    /// Writes lines of descent down: (parent, child, primaries, mass).
+    pub(super) fn descend(&mut self, event: u64, lines: impl IntoIterator<Item = (u32, u32, u32, f64)>) {
+        if self.keeps_events {
+            let lines = lines.into_iter();
+            self.descents.extend(lines.map(|(parent, child, primaries, mass)| Descent {
+                event,
+                parent,
+                child,
+                primaries,
+                mass,
+            }));
+        }
+    }
+
+    /// Lets a sphere bounce off a smooth wall whose inward normal is along `axis`, and books the momentum.
+    pub fn bounce_off_wall(&mut self, at: u32, axis: usize, time: f64) {
+        self.bring_up(at as usize, time);
+        let mass = self.state.spheres.bulk[at as usize].mass;
+        let velocity = &mut self.state.spheres.motion[at as usize].velocity;
+        let mut along = velocity.to_array();
+        let mut impulse = [0.0; 3];
+        impulse[axis] = -2.0 * mass * along[axis];
+        along[axis] = -along[axis];
+        *velocity = along.into();
+        self.state.books.flows.walls += Vec3::from(impulse);
+        self.state.counts.walls += 1;
+    }
+}
+
+/// Temperature [K] at which two bodies together have their thermal energies added up.
+fn mixed_temperature(one: &Bulk, other: &Bulk) -> f64 {
+    let capacity = one.heat_capacity + other.heat_capacity;
+    if capacity > 0.0 {
+        (one.heat_capacity * one.temperature + other.heat_capacity * other.temperature) / capacity
+    } else {
+        (one.mass * one.temperature + other.mass * other.temperature) / (one.mass + other.mass)
+    }
+}
+
+impl Sphere {
+    /// Whether two spheres, the second shifted, touch or overlap at `time` [s].
+    pub fn touches(&self, other: &Self, shift: Vec3, time: f64) -> bool {
+        let distance = (other.at(time) - self.at(time)) + shift;
+        let reach = self.radius + other.radius;
+        distance.norm_squared() <= reach * reach
+    }
+}

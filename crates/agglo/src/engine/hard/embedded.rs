@@ -1,0 +1,363 @@
+//! Grains in a point of a flow: a macroscale code hands over what is there, lets it collide for one of its time steps,
+//! and takes back what is there then, grain by grain and in means. No file is read or written.
+//!
+//! # Source
+//! T. I. Zohdi, Proc. R. Soc. Lond. A 460, 3421 (2004), section 9.
+//!
+//! # Valid when
+//! The macroscale step is longer than an impact and the flow is uniform over the control volume. Forces of the fluid are
+//! the macroscale code's: it changes velocities and temperatures between steps. A step is a pure function of scenario
+//! and state: boxes can be stepped in any order and on any thread. What an engine itself remembers (the time of each
+//! grain's last bounce) ends with the step.
+//!
+//! # Example
+//! ```
+//! use agglo::engine::hard::{MicroGrains, Microscale};
+//! use agglo::math::Vec3;
+//! use agglo::scenario::Scenario;
+//!
+//! let scenario = Scenario::from_toml(r#"
+//!     version = 1
+//!     time.end = "1 s"              # not used: the caller says how long
+//!     [engine.event_driven]
+//!     [volume]
+//!     lower = ["0 mm", "0 mm", "0 mm"]
+//!     upper = ["10 mm", "10 mm", "10 mm"]
+//!     [materials.clay]
+//!     density = "2000 kg/m3"
+//!     heat_capacity = "1000 J/kg/K"
+//!     [impact.restitution.constant]
+//!     restitution = 0.0             # all that touch stick
+//!     [[grains]]                    # not used: the caller says which grains
+//!     material = "clay"
+//!     size.constant.radius = "0.5 mm"
+//!     placement.fill.count = 1
+//! "#)?;
+//! let microscale = Microscale::new(&scenario)?;
+//! let mut state = microscale.state(&MicroGrains {
+//!     radii: vec![5e-4; 2],
+//!     velocities: vec![Vec3::new(1.0, 0.0, 0.0), Vec3::ZERO],
+//!     temperatures: vec![300.0; 2],
+//!     positions: vec![Vec3::new(2e-3, 5e-3, 5e-3), Vec3::new(4e-3, 5e-3, 5e-3)],
+//!     ..MicroGrains::default()
+//! })?;
+//! for _ in 0..2 {
+//!     let (next, means) = microscale.step(&state, 1e-3)?;
+//!     println!("{} grains, {} K", means.grains, means.mean_temperature);
+//!     state = next;
+//! }
+//! // They met after 1 ms, at the end of the first step or in the second, and fly on as one at half the speed.
+//! assert_eq!((state.grains.len(), state.grown[0].primaries), (1, 2));
+//! assert!((state.grains.velocity[0].x - 0.5).abs() < 1e-12);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use super::homogenised::{Homogenised, homogenise};
+use super::simulation::{Grown, Simulation};
+use crate::domain::Volume;
+use crate::engine::SimError;
+use crate::math::Vec3;
+use crate::math::rng::{Purpose, Stream};
+use crate::packing::{ConstantSize, Fill, PackingError, Placement, Size, fill_with, first_overlap};
+use crate::particles::{ColumnValues, Material, Particles, Row};
+use crate::scenario::{Faults, GrainGroup, Scenario};
+use crate::units::Quantity;
+
+/// Radius of a grain that stands for all, over the shortest edge of the volume, while a scenario is held to its rules.
+const SAMPLE: f64 = 1e-3;
+
+/// Why grains of a macroscale code cannot be taken, or a step cannot be made.
+#[derive(Debug, Error)]
+pub enum EmbeddedError {
+    /// The scenario is not one of hard spheres, or breaks a rule.
+    #[error("the scenario cannot be embedded: {0}")]
+    Scenario(#[from] Faults),
+    /// A column has not one value for each grain.
+    #[error("`{column}` has {found} values for {grains} grains")]
+    Length {
+        /// Which column.
+        column: &'static str,
+        /// How many values it has.
+        found: usize,
+        /// How many grains there are, by their radii.
+        grains: usize,
+    },
+    /// A value that cannot be.
+    #[error("`{column}` of grain {grain} is {value}; it must be {allowed}")]
+    Value {
+        /// Which column.
+        column: &'static str,
+        /// Place of the grain in the columns, from 0.
+        grain: usize,
+        /// What was found, in SI units.
+        value: String,
+        /// What it must be.
+        allowed: &'static str,
+    },
+    /// There are no grains.
+    #[error("there are no grains; a macroscale code can leave out the step")]
+    Empty,
+    /// Two grains overlap, or a grain overlaps its own image.
+    #[error("grains {} and {} overlap by {overlap:e} m; hard spheres must start apart", grains[0], grains[1])]
+    Overlap {
+        /// Their places in the columns, from 0; twice the same where a grain overlaps its own image.
+        grains: [u32; 2],
+        /// How far they overlap [m].
+        overlap: f64,
+    },
+    /// There is no room for grains without positions.
+    #[error("the grains cannot be placed at random in the volume: {0}")]
+    NoRoom(PackingError),
+    /// The step is not above zero.
+    #[error("the duration of a step must be above zero and finite, not {0} s")]
+    Duration(f64),
+    /// The simulation cannot go on.
+    #[error(transparent)]
+    Run(#[from] SimError),
+}
+
+/// Grains as a macroscale code knows them: columns of one length. Those that say so can be left empty.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MicroGrains {
+    /// Radii [n] [m].
+    pub radii: Vec<f64>,
+    /// Velocities [n, 3] [m/s].
+    pub velocities: Vec<Vec3>,
+    /// Temperatures [n] [K].
+    pub temperatures: Vec<f64>,
+    /// Centres [n, 3] [m]; if empty, grains are placed at random without overlap, under the scenario's seed.
+    pub positions: Vec<Vec3>,
+    /// Numbers of materials [n], in the order of their names; if empty, all are of the first one.
+    pub materials: Vec<u32>,
+    /// Primary grains that each is made of [n]; if empty, one each.
+    pub primaries: Vec<u32>,
+}
+
+/// The grains of a control volume between two steps. Velocities and temperatures may be changed freely.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct MicroState {
+    /// The columns. Names stay with their grains; what comes out of a merge keeps the heavier partner's.
+    pub grains: Particles,
+    /// What they keep of their parts [n].
+    pub grown: Vec<Grown>,
+    /// Mean radius of the first state [m], which growth is measured by.
+    pub reference_radius: f64,
+    /// Steps made so far; random numbers of a step belong to it.
+    pub step: u32,
+}
+
+/// Laws and control volume of grains that are embedded in a flow.
+#[derive(Clone, Debug)]
+pub struct Microscale {
+    scenario: Scenario,
+    volume: Volume,
+    materials: Vec<Material>,
+}
+
+impl Microscale {
+    /// Takes engine, laws, materials, volume and seed of a scenario. Its grains, its length and its output have no
+    /// meaning here; there need be no grains.
+    ///
+    /// # Errors
+    /// [`EmbeddedError::Scenario`] where it breaks the rules of hard spheres, all materials taken to be used;
+    /// [`EmbeddedError::Run`] where it is one of soft spheres.
+    pub fn new(scenario: &Scenario) -> Result<Self, EmbeddedError> {
+        let volume = scenario.volume.clone().filter(|_| scenario.engine.is_hard());
+        let volume = volume.filter(|_| scenario.impact.is_some()).ok_or(SimError::NoImpact)?;
+        let edges = volume.edges().to_array();
+        let radius = SAMPLE * edges.into_iter().fold(f64::INFINITY, f64::min);
+        let groups = scenario.materials.keys().map(|name| sample(name, radius)).collect();
+        let mut scenario = Scenario { grains: groups, ..scenario.clone() };
+        scenario.check()?;
+        scenario.grains.clear();
+        let materials = scenario.materials.values().cloned().collect();
+        Ok(Self { scenario, volume, materials })
+    }
+
+    /// Makes a first state of grains. With periodic or antipodal faces, positions are brought into the volume.
+    ///
+    /// # Errors
+    /// [`EmbeddedError`] where a column is too short or too long, a value cannot be, grains overlap or find no room.
+    pub fn state(&self, grains: &MicroGrains) -> Result<MicroState, EmbeddedError> {
+        let count = grains.radii.len();
+        let lengths = [
+            ("velocities", grains.velocities.len(), false),
+            ("temperatures", grains.temperatures.len(), false),
+            ("positions", grains.positions.len(), true),
+            ("materials", grains.materials.len(), true),
+            ("primaries", grains.primaries.len(), true),
+        ];
+        for (column, found, may_be_empty) in lengths {
+            if found != count && !(found == 0 && may_be_empty) {
+                return Err(EmbeddedError::Length { column, found, grains: count });
+            }
+        }
+        let mut state = self.rows(grains);
+        check(&state, self.materials.len())?;
+        if grains.positions.is_empty() {
+            state.grains.position =
+                fill_with(&grains.radii, &self.volume, self.scenario.seed).map_err(EmbeddedError::NoRoom)?;
+        }
+        check_places(&state.grains, &self.volume)?;
+        Ok(state)
+    }
+
+    /// The columns of a first state, not checked.
+    fn rows(&self, given: &MicroGrains) -> MicroState {
+        let mut grains = Particles::default();
+        for (at, &radius) in given.radii.iter().enumerate() {
+            let material = given.materials.get(at).copied().unwrap_or(0);
+            // A number that no material has is found by the check.
+            let density = self.materials.get(material as usize).map_or(1.0, |found| found.density.si());
+            let position = given.positions.get(at).copied().unwrap_or(self.volume.lower());
+            grains.push(Row {
+                id: at as u32,
+                position: self.volume.wrap(position),
+                velocity: given.velocities[at],
+                radius,
+                mass: density * 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3),
+                material,
+                temperature: given.temperatures[at],
+                polarity: 1.0,
+                ..Row::default()
+            });
+        }
+        let grown = |at: usize| Grown {
+            primaries: given.primaries.get(at).copied().unwrap_or(1),
+            heat_capacity: grains.mass[at] * self.specific_heat(grains.material[at]),
+        };
+        let grown = (0..grains.len()).map(grown).collect();
+        let reference_radius = grains.radius.iter().sum::<f64>() / grains.len() as f64;
+        MicroState { grains, grown, reference_radius, step: 0 }
+    }
+
+    /// Heat capacity of a material [J/(kg K)]; 0 where it has none.
+    fn specific_heat(&self, material: u32) -> f64 {
+        let of = |found: &Material| found.heat_capacity.map(Quantity::si);
+        self.materials.get(material as usize).and_then(of).unwrap_or_default()
+    }
+
+    /// Lets the grains fly and collide for `duration` [s]; gives the new state, in the order of names, and its means.
+    ///
+    /// # Errors
+    /// [`EmbeddedError`] where a value of the state cannot be, or the simulation cannot go on.
+    pub fn step(
+        &self,
+        state: &MicroState,
+        duration: f64,
+    ) -> Result<(MicroState, Homogenised), EmbeddedError> {
+        if !(duration.is_finite() && duration > 0.0) {
+            return Err(EmbeddedError::Duration(duration));
+        }
+        check(state, self.materials.len())?;
+        let mut scenario = self.scenario.clone();
+        scenario.time.end = Quantity(duration);
+        let mut stream = Stream::new(self.scenario.seed, Purpose::Fragment, state.step);
+        scenario.seed = (stream.uniform() * (1_u64 << 53) as f64) as u64;
+        let mut simulation = Simulation::start_grown(&scenario, &state.grains, &state.grown)?;
+        simulation.cloud_mut().keeps_events = false;
+        while !simulation.is_finished() {
+            simulation.advance(duration)?;
+        }
+        let next = MicroState {
+            grains: simulation.snapshot().grains,
+            grown: grown(&simulation),
+            reference_radius: state.reference_radius,
+            step: state.step.wrapping_add(1),
+        };
+        let means = homogenise(&simulation, &next, duration);
+        Ok((next, means))
+    }
+}
+
+/// What the grains keep of their parts, in the order of names [n].
+fn grown(simulation: &Simulation) -> Vec<Grown> {
+    let spheres = &simulation.cloud().state.spheres;
+    let of = |at: &u32| {
+        let bulk = &spheres.bulk[*at as usize];
+        Grown { primaries: bulk.primaries, heat_capacity: bulk.heat_capacity }
+    };
+    spheres.by_id().iter().map(of).collect()
+}
+
+/// What every step needs of a state, with a number of materials.
+fn check(state: &MicroState, materials: usize) -> Result<(), EmbeddedError> {
+    let count = state.grains.len();
+    if count == 0 {
+        return Err(EmbeddedError::Empty);
+    }
+    let columns = state.grains.columns();
+    let lengths = columns.iter().map(|(column, values)| match values {
+        ColumnValues::Integers(values) => (column.name, values.len()),
+        ColumnValues::Scalars(values) => (column.name, values.len()),
+        ColumnValues::Vectors(values) => (column.name, values.len()),
+    });
+    for (column, found) in lengths.chain([("grown", state.grown.len())]) {
+        if found != count {
+            return Err(EmbeddedError::Length { column, found, grains: count });
+        }
+    }
+    (0..count)
+        .try_for_each(|grain| check_grain(grain, &state.grains.row(grain), &state.grown[grain], materials))
+}
+
+fn check_grain(grain: usize, row: &Row, grown: &Grown, materials: usize) -> Result<(), EmbeddedError> {
+    let fault = |column, value, allowed| Err(EmbeddedError::Value { column, grain, value, allowed });
+    for (column, value) in [("radii", row.radius), ("mass", row.mass), ("temperatures", row.temperature)] {
+        if !(value.is_finite() && value > 0.0) {
+            return fault(column, value.to_string(), "above zero and finite");
+        }
+    }
+    for (column, vector) in [("positions", row.position), ("velocities", row.velocity)] {
+        if !vector.is_finite() {
+            return fault(column, format!("({}, {}, {})", vector.x, vector.y, vector.z), "finite");
+        }
+    }
+    if row.material as usize >= materials {
+        return fault("materials", row.material.to_string(), "the number of a material");
+    }
+    if grown.primaries == 0 {
+        return fault("primaries", "0".to_owned(), "at least 1");
+    }
+    if !(grown.heat_capacity.is_finite() && grown.heat_capacity >= 0.0) {
+        return fault("heat_capacity", grown.heat_capacity.to_string(), "zero or above and finite");
+    }
+    Ok(())
+}
+
+/// What a first state has to keep besides: grains in their volume and apart.
+fn check_places(grains: &Particles, volume: &Volume) -> Result<(), EmbeddedError> {
+    for (grain, (&position, &radius)) in grains.position.iter().zip(&grains.radius).enumerate() {
+        if !volume.holds(position, radius) {
+            let Vec3 { x, y, z } = position;
+            let (value, allowed) = (format!("({x}, {y}, {z})"), "within the walls");
+            return Err(EmbeddedError::Value { column: "positions", grain, value, allowed });
+        }
+    }
+    match first_overlap(grains, Some(volume)) {
+        Some(found) => Err(EmbeddedError::Overlap { grains: found.ids, overlap: found.overlap }),
+        None => Ok(()),
+    }
+}
+
+/// One grain of a material, so that the rules look at what it needs.
+fn sample(material: &str, radius: f64) -> GrainGroup {
+    GrainGroup {
+        material: material.to_owned(),
+        size: Size::Constant(ConstantSize { radius: Quantity(radius) }),
+        placement: Placement::Fill(Fill { count: Some(1), solid_fraction: None, gap: Quantity(0.0) }),
+        velocity: [Quantity(0.0); 3],
+        velocity_spread: None,
+        spin: [Quantity(0.0); 3],
+        temperature: Quantity(300.0),
+        charge: Quantity(0.0),
+        polarity: 1.0,
+    }
+}
+
+#[cfg(test)]
+#[path = "embedded_tests.rs"]
+mod tests;

@@ -1,0 +1,462 @@
+//! The cells that spheres are filed in: levels of cells for spheres of different size, nested in one another.
+//!
+//! A sphere lies in the finest level whose cells are as wide as it is. Two spheres that touch lie in neighbouring cells
+//! of the coarser of their two levels, so each sphere knows whom it may meet from the 27 cells about its own in its own
+//! level and in every coarser one. A coarse cell is made of whole finer ones, two along each axis, or three where one would
+//! be left over, up to a single cell that is the volume: a sphere that leaves a coarse cell leaves a fine one too.
+//!
+//! An open volume has no end: the grid is folded, cells that are a whole number of edges apart share a list.
+
+#![allow(clippy::inline_always, reason = "together these are the innermost loop of the engine")]
+
+use crate::domain::{Boundary, Volume};
+use crate::math::{Vec3, prefetch};
+
+use super::agenda::{Agenda, Exit, NONE};
+use super::level::{BLOCK, Level, SLACK};
+use super::spheres::Sphere;
+
+/// Cells of the second coarsest level along the shortest edge, at least, if there are as many at all.
+const COARSE: i32 = 2;
+/// Cells are at least this wide, over the mean distance of spheres.
+const CELL_OVER_SPACING: f64 = 0.6;
+
+/// Levels of cells, from the single cell to the finest.
+#[derive(Clone, Debug)]
+pub struct Grid {
+    /// Lower corner of the volume [m].
+    lower: Vec3,
+    /// Edges of the volume [m].
+    pub edges: Vec3,
+    /// Widths of the finest cells [m].
+    widths: Vec3,
+    boundary: Boundary,
+    levels: Vec<Level>,
+    /// The next sphere of the same cell.
+    after: Vec<u32>,
+}
+
+/// Cells next to one another along an axis: what they add to a cell's number, and edges of the volume to add.
+#[derive(Clone, Copy, Debug)]
+struct Line {
+    cells: [(u32, i8); 3],
+    len: usize,
+}
+
+impl Line {
+    fn as_slice(&self) -> &[(u32, i8)] {
+        &self.cells[..self.len]
+    }
+}
+
+impl Grid {
+    /// Cells for spheres of at least `smallest` diameter [m]; some cells for each sphere.
+    pub fn new(volume: &Volume, smallest: f64, spheres: usize) -> Self {
+        let edges = volume.edges();
+        let spacing = (volume.volume() / spheres.max(1) as f64).cbrt();
+        let width = (smallest * SLACK).max(CELL_OVER_SPACING * spacing);
+        let finest = edges.to_array().map(|edge| ((edge / width) as i32).clamp(1, 1 << 10));
+        let least = finest.into_iter().min().unwrap_or(1);
+        let widths = Vec3::new(
+            edges.x / f64::from(finest[0]),
+            edges.y / f64::from(finest[1]),
+            edges.z / f64::from(finest[2]),
+        );
+        // The coarsest level is one cell, whatever the shape of the volume.
+        let mut levels = vec![Level::new(finest, 31 - 1, edges)];
+        if finest != [1; 3] {
+            let most = (least / COARSE).max(1).ilog2();
+            levels.extend((0..=most).rev().map(|doublings| Level::new(finest, doublings, edges)));
+        }
+        Self { lower: volume.lower(), edges, widths, boundary: volume.boundary, levels, after: Vec::new() }
+    }
+
+    /// Shortest edge of the volume [m].
+    pub fn shortest_edge(&self) -> f64 {
+        self.edges.x.min(self.edges.y).min(self.edges.z)
+    }
+
+    /// The levels, coarsest first.
+    pub fn levels(&self) -> &[Level] {
+        &self.levels
+    }
+
+    /// Empties all cells.
+    pub fn clear(&mut self) {
+        for level in &mut self.levels {
+            level.heads.fill(NONE);
+            level.occupied.fill(0);
+            level.population = 0;
+            level.fastest = 0.0;
+        }
+    }
+
+    /// Level for spheres of a radius [m].
+    pub fn level_of(&self, radius: f64) -> u8 {
+        let fits = |level: &Level| 2.0 * radius <= level.widest();
+        (self.levels.iter().rposition(fits).unwrap_or(0)) as u8
+    }
+
+    /// Cell of a place in a level.
+    pub fn cell_of(&self, level: u8, place: Vec3) -> [i32; 3] {
+        let (finest, level) = (self.finest(), &self.levels[level as usize]);
+        [0, 1, 2].map(|axis| {
+            let along = self.finest_along(axis, place[axis]);
+            let along = match self.boundary {
+                Boundary::Open => along,
+                _ => along.clamp(0, finest.counts[axis] - 1),
+            };
+            level.coarsened(axis, finest, along)
+        })
+    }
+
+    fn finest(&self) -> &Level {
+        &self.levels[self.levels.len() - 1]
+    }
+
+    /// Coordinate of the finest cell at a place along an axis [m], which may lie beyond the volume.
+    fn finest_along(&self, axis: usize, place: f64) -> i32 {
+        let along = ((place - self.lower[axis]) / self.widths[axis]).floor() as i32;
+        // A single cell is its own finest one.
+        if self.finest().doublings > 0 {
+            ((place - self.lower[axis]) / self.edges[axis]).floor() as i32
+        } else {
+            along
+        }
+    }
+
+    /// Where the lower face of a cell is, from the lower corner of the volume [m].
+    #[inline]
+    fn face(&self, level: &Level, axis: usize, along: i32) -> f64 {
+        let count = level.counts[axis];
+        if (0..count).contains(&along) {
+            return f64::from(along << level.doublings) * self.widths[axis];
+        }
+        let (round, within) = (along.div_euclid(count), along.rem_euclid(count));
+        f64::from(round) * self.edges[axis] + f64::from(within << level.doublings) * self.widths[axis]
+    }
+
+    /// Makes room for the links of this many places.
+    pub fn hold(&mut self, places: usize) {
+        self.after.resize(places, NONE);
+    }
+
+    /// Files a sphere under the cell that its agenda names.
+    #[inline]
+    pub fn link(&mut self, agenda: &mut Agenda, sphere: u32) {
+        let level = &mut self.levels[agenda.level as usize];
+        let cell = match self.boundary {
+            Boundary::Open => [0, 1, 2].map(|axis| agenda.cell[axis].rem_euclid(level.counts[axis]) as u32),
+            _ => agenda.cell.map(|along| along as u32),
+        };
+        let flat = level.flat(cell);
+        agenda.flat = flat;
+        self.after[sphere as usize] = std::mem::replace(&mut level.heads[flat as usize], sphere);
+        level.occupied[flat as usize / BLOCK] |= 1 << (flat as usize % BLOCK);
+        level.population += 1;
+    }
+
+    /// Takes a sphere out of its cell.
+    #[inline]
+    pub fn unlink(&mut self, agenda: &Agenda, sphere: u32) {
+        let level = &mut self.levels[agenda.level as usize];
+        let (flat, after) = (agenda.flat as usize, self.after[sphere as usize]);
+        level.population -= 1;
+        let mut at = level.heads[flat];
+        if at == sphere {
+            level.heads[flat] = after;
+            if after == NONE {
+                level.occupied[flat / BLOCK] &= !(1 << (flat % BLOCK));
+            }
+            return;
+        }
+        while self.after[at as usize] != sphere {
+            at = self.after[at as usize];
+        }
+        self.after[at as usize] = after;
+    }
+
+    /// The first cell of the finest level in a sphere's cell.
+    pub fn finest_cell(&self, agenda: &Agenda) -> [i32; 3] {
+        let level = &self.levels[agenda.level as usize];
+        agenda.cell.map(|along| along << level.doublings)
+    }
+
+    /// Keeps in mind how fast spheres of a level are.
+    #[inline]
+    pub fn note_speed(&mut self, level: u8, speed: f64) {
+        let level = &mut self.levels[level as usize];
+        level.fastest = level.fastest.max(speed);
+    }
+
+    /// When and how a sphere leaves its cell or meets a wall, at `now` [s] or later.
+    #[inline]
+    pub fn exit(&self, agenda: &Agenda, sphere: &Sphere, now: f64) -> (f64, Exit) {
+        let level = &self.levels[agenda.level as usize];
+        let place = sphere.at(now);
+        let mut first = (f64::INFINITY, Exit::default());
+        for axis in 0..3 {
+            let speed = sphere.velocity[axis];
+            if speed == 0.0 {
+                continue;
+            }
+            let side = if speed > 0.0 { 1 } else { -1 };
+            let cell = agenda.cell[axis];
+            let face = self.face(level, axis, if side > 0 { cell + 1 } else { cell });
+            let mut time = (self.lower[axis] + face - place[axis]) / speed;
+            let mut is_wall = false;
+            if self.boundary == Boundary::Reflecting
+                && cell + side == if side > 0 { level.counts[axis] } else { -1 }
+            {
+                let wall = if side > 0 { self.edges[axis] - sphere.radius } else { sphere.radius };
+                time = (self.lower[axis] + wall - place[axis]) / speed;
+                is_wall = true;
+            }
+            if time < first.0 {
+                first = (time, Exit { axis: axis as u8, side: side as i8, is_wall });
+            }
+        }
+        (now + first.0.max(0.0), first.1)
+    }
+
+    /// Moves a sphere's cell through the face that it leaves by. Gives the edges of the volume that must be added to its
+    /// position along that axis: 0 unless it left the volume.
+    #[inline]
+    pub fn step_over(&self, agenda: &mut Agenda) -> i8 {
+        let axis = agenda.exit.axis as usize;
+        let count = self.levels[agenda.level as usize].counts[axis];
+        let cell = agenda.cell[axis] + i32::from(agenda.exit.side);
+        if self.boundary == Boundary::Open || (0..count).contains(&cell) {
+            agenda.cell[axis] = cell;
+            return 0;
+        }
+        agenda.cell[axis] = cell.rem_euclid(count);
+        -agenda.exit.side
+    }
+
+    /// Cells from `cell + from` to `cell + to` along an axis, at most three.
+    #[inline(always)]
+    fn line(&self, level: &Level, axis: usize, cell: i32, from: i32, to: i32) -> Line {
+        let count = level.counts[axis];
+        let mut line = Line { cells: [(0, 0); 3], len: 0 };
+        if cell > 0 && cell < count - 1 {
+            for along in cell + from..=cell + to {
+                line.cells[line.len] = (level.part(axis, along as u32), 0);
+                line.len += 1;
+            }
+            return line;
+        }
+        self.line_at_a_face(level, axis, cell, from, to)
+    }
+
+    /// The same where the line may leave the volume.
+    #[inline(never)]
+    fn line_at_a_face(&self, level: &Level, axis: usize, cell: i32, from: i32, to: i32) -> Line {
+        let count = level.counts[axis];
+        let mut line = Line { cells: [(0, 0); 3], len: 0 };
+        for along in cell + from..=cell + to {
+            let (folded, image) = match self.boundary {
+                _ if (0..count).contains(&along) => (along, 0),
+                Boundary::Periodic => (along.rem_euclid(count), along.div_euclid(count) as i8),
+                Boundary::Open => (along.rem_euclid(count), 0),
+                Boundary::Antipodal | Boundary::Reflecting => continue,
+            };
+            let found = (level.part(axis, folded as u32), image);
+            // A folded grid of one or two cells would show the same cell twice.
+            if self.boundary == Boundary::Open && line.as_slice().contains(&found) {
+                continue;
+            }
+            line.cells[line.len] = found;
+            line.len += 1;
+        }
+        line
+    }
+
+    /// Visits the spheres of one cell.
+    #[inline(always)]
+    fn visit_cell(&self, level: &Level, flat: u32, image: [i8; 3], visit: &mut impl FnMut(u32, [i8; 3])) {
+        if level.occupied[flat as usize / BLOCK] >> (flat as usize % BLOCK) & 1 == 0 {
+            return;
+        }
+        let mut sphere = level.heads[flat as usize];
+        while sphere != NONE {
+            visit(sphere, image);
+            sphere = self.after[sphere as usize];
+        }
+    }
+
+    /// Visits the cells from `cell + from` to `cell + to`, at most three along each axis.
+    #[inline(always)]
+    fn visit_block(
+        &self,
+        level: &Level,
+        cell: [i32; 3],
+        from: [i32; 3],
+        to: [i32; 3],
+        visit: &mut impl FnMut(u32, [i8; 3]),
+    ) {
+        let line = |axis: usize| self.line(level, axis, cell[axis], from[axis], to[axis]);
+        let lines = [line(0), line(1), line(2)];
+        for &(z, image_z) in lines[2].as_slice() {
+            for &(y, image_y) in lines[1].as_slice() {
+                for &(x, image_x) in lines[0].as_slice() {
+                    self.visit_cell(level, x + y + z, [image_x, image_y, image_z], visit);
+                }
+            }
+        }
+    }
+
+    /// Visits the occupied cells of its own level that a sphere will look into at its next event.
+    #[inline(always)]
+    fn each_cell_in_view(&self, agenda: &Agenda, mut visit: impl FnMut(&Level, u32)) {
+        let Some(level) = self.levels.get(agenda.level as usize) else { return };
+        let (mut from, mut to) = ([-1; 3], [1; 3]);
+        if agenda.crossing < agenda.collision {
+            let (axis, side) = (agenda.exit.axis as usize, i32::from(agenda.exit.side));
+            (from[axis], to[axis]) = (2 * side, 2 * side);
+        }
+        let inside = |axis: usize| {
+            let (along, count) = (agenda.cell[axis], level.counts[axis]);
+            along > 1 && along < count - 2
+        };
+        // At the faces of the volume it is not worth the trouble.
+        if !(inside(0) && inside(1) && inside(2)) {
+            return;
+        }
+        for z in from[2]..=to[2] {
+            let part_z = level.part(2, (agenda.cell[2] + z) as u32);
+            for y in from[1]..=to[1] {
+                let part_y = level.part(1, (agenda.cell[1] + y) as u32);
+                for x in from[0]..=to[0] {
+                    let flat = level.part(0, (agenda.cell[0] + x) as u32) + part_y + part_z;
+                    if level.occupied[flat as usize / BLOCK] >> (flat as usize % BLOCK) & 1 == 1 {
+                        visit(level, flat);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Fetches from memory the cells that a sphere will look into at its next event.
+    #[inline]
+    pub fn fetch_cells(&self, agenda: &Agenda) {
+        self.each_cell_in_view(agenda, |level, flat| prefetch(&level.heads, flat as usize));
+    }
+
+    /// Fetches from memory the first sphere of each of these cells.
+    #[inline]
+    pub fn fetch_spheres(&self, agenda: &Agenda, motion: &[Sphere]) {
+        self.each_cell_in_view(agenda, |level, flat| {
+            let first = level.heads[flat as usize] as usize;
+            prefetch(motion, first);
+            prefetch(&self.after, first);
+        });
+    }
+
+    /// Fetches from memory where a sphere is filed.
+    #[inline]
+    pub fn fetch_link(&self, sphere: u32) {
+        prefetch(&self.after, sphere as usize);
+    }
+
+    /// Cell in a coarser level of a cell in a finer one.
+    #[inline]
+    fn coarser_cell(&self, cell: [i32; 3], from: u8, to: usize) -> [i32; 3] {
+        let (finer, coarser) = (&self.levels[from as usize], &self.levels[to]);
+        [0, 1, 2].map(|axis| coarser.coarsened(axis, finer, cell[axis]))
+    }
+
+    /// Visits the spheres of its own and of coarser levels that a sphere may meet before it leaves its cell: their
+    /// numbers, and the edges to add to their positions. It may visit the sphere itself.
+    #[inline]
+    pub fn visit_around(&self, agenda: &Agenda, mut visit: impl FnMut(u32, [i8; 3])) {
+        for number in (0..=agenda.level as usize).rev() {
+            let level = &self.levels[number];
+            if level.population == 0 {
+                continue;
+            }
+            let is_own = number == agenda.level as usize;
+            let cell =
+                if is_own { agenda.cell } else { self.coarser_cell(agenda.cell, agenda.level, number) };
+            self.visit_block(level, cell, [-1; 3], [1; 3], &mut visit);
+        }
+    }
+
+    /// Visits those that come into view when a sphere has just moved into its cell the way that `exit` says: the nine
+    /// cells ahead, in each level whose face it went through.
+    #[inline]
+    pub fn visit_ahead(&self, agenda: &Agenda, exit: Exit, mut visit: impl FnMut(u32, [i8; 3])) {
+        let (axis, side) = (exit.axis as usize, i32::from(exit.side));
+        for number in (0..=agenda.level as usize).rev() {
+            let level = &self.levels[number];
+            if level.population == 0 {
+                continue;
+            }
+            let mut cell = agenda.cell;
+            if number < agenda.level as usize {
+                let mut behind = agenda.cell;
+                behind[axis] -= side;
+                cell = self.coarser_cell(agenda.cell, agenda.level, number);
+                if self.coarser_cell(behind, agenda.level, number) == cell {
+                    return;
+                }
+            }
+            let (mut from, mut to) = ([-1; 3], [1; 3]);
+            (from[axis], to[axis]) = (side, side);
+            self.visit_block(level, cell, from, to, &mut visit);
+        }
+    }
+
+    /// Cells of a level along an axis within `reach` [m] of a place, the first and the last.
+    fn range(&self, level: &Level, axis: usize, place: Vec3, reach: f64) -> (i32, i32) {
+        let count = level.counts[axis];
+        let along = |x: f64| level.coarsened(axis, self.finest(), self.finest_along(axis, x));
+        let (from, to) = (along(place[axis] - reach), along(place[axis] + reach));
+        match self.boundary {
+            // A sphere is not wider than the volume: images further away do not meet it.
+            Boundary::Periodic => (from.max(-count), to.min(2 * count - 1)),
+            Boundary::Open => (from, to.min(from.saturating_add(count - 1))),
+            Boundary::Antipodal | Boundary::Reflecting => (from.max(0), to.min(count - 1)),
+        }
+    }
+
+    /// How many cells of a level lie within `reach` [m] of a place along each axis.
+    pub fn cells_within(&self, number: usize, place: Vec3, reach: f64) -> u64 {
+        let level = &self.levels[number];
+        let cells = |axis: usize| {
+            let (from, to) = self.range(level, axis, place, reach);
+            i64::from(to).saturating_sub(i64::from(from)).max(0) as u64 + 1
+        };
+        cells(0) * cells(1) * cells(2)
+    }
+
+    /// Visits the spheres of a level whose centres may lie within `reach` [m] of `place` along each axis.
+    pub fn visit_within(&self, number: usize, place: Vec3, reach: f64, mut visit: impl FnMut(u32, [i8; 3])) {
+        let level = &self.levels[number];
+        let range = |axis: usize| self.range(level, axis, place, reach);
+        let [(x0, x1), (y0, y1), (z0, z1)] = [range(0), range(1), range(2)];
+        let fold = |along: i32, axis: usize| {
+            let count = level.counts[axis];
+            let image = if self.boundary == Boundary::Periodic { along.div_euclid(count) as i8 } else { 0 };
+            (along.rem_euclid(count) as u32, image)
+        };
+        for (z, image_z) in (z0..=z1).map(|along| fold(along, 2)) {
+            for (y, image_y) in (y0..=y1).map(|along| fold(along, 1)) {
+                for (x, image_x) in (x0..=x1).map(|along| fold(along, 0)) {
+                    self.visit_cell(level, level.flat([x, y, z]), [image_x, image_y, image_z], &mut visit);
+                }
+            }
+        }
+    }
+
+    /// What an image adds to a position [m].
+    #[inline]
+    pub fn shift(&self, image: [i8; 3]) -> Vec3 {
+        let [x, y, z] = image.map(f64::from);
+        Vec3::new(x * self.edges.x, y * self.edges.y, z * self.edges.z)
+    }
+}
+
+#[cfg(test)]
+#[path = "grid_tests.rs"]
+mod tests;

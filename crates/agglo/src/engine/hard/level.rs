@@ -1,0 +1,82 @@
+//! Cells of one size, as the grid of hard spheres has several.
+
+#![allow(clippy::inline_always, reason = "part of the innermost loop of the engine")]
+
+use crate::math::Vec3;
+
+use super::agenda::NONE;
+
+/// Cells of a block, which share a word of bits.
+pub const BLOCK: usize = 64;
+
+/// Cells are this much wider than the spheres that they are for, so that rounding cannot let a neighbour slip.
+pub const SLACK: f64 = 1.0 + 1e-9;
+
+/// Cells of one size.
+#[derive(Clone, Debug)]
+pub struct Level {
+    pub counts: [i32; 3],
+    /// How many times cells were doubled from the finest ones.
+    pub doublings: u32,
+    /// Least width of a cell [m].
+    width: f64,
+    /// First sphere of each cell.
+    pub heads: Vec<u32>,
+    /// Which cells hold any, a bit for each: small enough to stay near the processor.
+    pub occupied: Vec<u64>,
+    /// What one block further along an axis adds to a cell's number.
+    strides: [u32; 3],
+    /// Spheres in it.
+    pub population: u32,
+    /// No sphere in it is faster [m/s].
+    pub fastest: f64,
+}
+
+impl Level {
+    /// Cells that are 2^`doublings` of the finest ones wide, of which there are `finest` along each axis.
+    pub fn new(finest: [i32; 3], doublings: u32, edges: Vec3) -> Self {
+        let counts = finest.map(|count| (count >> doublings).max(1));
+        let [bx, by, bz] = counts.map(|count| (count as u32).div_ceil(4));
+        let blocks = bx as usize * by as usize * bz as usize;
+        let width = |axis: usize| match counts[axis] {
+            1 => edges[axis],
+            _ => edges[axis] / f64::from(finest[axis]) * f64::from(1 << doublings),
+        };
+        Self {
+            counts,
+            doublings,
+            width: width(0).min(width(1)).min(width(2)),
+            heads: vec![NONE; blocks * BLOCK],
+            occupied: vec![0; blocks],
+            strides: [BLOCK as u32, BLOCK as u32 * bx, BLOCK as u32 * bx * by],
+            population: 0,
+            fastest: 0.0,
+        }
+    }
+
+    /// Diameter [m] of the largest sphere that it is for.
+    pub fn widest(&self) -> f64 {
+        self.width / SLACK
+    }
+
+    /// A coordinate in this level of one in a finer level, which may lie beyond the volume.
+    #[inline]
+    pub fn coarsened(&self, axis: usize, finer: &Self, along: i32) -> i32 {
+        let (count, by) = (finer.counts[axis], self.doublings - finer.doublings);
+        let (round, within) = (along.div_euclid(count), along.rem_euclid(count));
+        round * self.counts[axis] + (within >> by).min(self.counts[axis] - 1)
+    }
+
+    /// What a coordinate adds to the number of a cell. Cells are numbered in blocks of 4 x 4 x 4, so that neighbours
+    /// are near one another in memory.
+    #[inline(always)]
+    pub fn part(&self, axis: usize, along: u32) -> u32 {
+        (along >> 2) * self.strides[axis] + ((along & 3) << (2 * axis))
+    }
+
+    /// Number of a cell.
+    #[inline(always)]
+    pub fn flat(&self, [x, y, z]: [u32; 3]) -> u32 {
+        self.part(0, x) + self.part(1, y) + self.part(2, z)
+    }
+}

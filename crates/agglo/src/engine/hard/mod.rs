@@ -1,0 +1,40 @@
+//! Hard spheres that impact, stick and break, in a control volume.
+
+mod agenda;
+mod around;
+pub mod books;
+mod cascade;
+mod cells;
+mod cloud;
+mod embedded;
+mod event_driven;
+mod events;
+mod grid;
+mod homogenised;
+mod level;
+mod meeting;
+mod near;
+mod nearest;
+mod pieces;
+mod queue;
+mod search;
+mod simulation;
+mod spheres;
+mod time_stepped;
+mod types;
+mod walls;
+
+#[cfg(test)]
+mod cases_tests;
+#[cfg(test)]
+mod oracle_tests;
+#[cfg(test)]
+mod test_clouds;
+
+pub use cloud::{Change, Cloud, CloudState, Contact, Surroundings};
+pub use embedded::{EmbeddedError, MicroGrains, MicroState, Microscale};
+pub use events::{Descent, EventKind, GrainEvent};
+pub use homogenised::Homogenised;
+pub use simulation::{Clock, Grown, Simulation, SimulationState, Snapshot};
+pub use spheres::{Bulk, Sphere, Spheres};
+pub use types::{Distance, EventDriven, Pairs, TimeStepped};

@@ -1,0 +1,72 @@
+use super::*;
+
+fn meet(distance: [f64; 3], velocity: [f64; 3], reach: f64) -> f64 {
+    time_to_meet(distance.into(), velocity.into(), reach, f64::INFINITY)
+}
+
+#[test]
+fn closed_forms() {
+    // 4 m to go at 2 m/s.
+    assert_eq!(meet([5.0, 0.0, 0.0], [-2.0, 0.0, 0.0], 1.0), 2.0);
+    // 0.6 of the reach off the line: they touch 0.8 of it before the nearest point. One rounding each of four.
+    assert!((meet([10.0, 0.6, 0.0], [-1.0, 0.0, 0.0], 1.0) / 9.2 - 1.0).abs() < 1e-15);
+    assert!((meet([0.0, 3.0, -50.0], [0.0, 0.0, 10.0], 5.0) / 4.6 - 1.0).abs() < 1e-15);
+    // Along a diagonal: (3, 4, 12) is 13 long, 8 to go at 2.
+    let along = [-6.0 / 13.0, -8.0 / 13.0, -24.0 / 13.0];
+    assert!((meet([3.0, 4.0, 12.0], along, 5.0) / 4.0 - 1.0).abs() < 1e-15);
+}
+
+#[test]
+fn grazing() {
+    // Off the line by the reach: they touch with no approach.
+    assert_eq!(meet([10.0, 1.0, 0.0], [-1.0, 0.0, 0.0], 1.0), f64::INFINITY);
+    assert_eq!(meet([10.0, 1.0 + 1e-12, 0.0], [-1.0, 0.0, 0.0], 1.0), f64::INFINITY);
+    for short in [1e-3, 1e-6, 1e-9_f64] {
+        let offset = 1.0 - short;
+        let wanted = 10.0 - (short * (2.0 - short)).sqrt();
+        // 1 - offset² has lost 1e-16/short of itself, which half counts under the root.
+        let found = meet([10.0, offset, 0.0], [-1.0, 0.0, 0.0], 1.0);
+        assert!((found - wanted).abs() < 1e-14 + 100.0 * 1e-16 / short.sqrt(), "{found} {wanted}");
+    }
+}
+
+#[test]
+fn touching_overlapping_and_at_rest() {
+    for distance in [[2.0, 0.0, 0.0], [1.5, 0.1, -0.3], [1e-9, 0.0, 0.0]] {
+        let towards = distance.map(|along: f64| -3.0 * along);
+        assert_eq!(meet(distance, towards, 2.0), 0.0);
+        assert_eq!(meet(distance, distance, 2.0), f64::INFINITY, "they part");
+        assert_eq!(meet(distance, [0.0; 3], 2.0), f64::INFINITY, "at rest");
+    }
+    assert_eq!(meet([2.0, 0.0, 0.0], [0.0, 1.0, 0.0], 2.0), f64::INFINITY, "one slides along the other");
+    assert_eq!(meet([0.0; 3], [1.0, 2.0, 3.0], 2.0), f64::INFINITY, "one in the other has no direction");
+    assert_eq!(meet([9.0, 0.0, 0.0], [0.0; 3], 2.0), f64::INFINITY);
+    assert_eq!(meet([9.0, 0.0, 0.0], [1.0, 0.0, 0.0], 2.0), f64::INFINITY);
+}
+
+/// A gap of 2^-40 at a distance of 1 still has all the digits that its squares leave, and swapping the partners turns no
+/// bit.
+#[test]
+fn small_gaps_do_not_cancel() {
+    let gap = 2_f64.powi(-40);
+    // 1 + 2 gap + gap² is rounded at 1e-16: 1e-4 of the gap's 1e-12; the root adds no more.
+    assert!((meet([1.0 + gap, 0.0, 0.0], [-1.0, 0.0, 0.0], 1.0) / gap - 1.0).abs() < 1e-4);
+    let (distance, velocity) = (Vec3::new(0.3, -1.7, 2.9), Vec3::new(-0.31, 1.5, -2.2));
+    let forth = time_to_meet(distance, velocity, 0.7, f64::INFINITY);
+    assert!(forth.is_finite());
+    assert_eq!(forth.to_bits(), time_to_meet(-distance, -velocity, 0.7, f64::INFINITY).to_bits());
+    // Lengths and times in other units: powers of two round nothing.
+    assert_eq!(
+        time_to_meet(distance * 0.25, velocity * 0.25, 0.175, f64::INFINITY).to_bits(),
+        forth.to_bits()
+    );
+    assert_eq!(time_to_meet(distance, velocity * 0.25, 0.7, f64::INFINITY), 4.0 * forth);
+}
+
+#[test]
+fn what_is_rounding() {
+    let x = Vec3::AXES[0];
+    let speeds = [x * 1e3, x * 1e3];
+    assert!(is_rounding(x, x * -1e-13, speeds) && !is_rounding(x, x * -1e-11, speeds));
+    assert!(!is_rounding(x, x * -1e-13, [x * 1e-13, Vec3::ZERO]));
+}

@@ -1,0 +1,270 @@
+//! A simulation of hard spheres: one of the two drivers, the spheres, the clock and the books.
+
+use std::borrow::Cow;
+
+use serde::{Deserialize, Serialize};
+
+use crate::domain::Boundary;
+use crate::engine::{Engine, SimError, Warnings};
+use crate::impact::ImpactLaws;
+use crate::math::Vec3;
+use crate::measure::SizeRates;
+use crate::particles::Particles;
+use crate::scenario::Scenario;
+
+use super::books::{self, Balance, Books, Counts};
+use super::cloud::{Cloud, CloudState};
+use super::event_driven::{Events, EventsState};
+use super::spheres::Spheres;
+use super::time_stepped::{Steps, StepsState};
+
+/// Where the simulation stands in time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Clock {
+    /// Simulated time [s].
+    pub time: f64,
+    /// Events dealt with, or steps.
+    pub step: u64,
+    /// Length of the last step [s]; mean time between two impacts for the event-driven engine.
+    pub last_step: f64,
+}
+
+/// How the spheres are driven.
+#[derive(Clone, Debug)]
+enum Driver {
+    Events(Box<Events>),
+    Steps(Box<Steps>),
+}
+
+/// What a driver has to remember.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+enum DriverState<'a> {
+    Events(EventsState<'a>),
+    Steps(StepsState),
+}
+
+/// All that a simulation needs to go on with the same bits; borrowed where it is written, owned where it is read.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct SimulationState<'a> {
+    clock: Clock,
+    cloud: Cow<'a, CloudState>,
+    driver: DriverState<'a>,
+    grains_at_start: u64,
+    contact_duration: f64,
+}
+
+/// The grains at one moment, in the order of their names.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Snapshot {
+    /// The columns.
+    pub grains: Particles,
+    /// How many primary grains each is made of [n].
+    pub primaries: Vec<u32>,
+}
+
+/// What a grain that has grown keeps of its parts, which need not be of one material.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Grown {
+    /// How many primary grains it is made of.
+    pub primaries: u32,
+    /// Heat capacity of the whole grain [J/K].
+    pub heat_capacity: f64,
+}
+
+/// A simulation.
+#[derive(Clone, Debug)]
+pub struct Simulation {
+    cloud: Cloud,
+    driver: Driver,
+    clock: Clock,
+    grains_at_start: u64,
+    end: f64,
+}
+
+impl Simulation {
+    /// Starts with grains as placed. Without `volume` and `impact` in the scenario there is no such simulation.
+    ///
+    /// # Errors
+    /// [`SimError::NoImpact`] where the scenario says nothing of the volume or of impacts.
+    pub fn start(scenario: &Scenario, grains: &Particles) -> Result<Self, SimError> {
+        Self::start_grown(scenario, grains, &[])
+    }
+
+    /// The same with grains that have grown already: `grown` [n] belongs to the grains; those that it leaves out are
+    /// primary grains of one material.
+    ///
+    /// # Errors
+    /// As [`Simulation::start`].
+    pub fn start_grown(scenario: &Scenario, grains: &Particles, grown: &[Grown]) -> Result<Self, SimError> {
+        let heat_capacities: Vec<f64> = scenario
+            .materials
+            .values()
+            .map(|material| material.heat_capacity.map_or(0.0, crate::units::Quantity::si))
+            .collect();
+        let mut spheres = Spheres::new(grains, |material| heat_capacities[material as usize]);
+        for (bulk, grown) in spheres.bulk.iter_mut().zip(grown) {
+            bulk.primaries = grown.primaries;
+            bulk.heat_capacity = grown.heat_capacity;
+        }
+        let volume = scenario.volume.as_ref().ok_or(SimError::NoImpact)?.volume();
+        let state = CloudState {
+            books: Books::open(&spheres),
+            counts: Counts::default(),
+            rates: SizeRates::new(spheres.bulk.iter().map(|bulk| bulk.primaries), volume),
+            warnings: Warnings::default(),
+            spheres,
+        };
+        let grains_at_start = state.spheres.len() as u64;
+        let mut cloud = Self::cloud_of(scenario, state)?;
+        for warning in cloud.laws.standing_warnings() {
+            cloud.state.warnings.add(warning);
+        }
+        let driver = match &scenario.engine {
+            Engine::EventDriven(options) => {
+                cloud.contact_duration = options.duration(&cloud.state.spheres);
+                Driver::Events(Box::new(Events::start(&mut cloud)))
+            }
+            Engine::TimeStepped(options) => Driver::Steps(Box::new(Steps::start(options, &mut cloud))),
+            Engine::Staggered(_) | Engine::Verlet(_) => return Err(SimError::NoImpact),
+        };
+        Ok(Self { cloud, driver, clock: Clock::default(), grains_at_start, end: scenario.time.end.si() })
+    }
+
+    /// Goes on from a saved state.
+    ///
+    /// # Errors
+    /// [`SimError::NoImpact`] where the scenario is not one of hard spheres.
+    pub fn resume(scenario: &Scenario, state: SimulationState<'_>) -> Result<Self, SimError> {
+        let mut cloud = Self::cloud_of(scenario, state.cloud.into_owned())?;
+        cloud.contact_duration = state.contact_duration;
+        let driver = match (&scenario.engine, state.driver) {
+            (Engine::EventDriven(_), DriverState::Events(saved)) => {
+                Driver::Events(Box::new(Events::resume(&cloud, saved)))
+            }
+            (Engine::TimeStepped(options), DriverState::Steps(saved)) => {
+                Driver::Steps(Box::new(Steps::resume(options, &cloud, saved)))
+            }
+            _ => return Err(SimError::NoImpact),
+        };
+        let end = scenario.time.end.si();
+        Ok(Self { cloud, driver, clock: state.clock, grains_at_start: state.grains_at_start, end })
+    }
+
+    fn cloud_of(scenario: &Scenario, state: CloudState) -> Result<Cloud, SimError> {
+        Ok(Cloud {
+            state,
+            laws: ImpactLaws::new(scenario).ok_or(SimError::NoImpact)?,
+            volume: scenario.volume.clone().ok_or(SimError::NoImpact)?,
+            events: Vec::new(),
+            descents: Vec::new(),
+            keeps_events: true,
+            contact_duration: 0.0,
+            seed: scenario.seed,
+            pieces: Vec::new(),
+        })
+    }
+
+    /// All that is needed to go on with the same bits.
+    pub fn state(&self) -> SimulationState<'_> {
+        SimulationState {
+            clock: self.clock,
+            cloud: Cow::Borrowed(&self.cloud.state),
+            driver: match &self.driver {
+                Driver::Events(events) => DriverState::Events(events.state()),
+                Driver::Steps(steps) => DriverState::Steps(steps.state()),
+            },
+            grains_at_start: self.grains_at_start,
+            contact_duration: self.cloud.contact_duration,
+        }
+    }
+
+    /// Where the simulation stands in time.
+    pub fn clock(&self) -> &Clock {
+        &self.clock
+    }
+
+    /// Whether the end is reached.
+    pub fn is_finished(&self) -> bool {
+        self.clock.time >= self.end
+    }
+
+    /// Simulated time at the end [s].
+    pub fn end(&self) -> f64 {
+        self.end
+    }
+
+    /// Grains at the start.
+    pub fn grains_at_start(&self) -> u64 {
+        self.grains_at_start
+    }
+
+    /// Grains now.
+    pub fn grains(&self) -> usize {
+        self.cloud.state.spheres.len()
+    }
+
+    /// The spheres with their laws and books.
+    pub fn cloud(&self) -> &Cloud {
+        &self.cloud
+    }
+
+    /// The same, for taking events and warnings out.
+    pub fn cloud_mut(&mut self) -> &mut Cloud {
+        &mut self.cloud
+    }
+
+    /// Goes on towards `until` [s], or the end if that is sooner. The event-driven engine stops exactly there, or before
+    /// after some thousand events; the time-stepped one makes one step, of a length that does not depend on `until`.
+    ///
+    /// # Errors
+    /// [`SimError`] where the motion is not finite or the clock comes to a halt.
+    pub fn advance(&mut self, until: f64) -> Result<(), SimError> {
+        let until = until.min(self.end);
+        match &mut self.driver {
+            Driver::Events(events) => events.advance(&mut self.cloud, &mut self.clock, until),
+            Driver::Steps(steps) => steps.step(&mut self.cloud, &mut self.clock, self.end),
+        }
+    }
+
+    /// The grains now. Taking it changes nothing.
+    pub fn snapshot(&self) -> Snapshot {
+        let (spheres, time) = (&self.cloud.state.spheres, self.clock.time);
+        let mut snapshot = Snapshot::default();
+        for at in spheres.by_id() {
+            let mut row = spheres.row(at, time);
+            row.temperature = self.cloud.cooled(at as usize, time).0;
+            if self.cloud.volume.boundary != Boundary::Open {
+                row.position = self.cloud.volume.wrap(row.position);
+            }
+            snapshot.grains.push(row);
+            snapshot.primaries.push(spheres.bulk[at as usize].primaries);
+        }
+        snapshot
+    }
+
+    /// The ledger now.
+    pub fn balance(&self) -> Balance {
+        let (spheres, time) = (&self.cloud.state.spheres, self.clock.time);
+        let order = spheres.by_id();
+        let mut pending = 0.0;
+        let stores = books::stores(spheres, &order, |at| {
+            let (temperature, given_off) = self.cloud.cooled(at as usize, time);
+            pending += given_off;
+            temperature
+        });
+        self.cloud.state.books.balance(stores, pending)
+    }
+
+    /// Momentum [kg m/s] now.
+    pub fn momentum(&self) -> Vec3 {
+        let spheres = &self.cloud.state.spheres;
+        books::momentum(spheres, &spheres.by_id())
+    }
+
+    /// Momentum that walls do not explain, over the sum of the momenta's sizes at the start.
+    pub fn momentum_drift_relative(&self) -> f64 {
+        let books = &self.cloud.state.books;
+        let drift = self.momentum() - books.momentum_at_start - books.flows.walls;
+        if books.momentum_size_at_start > 0.0 { drift.norm() / books.momentum_size_at_start } else { 0.0 }
+    }
+}

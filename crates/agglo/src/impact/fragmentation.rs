@@ -1,0 +1,260 @@
+//! How agglomerates break: the energy of the impact becomes surface.
+//!
+//! # Equation
+//! ```text
+//! b = b0/(1 + ΔK b0/(3 γ V0)),   n = (b0/b)³ = (1 + ΔK/(4 π γ b0²))³                      [B] 5.1-5.3
+//! ΔZ = 4 π γ (Σ b_k² - b0²) ≤ ΔK,   b_k³ = b0³ p_k/p                                      B7
+//! ΔK of partner i: m_j/(m_i + m_j) of what the pair lost;   published: |m_i (v_i'² - v_i²)/2|
+//! ```
+//! n is rounded down, at most p, and breaking means n ≥ 2. Pieces are whole numbers of primaries, equal up to one; n falls further
+//! until ΔZ of these pieces fits into ΔK.
+//!
+//! # Source
+//! [B] T. I. Zohdi, Proc. R. Soc. Lond. A 460, 3421 (2004), section 5.
+//!
+//! # Symbols
+//! | symbol | name in code     | unit | meaning                                                  |
+//! |--------|------------------|------|----------------------------------------------------------|
+//! | b0, V0 | `radius`         | m, m³| of the whole                                             |
+//! | b, b_k |                  | m    | of the pieces                                            |
+//! | n      | `pieces`         | -    |                                                          |
+//! | p, p_k | `primaries`      | -    | primary grains of the whole and of the pieces            |
+//! | ΔK     | `energy`         | J    | that breaks the partner                                  |
+//! | ΔZ     | `surface`        | J    | energy of the new surfaces                               |
+//! | γ      | `surface_energy` | J/m² | of the material; without it nothing breaks               |
+//!
+//! # Valid when
+//! Pieces are spheres without pores, so surfaces between primaries inside a piece cost nothing. The energy booked is
+//! that of equal pieces, the most that n pieces can have; pieces from a power law have less.
+//!
+//! # Compared with others
+//! The condition printed as [B] 5.3, break if b ≤ b0, is always true. In the frame of the centre of mass ΔK is the same for every
+//! observer; as printed it grows with the speed of the whole cloud. [B] 5.4 calls b = b0/2 two pieces; it is eight. So
+//! 5.5, b0 = 4 γ/(H af β), is the size where sticking and breaking into eight need the same speed; for two it is 0.26 of it.
+//!
+//! # Example
+//! ```
+//! use agglo::impact::fragmentation::{pieces, surface};
+//! let whole = 4.0 * std::f64::consts::PI * 1e-6 * 10.0; // b0 = 1 mm, γ = 10 J/m²
+//! assert_eq!(pieces(whole * 1.001, 10.0, 1e-3, 1000), 8); // twice the surface: eight pieces of half the size
+//! assert!((surface(8, 10.0, 1e-3, 1000) / whole - 1.0).abs() < 1e-14);
+//! ```
+
+use std::f64::consts::PI;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Fragmentation, [B] 5.1-5.5; materials need a `surface_energy`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Fragmentation {
+    /// Whose energy breaks a partner.
+    #[serde(default)]
+    pub energy: BreakingEnergy,
+    /// Sizes of the pieces.
+    #[serde(default)]
+    pub pieces: Pieces,
+}
+
+/// The energy that an agglomerate can break with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum BreakingEnergy {
+    /// Its share of what the pair lost, in the frame of their centre of mass.
+    #[default]
+    CenterOfMass,
+    /// The change of its own kinetic energy, which depends on the observer, as printed.
+    Published,
+}
+
+/// Sizes of the pieces of one agglomerate.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Pieces {
+    /// Equal, up to one primary.
+    #[default]
+    Equal,
+    /// Masses drawn from a power law.
+    PowerLaw(PowerLaw),
+}
+
+/// Piece masses with number density m^-exponent between one primary and the whole.
+///
+/// One mass is drawn for each piece; each gets one primary and, of the rest, a share in proportion to its mass.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PowerLaw {
+    /// The exponent, above 0.
+    pub exponent: f64,
+}
+
+/// Into how many pieces a body of `primaries` breaks with an energy [J]; 1 if it stays whole.
+///
+/// `surface_energy` in J/m², `radius` in m.
+#[inline]
+pub fn pieces(energy: f64, surface_energy: f64, radius: f64, primaries: u32) -> u32 {
+    if primaries < 2 || energy.is_nan() || energy <= 0.0 {
+        return 1;
+    }
+    let ratio = 1.0 + energy / (surface_energy * sphere(radius));
+    let mut count = (ratio * ratio * ratio).min(f64::from(primaries)) as u32;
+    while count > 1 && surface(count, surface_energy, radius, primaries) > energy {
+        count -= 1;
+    }
+    count.max(1)
+}
+
+/// Energy [J] of the new surfaces of `pieces` that are equal up to one primary.
+pub fn surface(pieces: u32, surface_energy: f64, radius: f64, primaries: u32) -> f64 {
+    if pieces < 2 {
+        return 0.0;
+    }
+    let [small, larger] = [primaries / pieces, primaries % pieces];
+    let area_of = |count: u32| (f64::from(count) / f64::from(primaries)).cbrt().powi(2);
+    let areas = f64::from(larger) * area_of(small + 1) + f64::from(pieces - larger) * area_of(small);
+    surface_energy * sphere(radius) * (areas - 1.0)
+}
+
+fn sphere(radius: f64) -> f64 {
+    4.0 * PI * radius * radius
+}
+
+impl Pieces {
+    /// Primaries of each of `count` pieces of a body that has `primaries`, largest first; `uniform` gives random
+    /// numbers in [0, 1).
+    pub fn share(&self, primaries: u32, count: u32, uniform: &mut dyn FnMut() -> f64) -> Vec<u32> {
+        let count = count.clamp(1, primaries.max(1));
+        match self {
+            Self::Equal => {
+                let [each, left] = [primaries / count, primaries % count];
+                (0..count).map(|piece| each + u32::from(piece < left)).collect()
+            }
+            Self::PowerLaw(law) => law.share(primaries, count, uniform),
+        }
+    }
+}
+
+impl PowerLaw {
+    fn share(&self, primaries: u32, count: u32, uniform: &mut dyn FnMut() -> f64) -> Vec<u32> {
+        let masses: Vec<f64> = (0..count).map(|_| self.mass(f64::from(primaries), uniform())).collect();
+        let (sum, free): (f64, u32) = (masses.iter().sum(), primaries - count);
+        // Cut where the running sum of masses falls: the rounded cuts add up to all there is.
+        let (mut running, mut cut) = (0.0, 0);
+        let mut shares: Vec<u32> = masses
+            .iter()
+            .map(|mass| {
+                running += mass;
+                let next = ((running / sum * f64::from(free)).round() as u32).clamp(cut, free);
+                let share = 1 + next - cut;
+                cut = next;
+                share
+            })
+            .collect();
+        if let Some(last) = shares.last_mut() {
+            *last += free - cut;
+        }
+        shares.sort_unstable_by(|a, b| b.cmp(a));
+        shares
+    }
+
+    /// A mass between 1 and `largest` for a random number from 0 to 1.
+    fn mass(&self, largest: f64, random: f64) -> f64 {
+        let power = 1.0 - self.exponent;
+        if power.abs() < 1e-9 {
+            largest.powf(random)
+        } else {
+            (1.0 + random * (largest.powf(power) - 1.0)).powf(1.0 / power)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::rng::{Purpose, Stream};
+
+    /// The printed form b = b0/(1 + ΔK b0/(3 γ V0)) and n = (b0/b)³, rounded down.
+    #[test]
+    fn val_zohdi_2004_equation_5_2() {
+        let (gamma, b0): (f64, f64) = (3.0, 2e-3);
+        let volume = 4.0 / 3.0 * PI * b0.powi(3);
+        for energy in [1e-5, 4e-5, 5e-5, 1e-4, 1e-3] {
+            let b = b0 / (1.0 + energy * b0 / (3.0 * gamma * volume));
+            let wanted = ((b0 / b).powi(3) as u32).max(1);
+            assert_eq!(pieces(energy, gamma, b0, 1_000_000), wanted, "{energy}");
+        }
+    }
+
+    /// Thresholds in closed form: n equal pieces need (n^(1/3) - 1) of the surface of the whole; 1e-9 on either side.
+    #[test]
+    fn thresholds_of_two_and_of_eight() {
+        let whole = 4.0 * PI * 1e-4 * 5.0;
+        for count in [2_u32, 3, 8, 64] {
+            let least = (f64::from(count).cbrt() - 1.0) * whole;
+            assert_eq!(pieces(least * (1.0 + 1e-9), 5.0, 0.01, 960), count);
+            assert_eq!(pieces(least * (1.0 - 1e-9), 5.0, 0.01, 960), count - 1);
+        }
+    }
+
+    #[test]
+    fn never_more_pieces_than_primaries_nor_more_surface_than_energy() {
+        assert_eq!(pieces(1e9, 1.0, 1.0, 7), 7);
+        assert_eq!(pieces(1e9, 1.0, 1.0, 1), 1);
+        assert_eq!(pieces(1e-3, 0.0, 1.0, 7), 7);
+        assert_eq!(
+            (pieces(0.0, 0.0, 1.0, 7), pieces(-1.0, 1.0, 1.0, 7), pieces(f64::NAN, 1.0, 1.0, 7)),
+            (1, 1, 1)
+        );
+        for primaries in [2, 3, 5, 17, 1000] {
+            for step in 0..400 {
+                let energy = 1e-3 * 1.03_f64.powi(step);
+                let count = pieces(energy, 1.0, 0.5, primaries);
+                assert!((1..=primaries).contains(&count));
+                assert!(surface(count, 1.0, 0.5, primaries) <= energy);
+            }
+        }
+    }
+
+    /// Surface of unequal pieces from the radii themselves: 7 primaries in 3 pieces are 3, 2, 2.
+    #[test]
+    fn surface_of_the_actual_pieces() {
+        let radii = [3.0, 2.0, 2.0].map(|part: f64| 0.5 * (part / 7.0).cbrt());
+        let by_hand = 4.0 * PI * 2.0 * (radii.iter().map(|b| b * b).sum::<f64>() - 0.25);
+        assert!((surface(3, 2.0, 0.5, 7) / by_hand - 1.0).abs() < 1e-14);
+        assert_eq!(surface(1, 2.0, 0.5, 7), 0.0);
+    }
+
+    #[test]
+    fn equal_shares() {
+        let mut none = || panic!("equal pieces need no random numbers");
+        assert_eq!(Pieces::Equal.share(7, 3, &mut none), [3, 2, 2]);
+        assert_eq!(Pieces::Equal.share(8, 4, &mut none), [2; 4]);
+        assert_eq!(Pieces::Equal.share(3, 9, &mut none), [1; 3]);
+    }
+
+    #[test]
+    fn power_law_shares_add_up_largest_first() {
+        let mut stream = Stream::new(3, Purpose::Sampling, 0);
+        for exponent in [0.3, 1.0, 1.83, 4.0] {
+            let law = Pieces::PowerLaw(PowerLaw { exponent });
+            for (primaries, count) in [(2, 2), (10, 3), (1000, 17), (50, 50), (12, 1)] {
+                let shares = law.share(primaries, count, &mut || stream.uniform());
+                assert_eq!((shares.len(), shares.iter().sum::<u32>()), (count as usize, primaries));
+                assert!(shares.is_sorted_by(|a, b| a >= b) && shares.iter().all(|share| *share > 0));
+            }
+        }
+    }
+
+    /// Mean of m^-a between 1 and M in closed form, five standard errors of 200,000 draws.
+    #[test]
+    fn masses_follow_the_power_law() {
+        let (law, largest): (PowerLaw, f64) = (PowerLaw { exponent: 1.5 }, 100.0);
+        let mean = (2.0 * largest.sqrt() - 2.0) / (2.0 - 2.0 / largest.sqrt());
+        let square = (largest.powf(1.5) - 1.0) / 1.5 / (2.0 - 2.0 / largest.sqrt());
+        let (mut stream, n) = (Stream::new(5, Purpose::Sampling, 1), 200_000);
+        let sum: f64 = (0..n).map(|_| law.mass(largest, stream.uniform())).sum();
+        let error = ((square - mean * mean) / f64::from(n)).sqrt();
+        assert!((sum / f64::from(n) - mean).abs() < 5.0 * error, "{} {mean}", sum / f64::from(n));
+    }
+}

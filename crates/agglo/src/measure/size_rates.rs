@@ -1,0 +1,424 @@
+//! Collision and aggregation rates by size, and what breaks into what: the kernels of a population balance.
+//!
+//! # Equation
+//! ```text
+//! impacts of classes a and b in V and dt:  K_ab P_ab/V dt,  P_ab = N_a N_b (a != b) or N_a (N_a - 1)/2 (a = b)
+//! exposure  X_ab = integral of P_ab/V dt
+//! K_ab = impacts_ab/X_ab,   A_ab = merges_ab/X_ab,   B_ab = breaking impacts_ab/X_ab
+//! sticking probability = merges_ab/impacts_ab,   S_a = breakages_a/integral of N_a dt
+//! ```
+//!
+//! # Source
+//! M. von Smoluchowski, Z. Phys. Chem. 92, 129 (1917), for the kernel; D. Ramkrishna, *Population Balances* (2000),
+//! chapter 3, for breakage. The estimate, events over exposure, is that of greatest likelihood for a rate that is
+//! constant.
+//!
+//! # Symbols
+//! | symbol | name in code                | unit  | meaning                                                   |
+//! |--------|-----------------------------|-------|-----------------------------------------------------------|
+//! | N_a    | `population`                | 1     | grains of class a: 2^a to 2^(a+1) - 1 primaries            |
+//! | P_ab   | `pairs`                     | 1     | pairs that could meet                                     |
+//! | X_ab   | `exposure`                  | s/m³  |                                                           |
+//! | K_ab   | `collision_kernel`          | m³/s  |                                                           |
+//! | A_ab   | `aggregation_kernel`        | m³/s  |                                                           |
+//! | B_ab   | `breaking_kernel`           | m³/s  | of impacts that break one partner or both                  |
+//! | S_a    | `breakage_rate`             | 1/s   | breakages of a grain of class a in unit time               |
+//!
+//! # Valid when
+//! Kernels are means over the run so far and over the sizes in a class. With n events the relative standard error is
+//! about 1/sqrt(n). V is the control volume; grains that spread out of an open one make kernels too small. Impacts at
+//! the very moment at which a grain grew are counted like all others.
+//!
+//! # Compared with others
+//! For equal spheres in equilibrium K = 4 σ² χ sqrt(π k T/m) with the diameter σ and Enskog's factor χ.
+//!
+//! # Example
+//! ```
+//! use agglo::measure::SizeRates;
+//! let mut rates = SizeRates::new([1, 1, 1].into_iter(), 2.0);
+//! rates.collide([1, 1], true);
+//! rates.merge([1, 1], 4.0);
+//! let rows = rates.kernel_rows(5.0);
+//! // Three pairs for 4 s in 2 m³ came to one merge; then a single and a double are left for 1 s.
+//! assert_eq!(rows[0].aggregation_kernel, Some(1.0 / (3.0 * 4.0 / 2.0)));
+//! assert_eq!((rows[1].exposure, rows[1].impacts), (1.0 / 2.0, 0));
+//! ```
+
+use serde::{Deserialize, Serialize};
+
+use super::size_classes::{SizeClass, class_of};
+
+/// Collisions, merges and pieces by classes of primary grains: class k has 2^k to 2^(k+1) - 1 of them.
+///
+/// Times must not go back. Nothing is allocated but where a class larger than all before appears.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct SizeRates {
+    volume: f64,
+    populations: Vec<Population>,
+    /// Pairs (a, b) with b <= a, row by row.
+    pairs: Vec<Pair>,
+    /// Daughters of class b <= a from parents of class a, row by row.
+    daughters: Vec<Daughters>,
+}
+
+/// Grains of one class.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Population {
+    grains: u64,
+    /// Integral of `grains` over time up to `updated_at` [s].
+    grain_time: f64,
+    updated_at: f64,
+    breakages: u64,
+    /// Primaries of all parents that broke.
+    broken: u64,
+}
+
+/// What happened between two classes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Pair {
+    impacts: u64,
+    merges: u64,
+    breaking: u64,
+    /// Integral of the number of pairs over time up to `updated_at` [s].
+    exposed: f64,
+    updated_at: f64,
+}
+
+/// Pieces of one class from parents of another.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Daughters {
+    pieces: u64,
+    primaries: u64,
+}
+
+/// Place of the pair (a, b) in a triangle that grows by rows.
+fn place(a: usize, b: usize) -> usize {
+    let (row, column) = if a >= b { (a, b) } else { (b, a) };
+    row * (row + 1) / 2 + column
+}
+
+impl SizeRates {
+    /// Starts with grains of these numbers of primaries at time zero, in a volume [m³].
+    pub fn new(primaries: impl Iterator<Item = u32>, volume: f64) -> Self {
+        let mut rates = Self { volume, ..Self::default() };
+        for primaries in primaries {
+            let class = class_of(primaries);
+            rates.make_room(class);
+            rates.populations[class].grains += 1;
+        }
+        rates
+    }
+
+    /// Counts an impact of two grains of these numbers of primaries, and whether they stuck.
+    #[inline]
+    pub fn collide(&mut self, primaries: [u32; 2], sticks: bool) {
+        let pair = self.pair(primaries);
+        pair.impacts += 1;
+        pair.merges += u64::from(sticks);
+    }
+
+    /// Counts an impact that broke one partner or both.
+    pub fn collide_and_break(&mut self, primaries: [u32; 2]) {
+        let pair = self.pair(primaries);
+        pair.impacts += 1;
+        pair.breaking += 1;
+    }
+
+    fn pair(&mut self, primaries: [u32; 2]) -> &mut Pair {
+        let [a, b] = primaries.map(class_of);
+        self.make_room(a.max(b));
+        &mut self.pairs[place(a, b)]
+    }
+
+    /// Two grains become one at `time` [s].
+    pub fn merge(&mut self, primaries: [u32; 2], time: f64) {
+        let [a, b] = primaries.map(class_of);
+        let (small, large) = (a.min(b), a.max(b));
+        let both = class_of(primaries[0].saturating_add(primaries[1]));
+        self.leave(small, time);
+        // Mostly a small grain joins a large one, which stays in its class.
+        if both != large {
+            self.leave(large, time);
+            self.enter(both, time);
+        }
+    }
+
+    /// A grain becomes pieces at `time` [s].
+    pub fn shatter(&mut self, parent: u32, pieces: &[u32], time: f64) {
+        let class = class_of(parent);
+        self.leave(class, time);
+        self.populations[class].breakages += 1;
+        self.populations[class].broken += u64::from(parent);
+        for &primaries in pieces {
+            let piece = class_of(primaries);
+            self.enter(piece, time);
+            let daughters = &mut self.daughters[place(class, piece)];
+            daughters.pieces += 1;
+            daughters.primaries += u64::from(primaries);
+        }
+    }
+
+    fn leave(&mut self, class: usize, time: f64) {
+        self.make_room(class);
+        self.bring_up(class, time);
+        self.populations[class].grains = self.populations[class].grains.saturating_sub(1);
+    }
+
+    fn enter(&mut self, class: usize, time: f64) {
+        self.make_room(class);
+        self.bring_up(class, time);
+        self.populations[class].grains += 1;
+    }
+
+    #[inline]
+    fn make_room(&mut self, class: usize) {
+        if class >= self.populations.len() {
+            self.populations.resize(class + 1, Population::default());
+            self.pairs.resize(place(class, class) + 1, Pair::default());
+            self.daughters.resize(place(class, class) + 1, Daughters::default());
+        }
+    }
+
+    /// Brings all integrals with a class up to a time, before its population changes.
+    fn bring_up(&mut self, class: usize, time: f64) {
+        for other in 0..self.populations.len() {
+            let pair_time = self.pair_time(class, other, time);
+            let pair = &mut self.pairs[place(class, other)];
+            pair.exposed = pair_time;
+            pair.updated_at = time;
+        }
+        self.populations[class].grain_time = self.grain_time(class, time);
+        self.populations[class].updated_at = time;
+    }
+
+    /// Integral of the number of pairs up to a time [s].
+    fn pair_time(&self, a: usize, b: usize, time: f64) -> f64 {
+        let pair = &self.pairs[place(a, b)];
+        let [grains, others] = [a, b].map(|class| self.populations[class].grains as f64);
+        let pairs = if a == b { 0.5 * grains * (grains - 1.0) } else { grains * others };
+        pair.exposed + pairs * (time - pair.updated_at)
+    }
+
+    /// Integral of the number of grains up to a time [s].
+    fn grain_time(&self, class: usize, time: f64) -> f64 {
+        let population = &self.populations[class];
+        population.grain_time + population.grains as f64 * (time - population.updated_at)
+    }
+
+    /// Grains of each class now, class 0 first.
+    pub fn populations(&self) -> impl Iterator<Item = u64> + '_ {
+        self.populations.iter().map(|population| population.grains)
+    }
+
+    /// Kernels up to `time` [s], for every pair of classes that could meet or did, the larger class first. Nothing is
+    /// changed.
+    pub fn kernel_rows(&self, time: f64) -> Vec<KernelRow> {
+        let classes = self.populations.len();
+        let all = (0..classes).flat_map(|a| (0..=a).map(move |b| (a, b)));
+        all.map(|(a, b)| self.kernel_row(a, b, time))
+            .filter(|row| row.exposure > 0.0 || row.impacts > 0)
+            .collect()
+    }
+
+    fn kernel_row(&self, a: usize, b: usize, time: f64) -> KernelRow {
+        let pair = &self.pairs[place(a, b)];
+        let exposure = if self.volume > 0.0 { self.pair_time(a, b, time) / self.volume } else { 0.0 };
+        let kernel = |events: u64| (exposure > 0.0).then(|| events as f64 / exposure);
+        KernelRow {
+            a: SizeClass::bounds(a),
+            b: SizeClass::bounds(b),
+            impacts: pair.impacts,
+            merges: pair.merges,
+            breaking: pair.breaking,
+            exposure,
+            collision_kernel: kernel(pair.impacts),
+            aggregation_kernel: kernel(pair.merges),
+            breaking_kernel: kernel(pair.breaking),
+            sticking_probability: (pair.impacts > 0).then(|| pair.merges as f64 / pair.impacts as f64),
+        }
+    }
+
+    /// Breakage up to `time` [s], for every class in which grains were or broke. Nothing is changed.
+    pub fn breakage_rows(&self, time: f64) -> Vec<BreakageRow> {
+        let row = |class: usize| {
+            let population = &self.populations[class];
+            let grain_time = self.grain_time(class, time);
+            BreakageRow {
+                class: SizeClass::bounds(class),
+                grains: population.grains,
+                grain_time,
+                breakages: population.breakages,
+                breakage_rate: (grain_time > 0.0).then(|| population.breakages as f64 / grain_time),
+            }
+        };
+        let rows = (0..self.populations.len()).map(row);
+        rows.filter(|row| row.grain_time > 0.0 || row.breakages > 0 || row.grains > 0).collect()
+    }
+
+    /// What broke into what since the start, for every pair of a parent's and a daughter's class that occurred.
+    pub fn daughter_rows(&self) -> Vec<DaughterRow> {
+        let classes = self.populations.len();
+        let all = (0..classes).flat_map(|parent| (0..=parent).map(move |daughter| (parent, daughter)));
+        all.filter_map(|(parent, daughter)| {
+            let (found, parents) = (self.daughters[place(parent, daughter)], &self.populations[parent]);
+            (found.pieces > 0).then(|| DaughterRow {
+                parent: SizeClass::bounds(parent),
+                daughter: SizeClass::bounds(daughter),
+                breakages: parents.breakages,
+                pieces: found.pieces,
+                primaries: found.primaries,
+                pieces_per_breakage: found.pieces as f64 / parents.breakages as f64,
+                mass_fraction: found.primaries as f64 / parents.broken as f64,
+            })
+        })
+        .collect()
+    }
+}
+
+/// Kernels of one pair of classes. Quantities that nothing can be said of are left out; they are NaN in a table.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct KernelRow {
+    /// Fewest and most primaries of the larger class.
+    pub a: [u32; 2],
+    /// Fewest and most primaries of the smaller class.
+    pub b: [u32; 2],
+    /// Impacts.
+    pub impacts: u64,
+    /// Impacts after which the two were one.
+    pub merges: u64,
+    /// Impacts that broke one or both.
+    pub breaking: u64,
+    /// Integral over time of the number of pairs, over the volume [s/m³].
+    pub exposure: f64,
+    /// K: impacts over exposure [m³/s].
+    pub collision_kernel: Option<f64>,
+    /// Merges over exposure [m³/s].
+    pub aggregation_kernel: Option<f64>,
+    /// Breaking impacts over exposure [m³/s].
+    pub breaking_kernel: Option<f64>,
+    /// Merges over impacts.
+    pub sticking_probability: Option<f64>,
+}
+
+impl KernelRow {
+    /// Columns of a table of kernels: bounds of the two classes in primaries, counts, exposure, kernels.
+    pub const COLUMNS: &[&str] = &[
+        "a_lower_primaries",
+        "a_upper_primaries",
+        "b_lower_primaries",
+        "b_upper_primaries",
+        "impacts",
+        "merges",
+        "breaking_impacts",
+        "exposure_s_m3",
+        "collision_kernel_m3_s",
+        "aggregation_kernel_m3_s",
+        "breaking_kernel_m3_s",
+        "sticking_probability",
+    ];
+
+    /// The values of [`KernelRow::COLUMNS`].
+    pub fn values(&self) -> [f64; 12] {
+        let known = |value: Option<f64>| value.unwrap_or(f64::NAN);
+        [
+            f64::from(self.a[0]),
+            f64::from(self.a[1]),
+            f64::from(self.b[0]),
+            f64::from(self.b[1]),
+            self.impacts as f64,
+            self.merges as f64,
+            self.breaking as f64,
+            self.exposure,
+            known(self.collision_kernel),
+            known(self.aggregation_kernel),
+            known(self.breaking_kernel),
+            known(self.sticking_probability),
+        ]
+    }
+}
+
+/// Breakage of one class.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BreakageRow {
+    /// Fewest and most primaries of the class.
+    pub class: [u32; 2],
+    /// Grains of the class now.
+    pub grains: u64,
+    /// Integral of their number over time [s].
+    pub grain_time: f64,
+    /// Grains that broke.
+    pub breakages: u64,
+    /// Breakages over the integral of the number [1/s].
+    pub breakage_rate: Option<f64>,
+}
+
+impl BreakageRow {
+    /// Columns of a table of breakage: bounds of the class in primaries, grains now, their number integrated, breakage.
+    pub const COLUMNS: &[&str] =
+        &["lower_primaries", "upper_primaries", "grains", "grain_time_s", "breakages", "breakage_rate_1_s"];
+
+    /// The values of [`BreakageRow::COLUMNS`].
+    pub fn values(&self) -> [f64; 6] {
+        [
+            f64::from(self.class[0]),
+            f64::from(self.class[1]),
+            self.grains as f64,
+            self.grain_time,
+            self.breakages as f64,
+            self.breakage_rate.unwrap_or(f64::NAN),
+        ]
+    }
+}
+
+/// Daughters of one class from parents of one class.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct DaughterRow {
+    /// Fewest and most primaries of the parents' class.
+    pub parent: [u32; 2],
+    /// Fewest and most primaries of the daughters' class.
+    pub daughter: [u32; 2],
+    /// Parents of the class that broke, whatever into.
+    pub breakages: u64,
+    /// Pieces.
+    pub pieces: u64,
+    /// Primaries in them.
+    pub primaries: u64,
+    /// Pieces over breakages.
+    pub pieces_per_breakage: f64,
+    /// Primaries in them over those in all parents of the class that broke.
+    pub mass_fraction: f64,
+}
+
+impl DaughterRow {
+    /// Columns of a table of daughters: bounds of the two classes in primaries, counts, means.
+    pub const COLUMNS: &[&str] = &[
+        "parent_lower_primaries",
+        "parent_upper_primaries",
+        "daughter_lower_primaries",
+        "daughter_upper_primaries",
+        "breakages",
+        "pieces",
+        "primaries",
+        "pieces_per_breakage",
+        "mass_fraction",
+    ];
+
+    /// The values of [`DaughterRow::COLUMNS`].
+    pub fn values(&self) -> [f64; 9] {
+        [
+            f64::from(self.parent[0]),
+            f64::from(self.parent[1]),
+            f64::from(self.daughter[0]),
+            f64::from(self.daughter[1]),
+            self.breakages as f64,
+            self.pieces as f64,
+            self.primaries as f64,
+            self.pieces_per_breakage,
+            self.mass_fraction,
+        ]
+    }
+}
+
+#[cfg(test)]
+#[path = "size_rates_tests.rs"]
+mod tests;

@@ -1,0 +1,162 @@
+//! Runs of hard spheres: their tables, frames and figures.
+
+mod growth;
+mod rows;
+mod scales;
+mod summary;
+
+pub use growth::Growth;
+pub use summary::HardSummary;
+
+use serde::{Deserialize, Serialize};
+
+use crate::engine::hard::{Simulation, SimulationState};
+use crate::engine::{Engine, SimError};
+use crate::measure::{BreakageRow, DaughterRow, KernelRow};
+use crate::particles::Particles;
+use crate::record::{RecordError, Series};
+use crate::scenario::Scenario;
+
+use super::folder::Folder;
+use super::frames::Frames;
+use super::job::{AnySaved, Job, Saved};
+use super::summary::Summary;
+use super::tables::{Layout, Tables};
+use rows::LastRow;
+
+/// What the tables and the summary have to remember of the past; it has no influence on the simulation.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+struct Memory {
+    /// Mean radius at the start [m].
+    mean_radius_at_start: f64,
+    last_row: LastRow,
+}
+
+/// All that a run of hard spheres needs to go on.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct HardState<'a> {
+    simulation: SimulationState<'a>,
+    memory: Memory,
+}
+
+/// A run of hard spheres.
+pub struct Hard {
+    simulation: Simulation,
+    memory: Memory,
+    steps_are: &'static str,
+}
+
+impl Hard {
+    fn with(scenario: &Scenario, simulation: Simulation, memory: Memory) -> Self {
+        let steps_are = if matches!(scenario.engine, Engine::EventDriven(_)) { "events" } else { "steps" };
+        Self { simulation, memory, steps_are }
+    }
+}
+
+impl Job for Hard {
+    type State<'a> = HardState<'a>;
+
+    const TABLES: Layout = rows::TABLES;
+
+    fn start(scenario: &Scenario, grains: Particles) -> Result<Self, SimError> {
+        let simulation = Simulation::start(scenario, &grains)?;
+        let mean_radius_at_start = Growth::of(&simulation.snapshot()).mean_radius;
+        let memory = Memory { mean_radius_at_start, last_row: LastRow::of(&simulation) };
+        Ok(Self::with(scenario, simulation, memory))
+    }
+
+    fn resume(scenario: &Scenario, state: HardState<'_>) -> Result<Self, SimError> {
+        let simulation = Simulation::resume(scenario, state.simulation)?;
+        Ok(Self::with(scenario, simulation, state.memory))
+    }
+
+    fn save(&self, rest: Saved<()>) -> AnySaved<'_> {
+        AnySaved::Hard(rest.with(HardState { simulation: self.simulation.state(), memory: self.memory }))
+    }
+
+    fn time(&self) -> f64 {
+        self.simulation.clock().time
+    }
+
+    fn step(&self) -> u64 {
+        self.simulation.clock().step
+    }
+
+    fn steps_are(&self) -> &'static str {
+        self.steps_are
+    }
+
+    fn is_finished(&self) -> bool {
+        self.simulation.is_finished()
+    }
+
+    fn advance(&mut self, due: f64) -> Result<(), SimError> {
+        self.simulation.advance(due)
+    }
+
+    fn fresh_warnings(&mut self) -> Vec<String> {
+        self.simulation.cloud_mut().state.warnings.take_fresh()
+    }
+
+    fn now(&self) -> String {
+        let (grains, start) = (self.simulation.grains(), self.simulation.grains_at_start());
+        let impacts = self.simulation.cloud().state.counts.impacts;
+        format!("{grains} of {start} grains, {impacts} impacts")
+    }
+
+    fn record_events(&mut self, tables: &mut Tables) -> Result<(), RecordError> {
+        let cloud = self.simulation.cloud_mut();
+        for event in cloud.events.drain(..) {
+            tables.cells(rows::EVENTS_TABLE, &rows::event(&event))?;
+        }
+        for descent in cloud.descents.drain(..) {
+            tables.cells(rows::GENEALOGY_TABLE, &rows::descent(&descent))?;
+        }
+        Ok(())
+    }
+
+    fn record_rows(&mut self, tables: &mut Tables) -> Result<(), RecordError> {
+        let Memory { mean_radius_at_start, last_row } = self.memory;
+        let now = self.simulation.snapshot();
+        let growth = Growth::of(&now);
+        tables.rows(rows::rows(&self.simulation, &growth, mean_radius_at_start, &last_row))?;
+        self.memory.last_row = LastRow::of(&self.simulation);
+        let mut sizes = rows::sizes(self.time(), &now, &growth);
+        sizes.try_for_each(|row| tables.cells(rows::SIZES_TABLE, &row))
+    }
+
+    fn record_frame(&self, frames: &mut Frames) -> Result<(), RecordError> {
+        let now = self.simulation.snapshot();
+        frames.grains(self.time(), &now.grains, ("primaries", &now.primaries))
+    }
+
+    fn record_end(&self, folder: &Folder) -> Result<(), RecordError> {
+        let (rates, time) = (&self.simulation.cloud().state.rates, self.time());
+        let kernels = rates.kernel_rows(time).into_iter().map(|row| row.values());
+        write_once(folder, "kernels.csv", KernelRow::COLUMNS, kernels)?;
+        let breakage = rates.breakage_rows(time).into_iter().map(|row| row.values());
+        write_once(folder, "breakage.csv", BreakageRow::COLUMNS, breakage)?;
+        let daughters = rates.daughter_rows().into_iter().map(|row| row.values());
+        write_once(folder, "daughters.csv", DaughterRow::COLUMNS, daughters)
+    }
+
+    fn summary(&self, scenario: &Scenario, wall_s: f64) -> Summary {
+        let start = self.memory.mean_radius_at_start;
+        Summary::Hard(Box::new(HardSummary::new(scenario, &self.simulation, start, self.steps_are, wall_s)))
+    }
+}
+
+/// Writes a whole table.
+fn write_once<const N: usize>(
+    folder: &Folder,
+    name: &str,
+    columns: &[&str],
+    mut rows: impl Iterator<Item = [f64; N]>,
+) -> Result<(), RecordError> {
+    let mut series = Series::create(&folder.root().join(name), columns)?;
+    rows.try_for_each(|row| series.row(&row))?;
+    series.sync()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,90 @@
+//! What a session needs of soft and of hard spheres: the session and the recorder say when, the job says what.
+
+use serde::{Deserialize, Serialize};
+
+use crate::engine::SimError;
+use crate::particles::Particles;
+use crate::record::RecordError;
+use crate::scenario::Scenario;
+
+use super::folder::Folder;
+use super::frames::Frames;
+use super::hard::HardState;
+use super::recorder::RecorderState;
+use super::summary::Summary;
+use super::tables::{Layout, Tables};
+use crate::engine::soft;
+
+/// What a checkpoint holds: the resolved scenario, the job's state and where the recorder stands.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Saved<S> {
+    /// The resolved scenario.
+    pub scenario: String,
+    /// The job's state.
+    pub state: S,
+    /// Where the recorder stands.
+    pub recorder: RecorderState,
+    /// Wall time so far [s].
+    pub wall_s: f64,
+}
+
+impl Saved<()> {
+    /// The same with a state.
+    pub fn with<S>(self, state: S) -> Box<Saved<S>> {
+        let Self { scenario, state: (), recorder, wall_s } = self;
+        Box::new(Saved { scenario, state, recorder, wall_s })
+    }
+}
+
+/// A checkpoint of any job.
+#[derive(Debug, Serialize, Deserialize)]
+pub enum AnySaved<'a> {
+    /// Soft spheres.
+    Soft(Box<Saved<soft::SimulationState<'a>>>),
+    /// Hard spheres.
+    Hard(Box<Saved<HardState<'a>>>),
+}
+
+/// A simulation as a session sees it.
+pub trait Job: Sized {
+    /// All that it needs to go on with the same bits; borrowed where it is written, owned where it is read.
+    type State<'a>
+    where
+        Self: 'a;
+
+    /// Its tables.
+    const TABLES: Layout;
+
+    /// Starts with grains as placed.
+    fn start(scenario: &Scenario, grains: Particles) -> Result<Self, SimError>;
+    /// Goes on from a saved state.
+    fn resume(scenario: &Scenario, state: Self::State<'_>) -> Result<Self, SimError>;
+    /// Adds its state to the rest of a checkpoint.
+    fn save(&self, rest: Saved<()>) -> AnySaved<'_>;
+
+    /// Simulated time [s].
+    fn time(&self) -> f64;
+    /// Steps, or events, so far.
+    fn step(&self) -> u64;
+    /// What those are called.
+    fn steps_are(&self) -> &'static str;
+    /// Whether the end is reached.
+    fn is_finished(&self) -> bool;
+    /// Goes on for a little while, not past `due` [s] if it can stop there without a trace.
+    fn advance(&mut self, due: f64) -> Result<(), SimError>;
+    /// Warnings that came up for the first time since the last call.
+    fn fresh_warnings(&mut self) -> Vec<String>;
+    /// What happens now, in words.
+    fn now(&self) -> String;
+
+    /// Writes down what happened since the last call.
+    fn record_events(&mut self, tables: &mut Tables) -> Result<(), RecordError>;
+    /// Writes a row in each table over time.
+    fn record_rows(&mut self, tables: &mut Tables) -> Result<(), RecordError>;
+    /// Writes a frame.
+    fn record_frame(&self, frames: &mut Frames) -> Result<(), RecordError>;
+    /// Writes what is written once, at the end.
+    fn record_end(&self, folder: &Folder) -> Result<(), RecordError>;
+    /// Draws up the summary; `wall_s` is the wall time [s].
+    fn summary(&self, scenario: &Scenario, wall_s: f64) -> Summary;
+}

@@ -1,0 +1,154 @@
+//! Runs of soft spheres: their tables, frames and figures.
+
+mod rows;
+mod summary;
+
+pub use summary::{Clusters, EnergyFigures, PulseFigures, SoftSummary};
+
+use crate::contact::bond::Break;
+use crate::contact::network::BondEvent;
+use crate::engine::SimError;
+use crate::engine::soft::{Simulation, SimulationState};
+use crate::particles::Particles;
+use crate::record::{Cell, RecordError};
+use crate::scenario::Scenario;
+
+use super::folder::Folder;
+use super::frames::Frames;
+use super::job::{AnySaved, Job, Saved};
+use super::summary::Summary;
+use super::tables::{Layout, Tables};
+use rows::clusters_of;
+
+/// A run of soft spheres.
+pub struct Soft {
+    simulation: Simulation,
+    cluster_gap: f64,
+    with_bonds: bool,
+    with_rays: bool,
+}
+
+impl Soft {
+    fn with(scenario: &Scenario, simulation: Simulation) -> Self {
+        Self {
+            simulation,
+            cluster_gap: scenario.measures.cluster_gap,
+            with_bonds: scenario.output.bonds,
+            with_rays: scenario.output.rays,
+        }
+    }
+}
+
+impl Job for Soft {
+    type State<'a> = SimulationState<'a>;
+
+    const TABLES: Layout = rows::TABLES;
+
+    fn start(scenario: &Scenario, grains: Particles) -> Result<Self, SimError> {
+        Ok(Self::with(scenario, Simulation::start(scenario, grains)?))
+    }
+
+    fn resume(scenario: &Scenario, state: SimulationState<'_>) -> Result<Self, SimError> {
+        Ok(Self::with(scenario, Simulation::resume(scenario, state)))
+    }
+
+    fn save(&self, rest: Saved<()>) -> AnySaved<'_> {
+        AnySaved::Soft(rest.with(self.simulation.state()))
+    }
+
+    fn time(&self) -> f64 {
+        self.simulation.clock().time
+    }
+
+    fn step(&self) -> u64 {
+        self.simulation.clock().step
+    }
+
+    fn steps_are(&self) -> &'static str {
+        "steps"
+    }
+
+    fn is_finished(&self) -> bool {
+        self.simulation.is_finished()
+    }
+
+    /// One step: output never bounds it.
+    fn advance(&mut self, _due: f64) -> Result<(), SimError> {
+        self.simulation.step()
+    }
+
+    fn fresh_warnings(&mut self) -> Vec<String> {
+        self.simulation.warnings.take_fresh()
+    }
+
+    fn now(&self) -> String {
+        what_happens(&self.simulation)
+    }
+
+    fn record_events(&mut self, tables: &mut Tables) -> Result<(), RecordError> {
+        self.simulation.events.drain(..).try_for_each(|event| write_event(tables, &event))
+    }
+
+    fn record_rows(&mut self, tables: &mut Tables) -> Result<(), RecordError> {
+        tables.rows(rows::rows(&self.simulation, self.cluster_gap))
+    }
+
+    fn record_frame(&self, frames: &mut Frames) -> Result<(), RecordError> {
+        let simulation = &self.simulation;
+        let (_, labels) = clusters_of(simulation, self.cluster_gap);
+        let (grains, network) = (&simulation.system.grains, &simulation.system.network);
+        frames.grains(self.time(), grains, ("cluster", &labels))?;
+        if self.with_bonds && network.is_active() {
+            frames.bonds(self.time(), grains, network.bonds())?;
+        }
+        if self.with_rays && simulation.pulses.scheduled() > 0 {
+            frames.rays(self.time(), simulation.pulses.flight())?;
+        }
+        Ok(())
+    }
+
+    fn record_end(&self, _folder: &Folder) -> Result<(), RecordError> {
+        Ok(())
+    }
+
+    fn summary(&self, scenario: &Scenario, wall_s: f64) -> Summary {
+        let (clusters, _) = clusters_of(&self.simulation, self.cluster_gap);
+        let (title, seed) = (&scenario.title, scenario.seed);
+        Summary::Soft(Box::new(SoftSummary::new(title, seed, &self.simulation, &clusters, wall_s)))
+    }
+}
+
+fn write_event(tables: &mut Tables, event: &BondEvent) -> Result<(), RecordError> {
+    let what = match event.broke {
+        None => "made",
+        Some(Break::Tension) => "broken_in_tension",
+        Some(Break::Shear) => "broken_in_shear",
+    };
+    let [i, j] = event.ids.map(|id| Cell::Count(u64::from(id)));
+    let (time, energy) = (Cell::Number(event.time), Cell::Number(event.energy));
+    tables.cells(rows::EVENTS_TABLE, &[time, i, j, Cell::Word(what), energy])
+}
+
+/// What happens now, in words.
+fn what_happens(simulation: &Simulation) -> String {
+    let pulses = &simulation.pulses;
+    let bonds = simulation.system.network.bonds().len();
+    let rays = pulses.flight().rays().len();
+    let mut words = Vec::new();
+    if rays > 0 {
+        words.push(format!(
+            "pulse {} of {}, {rays} rays in flight",
+            pulses.counts().len(),
+            pulses.scheduled()
+        ));
+    } else if pulses.scheduled() > 0 {
+        words.push(match pulses.counts().len() {
+            0 => format!("before pulse 1 of {}", pulses.scheduled()),
+            number => format!("after pulse {number} of {}", pulses.scheduled()),
+        });
+    }
+    if simulation.system.network.made_at_start() > 0 {
+        words.push(format!("{bonds} bonds"));
+    }
+    words.join(", ")
+}

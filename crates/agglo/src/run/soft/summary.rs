@@ -1,0 +1,186 @@
+//! What a run of soft spheres came to.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::acoustics::PulseCount;
+use crate::engine::soft::Simulation;
+use crate::measure::{Balance, ClusterSummary};
+use crate::run::summary::{time_row, wall_row, warnings_row};
+
+/// What a run of soft spheres came to; `summary.json` holds the same.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct SoftSummary {
+    /// Version of agglo.
+    pub version: String,
+    /// The scenario's title.
+    pub title: String,
+    /// Wall time [s], all sittings together.
+    pub wall_s: f64,
+    /// Simulated time [s].
+    pub time_s: f64,
+    /// Accepted steps.
+    pub steps: u64,
+    /// Iterations of the staggered scheme.
+    pub iterations: u64,
+    /// Tries of the staggered scheme that were rejected.
+    pub rejected_steps: u64,
+    /// Grains.
+    pub grains: usize,
+    /// Threads.
+    pub threads: usize,
+    /// Seed.
+    pub seed: u64,
+    /// Figures of each pulse.
+    pub pulses: Vec<PulseFigures>,
+    /// Clusters at the end.
+    pub clusters: Clusters,
+    /// 1 - mass of the largest cluster over the total, at the end.
+    pub dispersion_degree: f64,
+    /// Bonds at the start.
+    pub bonds_start: usize,
+    /// Bonds at the end.
+    pub bonds_end: usize,
+    /// The ledger of energy.
+    pub energy: EnergyFigures,
+    /// Momentum that impulses do not explain, over the grains' momenta.
+    pub momentum_drift_relative: f64,
+    /// Warnings, with how often each came up.
+    pub warnings: BTreeMap<String, u64>,
+}
+
+/// Figures of one pulse.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct PulseFigures {
+    /// Number of the beam.
+    pub beam: u32,
+    /// Start [s].
+    pub start_s: f64,
+    /// Rays launched.
+    pub rays: u64,
+    /// Reflections.
+    pub reflections: u64,
+    /// Straight segments: reflections and the leaving leg of each ray that left.
+    pub segments: u64,
+    /// Longest chain of reflections of one ray.
+    pub longest_chain: u64,
+    /// Rays in flight at the end of the run.
+    pub in_flight: u64,
+    /// Power launched [W].
+    #[serde(rename = "power_in_W")]
+    pub power_in: f64,
+    /// Power that grains took [W].
+    #[serde(rename = "power_absorbed_W")]
+    pub power_absorbed: f64,
+    /// Power that left the region [W].
+    #[serde(rename = "power_escaped_W")]
+    pub power_escaped: f64,
+    /// Power of rays that were dropped [W].
+    #[serde(rename = "power_truncated_W")]
+    pub power_truncated: f64,
+}
+
+impl From<&PulseCount> for PulseFigures {
+    fn from(count: &PulseCount) -> Self {
+        Self {
+            beam: count.beam,
+            start_s: count.start_s,
+            rays: u64::from(count.rays),
+            reflections: count.reflections,
+            segments: count.segments,
+            longest_chain: u64::from(count.longest_chain),
+            in_flight: u64::from(count.in_flight),
+            power_in: count.power_in,
+            power_absorbed: count.power_absorbed,
+            power_escaped: count.power_escaped,
+            power_truncated: count.power_truncated,
+        }
+    }
+}
+
+/// Clusters of grains that touch, are bonded, or are closer than the scenario's gap.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+pub struct Clusters {
+    /// How many, single grains included.
+    pub count: usize,
+    /// Mass of the largest over the total.
+    pub largest_fraction: f64,
+}
+
+/// The ledger of energy with its drift.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct EnergyFigures {
+    /// The channels and the drift.
+    #[serde(flatten)]
+    pub balance: Balance,
+}
+
+impl SoftSummary {
+    /// Draws up the summary of a simulation that ended.
+    pub fn new(
+        title: &str,
+        seed: u64,
+        simulation: &Simulation,
+        clusters: &ClusterSummary,
+        wall_s: f64,
+    ) -> Self {
+        let clock = simulation.clock();
+        Self {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            title: title.to_owned(),
+            wall_s,
+            time_s: clock.time,
+            steps: clock.step,
+            iterations: clock.iterations,
+            rejected_steps: clock.rejected,
+            grains: simulation.system.grains.len(),
+            threads: rayon::current_num_threads(),
+            seed,
+            pulses: simulation.pulses.counts().iter().map(PulseFigures::from).collect(),
+            clusters: Clusters { count: clusters.count, largest_fraction: clusters.largest_mass_fraction },
+            dispersion_degree: clusters.dispersion_degree,
+            bonds_start: simulation.system.network.made_at_start(),
+            bonds_end: simulation.system.network.bonds().len(),
+            energy: EnergyFigures { balance: simulation.balance() },
+            momentum_drift_relative: simulation.momentum_drift_relative(),
+            warnings: simulation.warnings.counts().clone(),
+        }
+    }
+
+    /// The summary as rows of a table: what, how much.
+    pub fn table(&self) -> Vec<(String, String)> {
+        let mut rows = Vec::new();
+        let mut row = |what: &str, figure: String| rows.push((what.to_owned(), figure));
+        row("simulated time", time_row(self.time_s, self.steps, "steps"));
+        row("wall time", wall_row(self.wall_s, self.threads));
+        row("grains", self.grains.to_string());
+        for (pulse, number) in self.pulses.iter().zip(1..) {
+            let absorbed = 100.0 * pulse.power_absorbed / pulse.power_in;
+            row(
+                &format!("pulse {number}"),
+                format!(
+                    "{} rays, {} reflections, {} segments, {absorbed:.2} % of the power absorbed",
+                    pulse.rays, pulse.reflections, pulse.segments
+                ),
+            );
+        }
+        if self.bonds_start > 0 {
+            row("bonds", format!("{} of {} left", self.bonds_end, self.bonds_start));
+        }
+        let clusters = &self.clusters;
+        row(
+            "clusters",
+            format!(
+                "{}, the largest with {:.2} % of the mass",
+                clusters.count,
+                100.0 * clusters.largest_fraction
+            ),
+        );
+        row("dispersion degree", format!("{:.4}", self.dispersion_degree));
+        row("energy drift", format!("{:.3e} of all energy", self.energy.balance.drift_relative));
+        row("momentum drift", format!("{:.3e} of all momentum", self.momentum_drift_relative));
+        row("warnings", warnings_row(&self.warnings));
+        rows
+    }
+}

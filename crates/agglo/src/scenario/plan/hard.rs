@@ -1,0 +1,227 @@
+//! What is planned for hard spheres, and what to keep in mind of their laws.
+
+use super::Plan;
+use super::gas::Gas;
+use crate::constants::GAS_CONSTANT;
+use crate::domain::Boundary;
+use crate::engine::Engine;
+use crate::engine::hard::{Distance, Pairs, TimeStepped};
+use crate::impact::cooling::Integration;
+use crate::impact::fragmentation::BreakingEnergy;
+use crate::impact::heat::Balance;
+use crate::impact::restitution::hardness::{ForceTime, Hardness, Solver};
+use crate::impact::tangential::SlipLimit;
+use crate::impact::{Impact, Restitution, Sticking};
+use crate::particles::Material;
+use crate::scenario::figures::{digits, readable};
+use crate::scenario::types::{GrainGroup, Scenario};
+
+/// Time [s] of one impact with what it changes in the queue; measured runs are within a few times of it.
+const SECONDS_PER_IMPACT: f64 = 3e-6;
+/// Time [s] of one step for one grain: its move and its search for neighbours.
+const SECONDS_PER_GRAIN: f64 = 2e-7;
+/// The fastest pair that matters for the step is about this many times as fast as the mean one.
+const FASTEST: f64 = 2.0;
+
+/// Impacts, steps and time of a run of hard spheres.
+pub(super) fn estimate(plan: &mut Plan, scenario: &Scenario, counts: &[u64]) {
+    let Some(gas) = Gas::at_start(scenario, counts) else { return };
+    let end = scenario.time.end.si();
+    plan.impacts = impacts(scenario, &gas, plan.grains as f64);
+    plan.seconds = plan.impacts * SECONDS_PER_IMPACT;
+    if let Engine::TimeStepped(law) = &scenario.engine {
+        plan.step = step(law, &gas).min(end);
+        plan.steps = end / plan.step;
+        plan.seconds += plan.steps * plan.grains as f64 * SECONDS_PER_GRAIN;
+    }
+    describe(plan, scenario, &gas);
+}
+
+/// Expected impacts: Haff's law where restitution is constant, else those at the rate of the start.
+fn impacts(scenario: &Scenario, gas: &Gas, grains: f64) -> f64 {
+    let end = scenario.time.end.si();
+    let at_first_rate = gas.rate * end;
+    let laws = scenario.impact.as_ref();
+    let Some(Restitution::Constant(law)) = laws.map(|laws| &laws.restitution) else { return at_first_rate };
+    let lost = 1.0 - law.restitution * law.restitution;
+    if law.restitution == 0.0 && laws.is_some_and(|laws| laws.sticking == Sticking::Merge) {
+        return at_first_rate.min(grains - 1.0).max(0.0);
+    }
+    if lost == 0.0 || at_first_rate == 0.0 {
+        return at_first_rate;
+    }
+    let cooling_time = 6.0 * gas.free_time / lost;
+    gas.rate * cooling_time * (end / cooling_time).ln_1p()
+}
+
+/// A step of the time-stepped engine at the start [s].
+fn step(law: &TimeStepped, gas: &Gas) -> f64 {
+    let approach = match law.distance {
+        // With all gaps in play the next impact of any pair is what a step must not pass.
+        Distance::Gap => 1.0 / gas.rate,
+        Distance::Centers => gas.touching / (FASTEST * gas.relative_speed),
+    };
+    (law.fraction * approach).clamp(law.shortest_step.si(), law.longest_step.si())
+}
+
+fn describe(plan: &mut Plan, scenario: &Scenario, gas: &Gas) {
+    plan.figures.push(("solid fraction".to_owned(), digits(gas.solid_fraction)));
+    if gas.rate > 0.0 {
+        let way = format!("{}, {}", readable(gas.free_path, "m"), readable(gas.free_time, "s"));
+        plan.figures.push(("from impact to impact".to_owned(), format!("{way} at the start")));
+    }
+    let Some(laws) = &scenario.impact else { return };
+    let Restitution::Hardness(law) = &laws.restitution else { return };
+    for (index, group) in scenario.grains.iter().enumerate() {
+        if let Some(threshold) =
+            scenario.materials.get(&group.material).and_then(|m| threshold(law, m, group))
+        {
+            plan.figures.push((format!("grains {index}"), threshold.words(laws)));
+        }
+    }
+}
+
+/// Where grains of one group stop to rebound.
+pub(super) struct Threshold {
+    /// Speed of approach from which two equal grains stick, 2 sqrt(3 af H β/(2ρ)) [m/s], [B] 4.15.
+    pub speed: f64,
+    /// Radius at which an impact as fast as that breaks them into eight, 4 γ/(H af β) [m], [B] 5.5.
+    pub radius: Option<f64>,
+}
+
+/// At the temperature of the start; heat softens.
+pub(super) fn threshold(law: &Hardness, material: &Material, group: &GrainGroup) -> Option<Threshold> {
+    let activation = material.activation_energy.map_or(0.0, crate::units::Quantity::si);
+    let heat = GAS_CONSTANT * group.temperature.si();
+    let resistance =
+        material.hardness?.si() * (activation / heat).exp() * law.sticking_area * law.deformation;
+    Some(Threshold {
+        speed: 2.0 * (1.5 * resistance / material.density.si()).sqrt(),
+        radius: material.surface_energy.map(|energy| 4.0 * energy.si() / resistance),
+    })
+}
+
+impl Threshold {
+    fn words(&self, laws: &Impact) -> String {
+        let what = match laws.sticking {
+            Sticking::Merge => "stick",
+            Sticking::Never => "do not rebound",
+        };
+        let approach = readable(self.speed, "m/s");
+        match (&laws.fragmentation, self.radius) {
+            (Some(_), Some(radius)) => {
+                let radius = readable(radius, "m");
+                format!(
+                    "two equal ones {what} from an approach of {approach}; above a radius of {radius} they break into eight there"
+                )
+            }
+            _ => format!("two equal ones {what} from an approach of {approach}"),
+        }
+    }
+}
+
+/// Laws that are not sound, and what has no effect.
+pub(super) fn notes(notes: &mut Vec<String>, scenario: &Scenario) {
+    if !scenario.engine.is_hard() {
+        return;
+    }
+    let mut note = |words: &str| notes.push(words.to_owned());
+    if let Engine::TimeStepped(law) = &scenario.engine {
+        if law.pairs == Pairs::Nearest {
+            note(
+                "engine.time_stepped.pairs = nearest: grains that touch others than their nearest neighbour pass into them; all does not",
+            );
+        }
+        if law.distance == Distance::Centers {
+            note(
+                "engine.time_stepped.distance = centers: steps are longer than gaps allow, so impacts are missed; gap does not",
+            );
+        }
+    }
+    if let Engine::EventDriven(law) = &scenario.engine
+        && law.contact_duration.is_some_and(|duration| duration.si() == 0.0)
+    {
+        note("engine.event_driven.contact_duration is 0: inelastic collapse may bring the clock to a halt");
+    }
+    match scenario.volume.as_ref().map(|volume| volume.boundary) {
+        Some(Boundary::Antipodal) => note(
+            "volume.boundary = antipodal: grains on two sides of a face do not see one another, and may enter into others; periodic is sound",
+        ),
+        Some(Boundary::Open) => {
+            note("volume.boundary = open: grains that leave the volume do not come back");
+        }
+        _ => {}
+    }
+    if let Some(laws) = &scenario.impact {
+        published(&mut note, laws);
+        idle(&mut note, scenario, laws);
+    }
+    without_effect(&mut note, scenario);
+}
+
+fn published(note: &mut dyn FnMut(&str), laws: &Impact) {
+    if let Restitution::Hardness(law) = &laws.restitution {
+        if law.force_over == ForceTime::Compression {
+            note(
+                "impact.restitution.hardness.force_over = compression: the published form; restitution is lower than the mean force over the whole impact gives",
+            );
+        }
+        if let Solver::FixedPoint(_) = law.solver {
+            note(
+                "impact.restitution.hardness.solver.fixed_point may not converge: its iteration can flip between two values for ever; bracketed finds the root",
+            );
+        }
+    }
+    if laws.tangential.as_ref().is_some_and(|law| law.limit == SlipLimit::Published) {
+        note(
+            "impact.tangential.limit = published: friction may reverse the slip and create energy; no_slip does not",
+        );
+    }
+    if laws.heat.balance == Balance::Published {
+        note(
+            "impact.heat.balance = published: a pair gets more heat than the energy it lost, and how much depends on the observer; energy is sound",
+        );
+    }
+    if laws.fragmentation.as_ref().is_some_and(|law| law.energy == BreakingEnergy::Published) {
+        note(
+            "impact.fragmentation.energy = published: what breaks depends on the observer; center_of_mass does not",
+        );
+    }
+    if laws.cooling.as_ref().is_some_and(|law| law.integration == Integration::Published) {
+        note(
+            "impact.cooling.integration = published: one Euler step overshoots below zero where grains are hot and is then cut; exact does not",
+        );
+    }
+}
+
+/// Laws that find nothing to act on.
+fn idle(note: &mut dyn FnMut(&str), scenario: &Scenario, laws: &Impact) {
+    let used = || scenario.grains.iter().filter_map(|group| scenario.materials.get(&group.material));
+    let radiates = used().any(|material| material.emissivity.is_some_and(|emissivity| emissivity > 0.0));
+    if laws.cooling.as_ref().is_some_and(|law| law.convection.si() == 0.0) && !radiates {
+        note("impact.cooling has no effect: convection is 0 and no material in use has an emissivity");
+    }
+    if laws.tangential.as_ref().is_some_and(|law| law.friction == 0.0) && scenario.mixtures.is_empty() {
+        note("impact.tangential has no effect: friction is 0");
+    }
+}
+
+/// Keys that hard spheres do not ask for.
+fn without_effect(note: &mut dyn FnMut(&str), scenario: &Scenario) {
+    for (index, group) in scenario.grains.iter().enumerate() {
+        let given = [
+            ("spin", group.spin.iter().any(|spin| spin.si() != 0.0)),
+            ("charge", group.charge.si() != 0.0),
+            ("polarity", group.polarity != 1.0),
+        ];
+        for (key, _) in given.into_iter().filter(|(_, given)| *given) {
+            note(&format!("grains.{index}.{key} has no effect on hard spheres"));
+        }
+    }
+    if scenario.medium != crate::acoustics::Medium::default() {
+        note("medium has no effect on hard spheres: they fly straight between impacts");
+    }
+    if scenario.measures.cluster_gap != 0.0 {
+        note("measures.cluster_gap has no effect on hard spheres: what sticks becomes one sphere");
+    }
+}

@@ -1,0 +1,156 @@
+//! Plans of hard spheres against numbers worked out by hand.
+
+use std::path::Path;
+
+use super::Plan;
+use super::gas::Gas;
+use crate::scenario::types::Scenario;
+
+const SET_1: &str = include_str!("../../../../../scenarios/reacting-agglomeration.toml");
+const PUBLISHED: &str = include_str!("../../../../../scenarios/reacting-agglomeration-published.toml");
+
+/// 1000 grains of radius 1 mm in a box of 10 cm, so that φ = 4.18879e-3; velocities as asked for.
+fn gas_of(velocities: &str, restitution: &str) -> String {
+    format!(
+        r#"
+version = 1
+time.end = "10 s"
+[engine.event_driven]
+[volume]
+lower = ["0 m", "0 m", "0 m"]
+upper = ["10 cm", "10 cm", "10 cm"]
+[materials.glass]
+density = "2500 kg/m3"
+[[grains]]
+material = "glass"
+size.constant.radius = "1 mm"
+placement.fill.count = 1000
+{velocities}
+[impact.restitution.constant]
+restitution = {restitution}
+"#
+    )
+}
+
+const MAXWELL: &str = "velocity_spread.maxwell.deviation = \"0.2 m/s\"";
+
+fn plan_of(text: &str) -> Plan {
+    Plan::new(&Scenario::from_toml(text).unwrap(), Path::new(""))
+}
+
+fn start_of(text: &str, grains: u64) -> Gas {
+    Gas::at_start(&Scenario::from_toml(text).unwrap(), &[grains]).unwrap()
+}
+
+/// Enskog: 4 sqrt(pi) n σ² χ s with n = 1e6/m³, σ = 2 mm, s = 0.2 m/s and
+/// χ = (1 - 0.00209440)/(1 - 0.00418879)³ = 1.01055145.
+#[test]
+fn a_gas_in_equilibrium() {
+    let gas = start_of(&gas_of(MAXWELL, "1"), 1000);
+    let chi = 1.010_551_45;
+    let rate = 4.0 * std::f64::consts::PI.sqrt() * 1e6 * 4e-6 * chi * 0.2;
+    // χ is written with nine digits.
+    assert!((gas.free_time * rate - 1.0).abs() < 1e-7, "{}", gas.free_time);
+    assert!((gas.rate / (500.0 * rate) - 1.0).abs() < 1e-7);
+    // 1/(sqrt 2 pi n σ² χ)
+    let path = 1.0 / (2.0_f64.sqrt() * std::f64::consts::PI * 4.0 * chi);
+    assert!((gas.free_path / path - 1.0).abs() < 1e-7);
+    assert!((gas.solid_fraction - 4.188_790_2e-3).abs() < 1e-9);
+    // Elastic: 500 x rate x 10 s.
+    assert!((plan_of(&gas_of(MAXWELL, "1")).impacts / (5000.0 * rate) - 1.0).abs() < 1e-7);
+}
+
+/// Haff: t_H = 6 t_free/(1 - e²), and ∫ rate dt = rate t_H ln(1 + t/t_H).
+#[test]
+fn a_gas_that_cools() {
+    let gas = start_of(&gas_of(MAXWELL, "0.8"), 1000);
+    let haff = 6.0 * gas.free_time / 0.36;
+    let by_hand = gas.rate * haff * (1.0 + 10.0 / haff).ln();
+    // Both ways to the logarithm round once or twice.
+    assert!((plan_of(&gas_of(MAXWELL, "0.8")).impacts / by_hand - 1.0).abs() < 1e-12);
+    // With e = 0 every impact takes one grain away: 999 and no more.
+    assert_eq!(plan_of(&gas_of(MAXWELL, "0")).impacts, 999.0);
+}
+
+/// Two streams through one another: |u| = 3 m/s between them and none within.
+#[test]
+fn two_streams() {
+    let text = gas_of("velocity = [\"3 m/s\", \"0 m/s\", \"0 m/s\"]", "1").replace(
+        "[impact.restitution.constant]",
+        "[[grains]]\nmaterial = \"glass\"\nsize.constant.radius = \"1 mm\"\nplacement.fill.count = 1000\n[impact.restitution.constant]",
+    );
+    let gas = Gas::at_start(&Scenario::from_toml(&text).unwrap(), &[1000, 1000]).unwrap();
+    let chi = (1.0 - 4.188_790_2e-3) / (1.0_f64 - 8.377_580_4e-3).powi(3);
+    // Each grain meets the other stream: n σ² pi u χ = 1e6 x 4e-6 x pi x 3 x χ.
+    assert!((gas.free_time * 12.0 * std::f64::consts::PI * chi - 1.0).abs() < 1e-9);
+}
+
+/// At rest there are no impacts, and nothing is divided by them.
+#[test]
+fn a_gas_at_rest() {
+    let plan = plan_of(&gas_of("", "0.5"));
+    assert_eq!((plan.impacts, plan.seconds, plan.grains), (0.0, 0.0, 1000));
+    assert_eq!(plan.memory, 400_000.0);
+    assert!(!plan.to_string().contains("impact"), "{plan}");
+}
+
+/// Set 1: H = 0.26548 MPa x exp(352.41/(8.314463 x 502.18)) = 1.08807 x 0.26548 MPa, so that
+/// 2 sqrt(1.5 H/6652.7) = 16.14 m/s and 4 x 8.3685e15/H = 1.159e11 m.
+#[test]
+fn the_papers_best_set() {
+    let plan = plan_of(SET_1);
+    let page = plan.to_string();
+    assert!(page.contains("stick from an approach of 16.14 m/s; above a radius of 115.9 Gm"), "{page}");
+    // (4/3) pi 0.79041³/8; 1/(sqrt 2 pi n σ² χ) with n = 1.25e8/m³, σ = 1.58082 mm, χ = 2.13622.
+    assert!(page.contains("0.2586") && page.contains("337.3 um"), "{page}");
+    // 1000 grains of radius b L-wise: n pi σ² χ sqrt(16 x 1.02/(9 pi)) v0 = 2.94153e5/s, for 10 ms, two to an impact.
+    assert!((plan.impacts / 1.470_764e6 - 1.0).abs() < 1e-5, "{}", plan.impacts);
+    assert_eq!((plan.steps, plan.memory), (0.0, 400_000.0));
+    assert!(plan.notes.is_empty(), "{:?}", plan.notes);
+}
+
+/// Half of σ over twice the mean relative speed, 1.58082 mm/(4 x 140.27 m/s) = 2.817 us.
+#[test]
+fn the_published_model_is_told_from_the_sound_one() {
+    let plan = plan_of(PUBLISHED);
+    assert!(plan.to_string().contains("3551 of 2.817 us"), "{plan}");
+    for word in [
+        "nearest",
+        "centers",
+        "antipodal",
+        "compression",
+        "fixed_point",
+        "tangential.limit",
+        "heat.balance",
+        "fragmentation.energy",
+        "cooling.integration",
+    ] {
+        assert!(plan.notes.iter().any(|note| note.contains(word)), "{word} in\n{plan}");
+    }
+}
+
+/// Over gaps the step is shorter than the shortest allowed here.
+#[test]
+fn steps_stay_within_their_bounds() {
+    let over_gaps = PUBLISHED.replace("distance = \"centers\"", "distance = \"gap\"");
+    let plan = plan_of(&over_gaps);
+    assert_eq!(plan.step, 1e-8);
+    assert!((plan.steps - 1e6).abs() < 1e-3);
+}
+
+#[test]
+fn keys_without_effect_are_noted() {
+    let text = gas_of(
+        "spin = [\"1 Hz\", \"0 Hz\", \"0 Hz\"]\ncharge = \"1 pC\"\npolarity = -1",
+        "1\n[impact.tangential]\nfriction = 0\n[impact.cooling]\n[medium]\ndensity = \"1 kg/m3\"\n[measures]\ncluster_gap = 0.1",
+    )
+    .replace("density = \"2500 kg/m3\"", "density = \"2500 kg/m3\"\nheat_capacity = \"1 J/(kg K)\"");
+    let notes = plan_of(&text).notes;
+    for word in ["spin", "charge", "polarity", "impact.tangential", "impact.cooling", "medium", "cluster_gap"]
+    {
+        assert!(
+            notes.iter().any(|note| note.contains(word) && note.contains("no effect")),
+            "{word} in {notes:?}"
+        );
+    }
+}
