@@ -11,6 +11,7 @@ mod end;
 mod hard;
 mod killed;
 mod output;
+mod shipped;
 mod summary;
 mod trouble;
 mod verbs;

@@ -12,8 +12,8 @@
 //! - Each sphere knows its earliest impact and who with. Where a third sphere comes first, the one left over looks again
 //!   at the time at which it would have met: nothing can happen to it before.
 //! - Spheres that overlap (after a merge, or at an antipodal face) and approach meet at once; those that part are let go.
-//!   A merged sphere that overlaps others meets them at the same instant, one after the other, the one that was found
-//!   first in the order of time, then of names; each may merge in turn.
+//!   A merged sphere that overlaps others meets them at the same instant, one after the other, in the order of
+//!   memory, which is that of space; each may merge in turn.
 //! - Simultaneous events are taken in the order of names.
 //! - Inelastic collapse: a bounce is elastic if one of the two bounced less than `contact_duration` before. Sticking and
 //!   breaking are not concerned. The summary counts such impacts.
