@@ -85,7 +85,7 @@ pub fn merged(bodies: [&Body; 2], positions: [Vec3; 2]) -> (Body, Vec3) {
         material: heavier,
         primaries: a.primaries.saturating_add(b.primaries),
     };
-    (body, (positions[0] * a.mass + positions[1] * b.mass) * (1.0 / mass))
+    (body, positions[0] * (a.mass / mass) + positions[1] * (b.mass / mass))
 }
 
 /// Velocity [m/s] of the centre of mass of two bodies.

@@ -1,6 +1,6 @@
 //! Single cases of the event-driven engine that a cloud at random may not come to.
 
-use super::test_clouds::{DENSITY, EVENTS, Grain, advance_to, restitution, scenario, start};
+use super::test_clouds::{DENSITY, EVENTS, Grain, advance_to, particles, restitution, scenario, start};
 use super::{Contact, Simulation};
 use crate::math::Vec3;
 
@@ -257,6 +257,24 @@ fn whoever_is_named_first() {
     });
     assert!(after[0].1.fragmentations == 2, "{:?}", after[0].1);
     assert_eq!(after[0], after[1]);
+}
+
+/// Of equal partners of two materials the merged sphere has the one named first in the alphabet, wherever it is in space.
+#[test]
+fn the_material_of_a_merged_sphere() {
+    let mut scenario = scenario(EVENTS, "open", &restitution(0.0));
+    scenario.materials.insert("wood".to_owned(), scenario.materials["stone"].clone());
+    for materials in [[0, 1], [1, 0]] {
+        let mut grains = particles(&[
+            ([-2e-3, 0.0, 0.0], [1.0, 0.0, 0.0], 1e-3),
+            ([2e-3, 0.0, 0.0], [-1.0, 0.0, 0.0], 1e-3),
+        ]);
+        grains.material = materials.to_vec();
+        let mut simulation = Simulation::start(&scenario, &grains).unwrap();
+        advance_to(&mut simulation, 2e-3);
+        let now = simulation.snapshot().grains;
+        assert_eq!((now.id, now.material), (vec![0], vec![0]), "of {materials:?}");
+    }
 }
 
 struct Nobody;

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::domain::Volume;
 use crate::engine::Warnings;
+use crate::impact::sticking::merged;
 use crate::impact::{Body, ImpactLaws, Outcome};
 use crate::math::Vec3;
 use crate::measure::SizeRates;
@@ -12,7 +13,7 @@ use crate::measure::SizeRates;
 use super::books::{Books, Counts};
 use super::events::{Descent, EventKind, GrainEvent};
 use super::pieces;
-use super::spheres::{Bulk, Sphere, Spheres};
+use super::spheres::Spheres;
 
 /// Two spheres that meet.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -251,29 +252,28 @@ impl Cloud {
         approach: f64,
     ) -> Change {
         let [a, b] = contact.spheres;
-        let (kept, gone, to_gone) =
-            if self.is_first(a, b) { (a, b, distance) } else { (b, a, Vec3::ZERO - distance) };
+        let (kept, gone, to_gone) = if self.is_first(a, b) { (a, b, distance) } else { (b, a, -distance) };
         let event = self.note(EventKind::Merge, contact, outcome, time, approach);
+        let [one, other] = [kept, gone].map(|at| self.body(at as usize));
+        // From the centre of the one that stays, so that a large volume costs no digits.
+        let (both, center) = merged([&one, &other], [Vec3::ZERO, to_gone]);
         let spheres = &mut self.state.spheres;
-        let [one, other] = [kept, gone].map(|at| spheres.bulk[at as usize]);
-        let (radius, added) = (spheres.motion[kept as usize].radius, spheres.motion[gone as usize].radius);
-        let mass = one.mass + other.mass;
+        let parents = [kept, gone].map(|at| spheres.bulk[at as usize]);
         let motion = &mut spheres.motion[kept as usize];
-        motion.position = self.volume.wrap(motion.position + to_gone * (other.mass / mass));
-        motion.radius = (radius * radius * radius + added * added * added).cbrt();
-        let heat_capacity = one.heat_capacity + other.heat_capacity;
-        spheres.bulk[kept as usize] = Bulk {
-            mass,
-            heat_capacity,
-            temperature: mixed_temperature(&one, &other),
-            bounced_at: f64::NEG_INFINITY,
-            primaries: one.primaries + other.primaries,
-            ..one
-        };
+        motion.position = self.volume.wrap(motion.position + center);
+        motion.radius = both.radius;
+        let bulk = &mut spheres.bulk[kept as usize];
+        bulk.mass = both.mass;
+        bulk.heat_capacity = both.heat_capacity;
+        bulk.temperature = both.temperature;
+        bulk.material = both.material;
+        bulk.primaries = both.primaries;
+        bulk.bounced_at = f64::NEG_INFINITY;
         spheres.remove(gone);
         self.state.counts.merges += 1;
         self.state.rates.merge([one.primaries, other.primaries], time);
-        self.descend(event, [&one, &other].map(|bulk| (bulk.id, one.id, bulk.primaries, bulk.mass)));
+        let id = parents[0].id;
+        self.descend(event, parents.map(|parent| (parent.id, id, parent.primaries, parent.mass)));
         Change::Merged { kept, gone }
     }
 
@@ -347,24 +347,5 @@ impl Cloud {
         *velocity = along.into();
         self.state.books.flows.walls += Vec3::from(impulse);
         self.state.counts.walls += 1;
-    }
-}
-
-/// Temperature [K] at which two bodies together have their thermal energies added up.
-fn mixed_temperature(one: &Bulk, other: &Bulk) -> f64 {
-    let capacity = one.heat_capacity + other.heat_capacity;
-    if capacity > 0.0 {
-        (one.heat_capacity * one.temperature + other.heat_capacity * other.temperature) / capacity
-    } else {
-        (one.mass * one.temperature + other.mass * other.temperature) / (one.mass + other.mass)
-    }
-}
-
-impl Sphere {
-    /// Whether two spheres, the second shifted, touch or overlap at `time` [s].
-    pub fn touches(&self, other: &Self, shift: Vec3, time: f64) -> bool {
-        let distance = (other.at(time) - self.at(time)) + shift;
-        let reach = self.radius + other.radius;
-        distance.norm_squared() <= reach * reach
     }
 }
