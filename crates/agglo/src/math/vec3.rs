@@ -58,6 +58,14 @@ impl Vec3 {
         self.dot(self)
     }
 
+    /// The order of points by x, then y, then z; a total order of all bits.
+    #[inline]
+    pub fn total_cmp(&self, other: &Self) -> std::cmp::Ordering {
+        let by_y = || self.y.total_cmp(&other.y);
+        let by_z = || self.z.total_cmp(&other.z);
+        self.x.total_cmp(&other.x).then_with(by_y).then_with(by_z)
+    }
+
     /// The same direction with length one; zero stays zero.
     #[inline]
     #[must_use]

@@ -15,7 +15,7 @@ pub fn mean_nearest_distance(positions: &[Vec3]) -> f64 {
         return 0.0;
     }
     let mut sorted = positions.to_vec();
-    sorted.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z)));
+    sorted.sort_by(Vec3::total_cmp);
     let stride = positions.len().div_ceil(ASKED);
     let asked: Vec<usize> = (0..sorted.len()).step_by(stride).collect();
     let distances: Vec<f64> = asked.par_iter().map(|&at| nearest(&sorted, at)).collect();

@@ -197,11 +197,8 @@ fn refuse_coincident(grains: &Particles) -> Result<(), PackingError> {
     let mut order: Vec<u32> = (0..grains.len() as u32).collect();
     let at = |grain: u32| grains.position[grain as usize];
     // Adding zero turns -0 into +0, which are one place.
-    let key = |grain: u32| at(grain).to_array().map(|coordinate| coordinate + 0.0);
-    order.sort_by(|&a, &b| {
-        let ([ax, ay, az], [bx, by, bz]) = (key(a), key(b));
-        ax.total_cmp(&bx).then(ay.total_cmp(&by)).then(az.total_cmp(&bz)).then(a.cmp(&b))
-    });
+    let key = |grain: u32| at(grain) + Vec3::ZERO;
+    order.sort_by(|&a, &b| key(a).total_cmp(&key(b)).then(a.cmp(&b)));
     match order.windows(2).find(|pair| at(pair[0]) == at(pair[1])) {
         None => Ok(()),
         Some(pair) => {

@@ -27,16 +27,11 @@ struct Candidate {
     stamps: [u32; 2],
 }
 
-/// Points by their coordinates.
-fn in_space(a: Vec3, b: Vec3) -> Ordering {
-    a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z))
-}
-
 impl Ord for Candidate {
     /// The greatest is dealt with first.
     fn cmp(&self, other: &Self) -> Ordering {
         let by_time = self.touching.total_cmp(&other.touching);
-        let by_place = |k: usize| in_space(other.centers[k], self.centers[k]);
+        let by_place = |k: usize| other.centers[k].total_cmp(&self.centers[k]);
         by_time.then_with(|| by_place(0)).then_with(|| by_place(1))
     }
 }
@@ -78,7 +73,7 @@ impl Cascade {
         let spheres = &cloud.state.spheres;
         if let Some(touching) = Meeting::of(spheres, &contact).touching_for() {
             let mut centers = contact.spheres.map(|at| spheres.motion[at as usize].position);
-            centers.sort_unstable_by(|a, b| in_space(*a, *b));
+            centers.sort_unstable_by(Vec3::total_cmp);
             let stamps = contact.spheres.map(|at| self.stamps[at as usize]);
             self.waiting.push(Candidate { touching, centers, contact, stamps });
         }

@@ -280,14 +280,10 @@ impl Cloud {
     /// Which of two spheres goes on when they merge: the heavier one; of equals the one whose place comes first in
     /// space, so that names do not matter.
     pub(super) fn is_first(&self, a: u32, b: u32) -> bool {
-        let of = |at: u32| {
-            let (motion, bulk) =
-                (&self.state.spheres.motion[at as usize], &self.state.spheres.bulk[at as usize]);
-            [-bulk.mass, motion.position.x, motion.position.y, motion.position.z]
-        };
-        let (first, second) = (of(a), of(b));
-        let orders = first.iter().zip(&second).map(|(x, y)| x.total_cmp(y));
-        orders.reduce(std::cmp::Ordering::then).is_none_or(std::cmp::Ordering::is_le)
+        let spheres = &self.state.spheres;
+        let mass = |at: u32| spheres.bulk[at as usize].mass;
+        let place = |at: u32| &spheres.motion[at as usize].position;
+        mass(b).total_cmp(&mass(a)).then_with(|| place(a).total_cmp(place(b))).is_le()
     }
 
     /// Writes an event down and gives its number.

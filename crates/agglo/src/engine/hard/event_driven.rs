@@ -432,10 +432,8 @@ impl Events {
         };
         let mut order: Vec<(u64, u32)> = spheres.living().map(|at| (curve(at), at)).collect();
         order.sort_unstable_by(|a, b| {
-            let place = |at: u32| spheres.motion[at as usize].position.to_array();
-            let ([ax, ay, az], [bx, by, bz]) = (place(a.1), place(b.1));
-            let by_place = || ax.total_cmp(&bx).then(ay.total_cmp(&by)).then(az.total_cmp(&bz));
-            a.0.cmp(&b.0).then_with(by_place)
+            let place = |at: u32| &spheres.motion[at as usize].position;
+            a.0.cmp(&b.0).then_with(|| place(a.1).total_cmp(place(b.1)))
         });
         let order: Vec<u32> = order.into_iter().map(|(_, at)| at).collect();
         let mut place_of = vec![NONE; spheres.places()];

@@ -69,7 +69,7 @@ impl Nearest {
         let is_nearer = distance_squared < best.distance_squared
             || (distance_squared == best.distance_squared
                 && distance_squared.is_finite()
-                && position(place).to_array() < position(best.place).to_array());
+                && position(place).total_cmp(&position(best.place)).is_lt());
         if is_nearer {
             *best = Neighbor { distance_squared, place, shift };
         }
