@@ -24,6 +24,24 @@ pub struct Contact {
     pub shift: Vec3,
 }
 
+/// Two spheres at the moment at which they meet.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Encounter {
+    pub contact: Contact,
+    /// When [s].
+    pub time: f64,
+    /// The two as they were before.
+    pub bodies: [Body; 2],
+    /// From the first centre to the second [m].
+    pub distance: Vec3,
+    /// Its direction.
+    pub normal: Vec3,
+    /// Speed of approach along it [m/s].
+    pub approach: f64,
+    /// Whether they are in one another already.
+    pub overlaps: bool,
+}
+
 /// What became of two spheres that met.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Change {
@@ -98,85 +116,84 @@ impl Cloud {
     ///
     /// The outcome does not depend on which is named first, but for the order in memory.
     pub fn meet(&mut self, contact: Contact, time: f64, surroundings: &dyn Surroundings) -> Change {
-        let places = contact.spheres.map(|at| at as usize);
-        for at in places {
-            self.bring_up(at, time);
+        for at in contact.spheres {
+            self.bring_up(at as usize, time);
         }
-        let [a, b] = places.map(|at| self.state.spheres.motion[at]);
+        let encounter = self.encounter(contact, time);
+        let outcome = self.outcome(&encounter);
+        self.count(&outcome, encounter.overlaps);
+        if outcome.pieces == [1, 1] {
+            return self.carry_out(&encounter, &outcome);
+        }
+        match pieces::find_room(self, &encounter, &outcome, surroundings) {
+            Some(found) => pieces::break_up(self, &encounter, &outcome, found),
+            None => self.stay_whole(encounter, outcome.pieces),
+        }
+    }
+
+    fn encounter(&self, contact: Contact, time: f64) -> Encounter {
+        let [a, b] = contact.spheres.map(|at| &self.state.spheres.motion[at as usize]);
         // Written so that swapping the partners turns it round exactly.
         let distance = (b.position - a.position) + contact.shift;
         let length = distance.norm();
         let normal = if length > 0.0 { distance / length } else { Vec3::AXES[0] };
-        let bodies = places.map(|at| self.body(at));
-        let outcome = self.outcome(places, &bodies, normal, time);
-        let approach = (a.velocity - b.velocity).dot(normal);
-        self.count(&outcome, length < (a.radius + b.radius) * (1.0 - 1e-9));
-        if outcome.pieces != [1, 1] {
-            let whole = outcome.pieces.map(|pieces| pieces == 1);
-            match pieces::find_room(self, contact, &outcome, time, surroundings) {
-                Some(found) => return pieces::break_up(self, contact, &outcome, found, time, approach),
-                None => return self.too_narrow(contact, bodies, whole, normal, time, approach),
-            }
+        Encounter {
+            contact,
+            time,
+            bodies: contact.spheres.map(|at| self.body(at as usize)),
+            distance,
+            normal,
+            approach: (a.velocity - b.velocity).dot(normal),
+            overlaps: length < (a.radius + b.radius) * (1.0 - 1e-9),
         }
-        self.carry_out(contact, &bodies, &outcome, distance, time, approach)
     }
 
-    /// The same impact where there is no room for pieces: those that would break stay whole.
-    fn too_narrow(
-        &mut self,
-        contact: Contact,
-        mut bodies: [Body; 2],
-        whole: [bool; 2],
-        normal: Vec3,
-        time: f64,
-        approach: f64,
-    ) -> Change {
+    /// The same impact where there is no room for `pieces`: those that would break stay whole.
+    fn stay_whole(&mut self, mut encounter: Encounter, pieces: [u32; 2]) -> Change {
         self.state.counts.no_room += 1;
         self.state.warnings.add("an agglomerate could not break: there was no room for its pieces");
-        for (body, is_whole) in bodies.iter_mut().zip(whole) {
-            if !is_whole {
+        for (body, pieces) in encounter.bodies.iter_mut().zip(pieces) {
+            if pieces > 1 {
                 body.primaries = 1;
             }
         }
-        let outcome = self.laws.impact([&bodies[0], &bodies[1]], normal);
-        let [a, b] = contact.spheres.map(|at| self.state.spheres.motion[at as usize].position);
-        let distance = (b - a) + contact.shift;
-        self.carry_out(contact, &bodies, &outcome, distance, time, approach)
+        let [a, b] = &encounter.bodies;
+        let outcome = self.laws.impact([a, b], encounter.normal);
+        self.carry_out(&encounter, &outcome)
     }
 
-    fn carry_out(
-        &mut self,
-        contact: Contact,
-        bodies: &[Body; 2],
-        outcome: &Outcome,
-        distance: Vec3,
-        time: f64,
-        approach: f64,
-    ) -> Change {
-        self.book(bodies, outcome);
-        let classes = contact.spheres.map(|at| self.state.spheres.bulk[at as usize].primaries);
+    fn carry_out(&mut self, encounter: &Encounter, outcome: &Outcome) -> Change {
+        self.book(encounter, outcome);
+        let classes = encounter.contact.spheres.map(|at| self.state.spheres.bulk[at as usize].primaries);
         self.state.rates.collide(classes, outcome.sticks);
-        for (at, k) in contact.spheres.into_iter().zip(0..) {
-            self.state.spheres.motion[at as usize].velocity = outcome.velocities[k];
-            let bulk = &mut self.state.spheres.bulk[at as usize];
-            bulk.temperature = outcome.temperatures[k];
-            bulk.bounced_at = time;
+        for side in [0, 1] {
+            self.settle(side, encounter, outcome);
         }
         if outcome.sticks {
-            self.merge(contact, outcome, distance, time, approach)
+            self.merge(encounter, outcome)
         } else {
             self.state.counts.bounces += 1;
             Change::Bounced
         }
     }
 
-    fn outcome(&mut self, places: [usize; 2], bodies: &[Body; 2], normal: Vec3, time: f64) -> Outcome {
-        let outcome = self.laws.impact([&bodies[0], &bodies[1]], normal);
+    /// Gives a partner that stays whole its new velocity and temperature.
+    pub(super) fn settle(&mut self, side: usize, encounter: &Encounter, outcome: &Outcome) {
+        let at = encounter.contact.spheres[side] as usize;
+        self.state.spheres.motion[at].velocity = outcome.velocities[side];
+        let bulk = &mut self.state.spheres.bulk[at];
+        bulk.temperature = outcome.temperatures[side];
+        bulk.bounced_at = encounter.time;
+    }
+
+    fn outcome(&mut self, encounter: &Encounter) -> Outcome {
+        let [a, b] = &encounter.bodies;
+        let outcome = self.laws.impact([a, b], encounter.normal);
         let bounces = !outcome.sticks && outcome.pieces == [1, 1] && outcome.restitution < 1.0;
-        let since = |at: usize| time - self.state.spheres.bulk[at].bounced_at;
-        if bounces && places.into_iter().any(|at| since(at) < self.contact_duration) {
+        let since = |at: u32| encounter.time - self.state.spheres.bulk[at as usize].bounced_at;
+        if bounces && encounter.contact.spheres.into_iter().any(|at| since(at) < self.contact_duration) {
             self.state.counts.guarded += 1;
-            return self.laws.elastic([&bodies[0], &bodies[1]], normal);
+            return self.laws.elastic([a, b], encounter.normal);
         }
         outcome
     }
@@ -195,8 +212,8 @@ impl Cloud {
         }
     }
 
-    pub(super) fn book(&mut self, bodies: &[Body; 2], outcome: &Outcome) {
-        let books = &mut self.state.books;
+    pub(super) fn book(&mut self, encounter: &Encounter, outcome: &Outcome) {
+        let (books, bodies) = (&mut self.state.books, &encounter.bodies);
         books.add(&outcome.energy);
         if bodies.iter().any(|body| body.heat_capacity == 0.0) {
             let kept = |k: usize| bodies[k].heat_capacity * (outcome.temperatures[k] - bodies[k].temperature);
@@ -210,8 +227,9 @@ impl Cloud {
         motion.position = motion.at(time);
         motion.time = time;
         if self.laws.cools() {
+            let (body, duration) = (self.body(at), time - self.state.spheres.bulk[at].heated_at);
             let (temperature, given_off) = self.cooled(at, time);
-            if self.laws.cooling_overshoots(&self.body(at), time - self.state.spheres.bulk[at].heated_at) {
+            if self.laws.cooling_overshoots(&body, duration) {
                 self.state.warnings.add("a published cooling step would fall to zero or below; it was held");
             }
             let bulk = &mut self.state.spheres.bulk[at];
@@ -243,17 +261,10 @@ impl Cloud {
         }
     }
 
-    fn merge(
-        &mut self,
-        contact: Contact,
-        outcome: &Outcome,
-        distance: Vec3,
-        time: f64,
-        approach: f64,
-    ) -> Change {
-        let [a, b] = contact.spheres;
+    fn merge(&mut self, encounter: &Encounter, outcome: &Outcome) -> Change {
+        let ([a, b], distance) = (encounter.contact.spheres, encounter.distance);
         let (kept, gone, to_gone) = if self.is_first(a, b) { (a, b, distance) } else { (b, a, -distance) };
-        let event = self.note(EventKind::Merge, contact, outcome, time, approach);
+        let event = self.note(EventKind::Merge, encounter, outcome);
         let [one, other] = [kept, gone].map(|at| self.body(at as usize));
         // From the centre of the one that stays, so that a large volume costs no digits.
         let (both, center) = merged([&one, &other], [Vec3::ZERO, to_gone]);
@@ -271,7 +282,7 @@ impl Cloud {
         bulk.bounced_at = f64::NEG_INFINITY;
         spheres.remove(gone);
         self.state.counts.merges += 1;
-        self.state.rates.merge([one.primaries, other.primaries], time);
+        self.state.rates.merge([one.primaries, other.primaries], encounter.time);
         let id = parents[0].id;
         self.descend(event, parents.map(|parent| (parent.id, id, parent.primaries, parent.mass)));
         Change::Merged { kept, gone }
@@ -287,29 +298,22 @@ impl Cloud {
     }
 
     /// Writes an event down and gives its number.
-    pub(super) fn note(
-        &mut self,
-        kind: EventKind,
-        contact: Contact,
-        outcome: &Outcome,
-        time: f64,
-        speed: f64,
-    ) -> u64 {
+    pub(super) fn note(&mut self, kind: EventKind, encounter: &Encounter, outcome: &Outcome) -> u64 {
         self.state.counts.events += 1;
         let number = self.state.counts.events;
         if self.keeps_events {
-            let mut partners = contact.spheres.map(|at| {
+            let mut partners = encounter.contact.spheres.map(|at| {
                 let bulk = &self.state.spheres.bulk[at as usize];
                 (bulk.id, bulk.mass)
             });
             partners.sort_unstable_by_key(|partner| partner.0);
             self.events.push(GrainEvent {
                 number,
-                time,
+                time: encounter.time,
                 kind,
                 grains: partners.map(|partner| partner.0),
                 masses: partners.map(|partner| partner.1),
-                speed,
+                speed: encounter.approach,
                 restitution: outcome.restitution,
                 energy: outcome.energy,
             });

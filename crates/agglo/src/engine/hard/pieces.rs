@@ -9,7 +9,7 @@ use crate::impact::Outcome;
 use crate::math::Vec3;
 use crate::math::rng::{Purpose, Stream};
 
-use super::cloud::{Change, Cloud, Contact, Surroundings};
+use super::cloud::{Change, Cloud, Encounter, Surroundings};
 use super::events::EventKind;
 use super::spheres::{Bulk, Sphere};
 
@@ -32,14 +32,14 @@ pub struct Piece {
     radius: f64,
 }
 
-/// Finds room for all pieces at `time` [s]; nothing is changed.
+/// Finds room for all pieces; nothing is changed.
 pub fn find_room(
     cloud: &Cloud,
-    contact: Contact,
+    encounter: &Encounter,
     outcome: &Outcome,
-    time: f64,
     surroundings: &dyn Surroundings,
 ) -> Option<Vec<Piece>> {
+    let contact = encounter.contact;
     let event = cloud.state.counts.fragmentations + cloud.state.counts.no_room;
     let mut stream = Stream::new(cloud.seed, Purpose::Fragment, event as u32);
     // The draws belong to places in space, not to the order in which the partners are named.
@@ -49,13 +49,13 @@ pub fn find_room(
     }
     let mut found: Vec<Piece> = Vec::new();
     for k in order {
-        let body = cloud.body(contact.spheres[k] as usize);
+        let body = &encounter.bodies[k];
         if outcome.pieces[k] < 2 {
             continue;
         }
-        let shares = cloud.laws.share_primaries(&body, outcome.pieces[k], &mut || stream.uniform());
+        let shares = cloud.laws.share_primaries(body, outcome.pieces[k], &mut || stream.uniform());
         let center = cloud.state.spheres.motion[contact.spheres[k] as usize].position;
-        let taken = taken_near(cloud, contact, k, outcome, time, surroundings);
+        let taken = taken_near(cloud, encounter, k, outcome, surroundings);
         let mut reach = body.radius;
         for primaries in shares {
             let radius = body.radius * (f64::from(primaries) / f64::from(body.primaries)).cbrt();
@@ -79,13 +79,12 @@ pub fn find_room(
 /// Spheres near partner `k` that pieces must keep clear of: (centre, radius), as seen from its place.
 fn taken_near(
     cloud: &Cloud,
-    contact: Contact,
+    encounter: &Encounter,
     k: usize,
     outcome: &Outcome,
-    time: f64,
     surroundings: &dyn Surroundings,
 ) -> Vec<(Vec3, f64)> {
-    let spheres = &cloud.state.spheres;
+    let (spheres, contact, time) = (&cloud.state.spheres, encounter.contact, encounter.time);
     let own = &spheres.motion[contact.spheres[k] as usize];
     let mut taken = Vec::new();
     surroundings.visit_near(spheres, own.position, FARTHEST * own.radius, time, &mut |at, center| {
@@ -114,18 +113,11 @@ fn in_ball(stream: &mut Stream) -> Vec3 {
 }
 
 /// Puts the pieces where there is room for them; the partners' places are given up, unless one stays whole.
-pub fn break_up(
-    cloud: &mut Cloud,
-    contact: Contact,
-    outcome: &Outcome,
-    found: Vec<Piece>,
-    time: f64,
-    approach: f64,
-) -> Change {
-    let bodies = contact.spheres.map(|at| cloud.body(at as usize));
-    cloud.book(&bodies, outcome);
+pub fn break_up(cloud: &mut Cloud, encounter: &Encounter, outcome: &Outcome, found: Vec<Piece>) -> Change {
+    let (contact, time, bodies) = (encounter.contact, encounter.time, &encounter.bodies);
+    cloud.book(encounter, outcome);
     cloud.state.rates.collide_and_break(bodies.map(|body| body.primaries));
-    let event = cloud.note(EventKind::Break, contact, outcome, time, approach);
+    let event = cloud.note(EventKind::Break, encounter, outcome);
     let parents = contact.spheres.map(|at| cloud.state.spheres.bulk[at as usize]);
     cloud.pieces.clear();
     for (k, at) in contact.spheres.into_iter().enumerate() {
@@ -136,9 +128,7 @@ pub fn break_up(
                 found.iter().filter(|piece| piece.parent == k).map(|piece| piece.primaries).collect();
             cloud.state.rates.shatter(bodies[k].primaries, &primaries, time);
         } else {
-            cloud.state.spheres.motion[at as usize].velocity = outcome.velocities[k];
-            cloud.state.spheres.bulk[at as usize].temperature = outcome.temperatures[k];
-            cloud.state.spheres.bulk[at as usize].bounced_at = time;
+            cloud.settle(k, encounter, outcome);
             cloud.pieces.push(at);
         }
     }
