@@ -33,6 +33,7 @@ use std::borrow::Cow;
 
 use serde::{Deserialize, Serialize};
 
+use crate::domain::{Boundary, Volume};
 use crate::engine::SimError;
 use crate::math::Vec3;
 use crate::neighbors::morton_code;
@@ -46,7 +47,6 @@ use super::search::{Candidate, Meeting, Seeker};
 use super::simulation::Clock;
 use super::spheres::Spheres;
 use super::types::EventDriven;
-use crate::domain::Boundary;
 
 /// Events between two looks at the clock.
 const BATCH: u32 = 10_000;
@@ -81,6 +81,19 @@ struct Filed {
     moment: f64,
 }
 
+impl Filed {
+    /// The same with a grid for the spheres as they are.
+    fn renewed(self, spheres: &Spheres) -> Self {
+        let diameter = |at: u32| 2.0 * spheres.motion[at as usize].radius;
+        let smallest = spheres.living().map(diameter).fold(f64::MAX, f64::min);
+        Self { smallest, spheres: spheres.len() as u64, ..self }
+    }
+
+    fn grid(&self, volume: &Volume) -> Grid {
+        Grid::new(volume, self.smallest, self.spheres as usize)
+    }
+}
+
 /// Drives hard spheres from event to event.
 #[derive(Clone, Debug)]
 pub struct Events {
@@ -110,27 +123,21 @@ impl EventDriven {
 impl Events {
     /// Starts at time zero.
     pub fn start(cloud: &mut Cloud) -> Self {
-        let mut events = Self {
-            agendas: Vec::new(),
-            grid: Grid::new(&cloud.volume, 1.0, 0),
-            queue: Queue::default(),
-            filed: Filed::default(),
-            scratch: Vec::new(),
-        };
-        events.file_anew(cloud, 0.0);
+        let filed = Filed::default().renewed(&cloud.state.spheres);
+        let mut events = Self::with(cloud, Vec::new(), filed);
+        events.file_all(cloud, 0.0);
         events
+    }
+
+    fn with(cloud: &Cloud, agendas: Vec<Agenda>, filed: Filed) -> Self {
+        let (grid, queue) = (filed.grid(&cloud.volume), Queue::default());
+        Self { agendas, grid, queue, filed, scratch: Vec::new() }
     }
 
     /// Goes on from what was remembered.
     pub fn resume(cloud: &Cloud, state: EventsState<'_>) -> Self {
         let filed = state.filed;
-        let mut events = Self {
-            agendas: state.agendas.into_owned(),
-            grid: Grid::new(&cloud.volume, filed.smallest, filed.spheres as usize),
-            queue: Queue::default(),
-            filed,
-            scratch: Vec::new(),
-        };
+        let mut events = Self::with(cloud, state.agendas.into_owned(), filed);
         events.link_all(cloud);
         for (level, speed) in (0..).zip(state.fastest) {
             events.grid.note_speed(level, speed);
@@ -235,7 +242,7 @@ impl Events {
         let next = agenda.exit;
         // The search looks through the face that was just passed.
         agenda.exit = exit;
-        let known = Meeting { time: agenda.collision, partner: agenda.partner, image: agenda.image };
+        let known = Meeting::known(agenda);
         let found = Seeker::new(&spheres.motion, &self.agendas, &self.grid, sphere, time, known)
             .look_ahead(&mut self.scratch);
         self.agendas[sphere as usize].exit = next;
@@ -307,8 +314,7 @@ impl Events {
             return Err(SimError::Outgrown { time, grain, diameter: 2.0 * motion.radius, edge });
         }
         let agenda = &mut self.agendas[sphere as usize];
-        agenda.level = self.grid.level_of(motion.radius);
-        agenda.cell = self.grid.cell_of(agenda.level, motion.at(time));
+        self.grid.seat(agenda, motion, time);
         self.grid.link(agenda, sphere);
         Ok(())
     }
@@ -369,22 +375,20 @@ impl Events {
         }
     }
 
-    /// Makes a grid for the spheres as they are, sorts them in memory, and lets all look for their next impacts.
+    /// Makes a grid for the spheres as they are.
     fn file_anew(&mut self, cloud: &mut Cloud, time: f64) {
+        self.filed = self.filed.renewed(&cloud.state.spheres);
+        self.grid = self.filed.grid(&cloud.volume);
+        self.file_all(cloud, time);
+    }
+
+    /// Sorts the spheres in memory and lets all look for their next impacts.
+    fn file_all(&mut self, cloud: &mut Cloud, time: f64) {
         let spheres = &cloud.state.spheres;
-        let smallest =
-            spheres.living().map(|at| 2.0 * spheres.motion[at as usize].radius).fold(f64::MAX, f64::min);
-        self.filed = Filed { smallest, spheres: spheres.len() as u64, ..self.filed };
-        self.grid = Grid::new(&cloud.volume, smallest, spheres.len());
         self.agendas.clear();
         self.agendas.resize(spheres.places(), Agenda::EMPTY);
-        for at in 0..spheres.places() {
-            if spheres.bulk[at].lives() {
-                let motion = &spheres.motion[at];
-                let agenda = &mut self.agendas[at];
-                agenda.level = self.grid.level_of(motion.radius);
-                agenda.cell = self.grid.cell_of(agenda.level, motion.at(time));
-            }
+        for at in spheres.living() {
+            self.grid.seat(&mut self.agendas[at as usize], &spheres.motion[at as usize], time);
         }
         self.sort(cloud);
         self.link_all(cloud);
@@ -393,7 +397,7 @@ impl Events {
             let agenda = &mut self.agendas[sphere as usize];
             (agenda.crossing, agenda.exit) = self.grid.exit(agenda, &motion[sphere as usize], time);
             // Who was found by an earlier one may find someone sooner.
-            let known = Meeting { time: agenda.collision, partner: agenda.partner, image: agenda.image };
+            let known = Meeting::known(agenda);
             let found = Seeker::new(motion, &self.agendas, &self.grid, sphere, time, known)
                 .look_around(&mut self.scratch);
             if found != known {

@@ -13,7 +13,7 @@ use crate::domain::{Boundary, Volume};
 use crate::math::{Vec3, prefetch};
 
 use super::agenda::{Agenda, Exit, NONE};
-use super::level::{BLOCK, Level, SLACK};
+use super::level::{Level, SLACK};
 use super::spheres::Sphere;
 
 /// Cells of the second coarsest level along the shortest edge, at least, if there are as many at all.
@@ -46,6 +46,29 @@ struct Line {
 impl Line {
     fn as_slice(&self) -> &[(u32, i8)] {
         &self.cells[..self.len]
+    }
+}
+
+/// Cells about a cell: from `cell + from` to `cell + to`, at most three along each axis.
+#[derive(Clone, Copy, Debug)]
+struct Block {
+    cell: [i32; 3],
+    from: [i32; 3],
+    to: [i32; 3],
+}
+
+impl Block {
+    /// A cell and the 26 about it.
+    fn around(cell: [i32; 3]) -> Self {
+        Self { cell, from: [-1; 3], to: [1; 3] }
+    }
+
+    /// The nine cells ahead of a cell that was entered the way that `exit` says.
+    fn ahead(cell: [i32; 3], exit: Exit) -> Self {
+        let mut block = Self::around(cell);
+        let (axis, side) = (exit.axis as usize, i32::from(exit.side));
+        (block.from[axis], block.to[axis]) = (side, side);
+        block
     }
 }
 
@@ -83,16 +106,17 @@ impl Grid {
 
     /// Empties all cells.
     pub fn clear(&mut self) {
-        for level in &mut self.levels {
-            level.heads.fill(NONE);
-            level.occupied.fill(0);
-            level.population = 0;
-            level.fastest = 0.0;
-        }
+        self.levels.iter_mut().for_each(Level::clear);
+    }
+
+    /// Seats a sphere in the level and the cell where it is at a time [s]; it is not filed there yet.
+    pub fn seat(&self, agenda: &mut Agenda, sphere: &Sphere, time: f64) {
+        agenda.level = self.level_of(sphere.radius);
+        agenda.cell = self.cell_of(agenda.level, sphere.at(time));
     }
 
     /// Level for spheres of a radius [m].
-    pub fn level_of(&self, radius: f64) -> u8 {
+    fn level_of(&self, radius: f64) -> u8 {
         let fits = |level: &Level| 2.0 * radius <= level.widest();
         (self.levels.iter().rposition(fits).unwrap_or(0)) as u8
     }
@@ -151,25 +175,20 @@ impl Grid {
         };
         let flat = level.flat(cell);
         agenda.flat = flat;
-        self.after[sphere as usize] = std::mem::replace(&mut level.heads[flat as usize], sphere);
-        level.occupied[flat as usize / BLOCK] |= 1 << (flat as usize % BLOCK);
-        level.population += 1;
+        self.after[sphere as usize] = level.put_first(flat, sphere);
     }
 
     /// Takes a sphere out of its cell.
     #[inline]
     pub fn unlink(&mut self, agenda: &Agenda, sphere: u32) {
         let level = &mut self.levels[agenda.level as usize];
-        let (flat, after) = (agenda.flat as usize, self.after[sphere as usize]);
-        level.population -= 1;
-        let mut at = level.heads[flat];
+        let (flat, after) = (agenda.flat, self.after[sphere as usize]);
+        let mut at = level.heads[flat as usize];
         if at == sphere {
-            level.heads[flat] = after;
-            if after == NONE {
-                level.occupied[flat / BLOCK] &= !(1 << (flat % BLOCK));
-            }
+            level.take_first(flat, after);
             return;
         }
+        level.population -= 1;
         while self.after[at as usize] != sphere {
             at = self.after[at as usize];
         }
@@ -275,7 +294,7 @@ impl Grid {
     /// Visits the spheres of one cell.
     #[inline(always)]
     fn visit_cell(&self, level: &Level, flat: u32, image: [i8; 3], visit: &mut impl FnMut(u32, [i8; 3])) {
-        if level.occupied[flat as usize / BLOCK] >> (flat as usize % BLOCK) & 1 == 0 {
+        if !level.is_occupied(flat) {
             return;
         }
         let mut sphere = level.heads[flat as usize];
@@ -285,22 +304,15 @@ impl Grid {
         }
     }
 
-    /// Visits the cells from `cell + from` to `cell + to`, at most three along each axis.
+    /// The cells of a block: their numbers, and the edges to add to positions there.
     #[inline(always)]
-    fn visit_block(
-        &self,
-        level: &Level,
-        cell: [i32; 3],
-        from: [i32; 3],
-        to: [i32; 3],
-        visit: &mut impl FnMut(u32, [i8; 3]),
-    ) {
-        let line = |axis: usize| self.line(level, axis, cell[axis], from[axis], to[axis]);
+    fn each_cell(&self, level: &Level, block: &Block, mut visit: impl FnMut(u32, [i8; 3])) {
+        let line = |axis: usize| self.line(level, axis, block.cell[axis], block.from[axis], block.to[axis]);
         let lines = [line(0), line(1), line(2)];
         for &(z, image_z) in lines[2].as_slice() {
             for &(y, image_y) in lines[1].as_slice() {
                 for &(x, image_x) in lines[0].as_slice() {
-                    self.visit_cell(level, x + y + z, [image_x, image_y, image_z], visit);
+                    visit(x + y + z, [image_x, image_y, image_z]);
                 }
             }
         }
@@ -310,31 +322,18 @@ impl Grid {
     #[inline(always)]
     fn each_cell_in_view(&self, agenda: &Agenda, mut visit: impl FnMut(&Level, u32)) {
         let Some(level) = self.levels.get(agenda.level as usize) else { return };
-        let (mut from, mut to) = ([-1; 3], [1; 3]);
-        if agenda.crossing < agenda.collision {
-            let (axis, side) = (agenda.exit.axis as usize, i32::from(agenda.exit.side));
-            (from[axis], to[axis]) = (2 * side, 2 * side);
-        }
-        let inside = |axis: usize| {
-            let (along, count) = (agenda.cell[axis], level.counts[axis]);
-            along > 1 && along < count - 2
+        let block = if agenda.crossing < agenda.collision {
+            let mut next = agenda.cell;
+            next[agenda.exit.axis as usize] += i32::from(agenda.exit.side);
+            Block::ahead(next, agenda.exit)
+        } else {
+            Block::around(agenda.cell)
         };
-        // At the faces of the volume it is not worth the trouble.
-        if !(inside(0) && inside(1) && inside(2)) {
-            return;
-        }
-        for z in from[2]..=to[2] {
-            let part_z = level.part(2, (agenda.cell[2] + z) as u32);
-            for y in from[1]..=to[1] {
-                let part_y = level.part(1, (agenda.cell[1] + y) as u32);
-                for x in from[0]..=to[0] {
-                    let flat = level.part(0, (agenda.cell[0] + x) as u32) + part_y + part_z;
-                    if level.occupied[flat as usize / BLOCK] >> (flat as usize % BLOCK) & 1 == 1 {
-                        visit(level, flat);
-                    }
-                }
+        self.each_cell(level, &block, |flat, _| {
+            if level.is_occupied(flat) {
+                visit(level, flat);
             }
-        }
+        });
     }
 
     /// Fetches from memory the cells that a sphere will look into at its next event.
@@ -378,7 +377,9 @@ impl Grid {
             let is_own = number == agenda.level as usize;
             let cell =
                 if is_own { agenda.cell } else { self.coarser_cell(agenda.cell, agenda.level, number) };
-            self.visit_block(level, cell, [-1; 3], [1; 3], &mut visit);
+            self.each_cell(level, &Block::around(cell), |flat, image| {
+                self.visit_cell(level, flat, image, &mut visit);
+            });
         }
     }
 
@@ -401,9 +402,9 @@ impl Grid {
                     return;
                 }
             }
-            let (mut from, mut to) = ([-1; 3], [1; 3]);
-            (from[axis], to[axis]) = (side, side);
-            self.visit_block(level, cell, from, to, &mut visit);
+            self.each_cell(level, &Block::ahead(cell, exit), |flat, image| {
+                self.visit_cell(level, flat, image, &mut visit);
+            });
         }
     }
 

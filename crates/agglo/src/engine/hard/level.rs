@@ -7,7 +7,7 @@ use crate::math::Vec3;
 use super::agenda::NONE;
 
 /// Cells of a block, which share a word of bits.
-pub const BLOCK: usize = 64;
+const BLOCK: usize = 64;
 
 /// Cells are this much wider than the spheres that they are for, so that rounding cannot let a neighbour slip.
 pub const SLACK: f64 = 1.0 + 1e-9;
@@ -23,7 +23,7 @@ pub struct Level {
     /// First sphere of each cell.
     pub heads: Vec<u32>,
     /// Which cells hold any, a bit for each: small enough to stay near the processor.
-    pub occupied: Vec<u64>,
+    occupied: Vec<u64>,
     /// What one block further along an axis adds to a cell's number.
     strides: [u32; 3],
     /// Spheres in it.
@@ -72,6 +72,38 @@ impl Level {
     #[inline(always)]
     pub fn part(&self, axis: usize, along: u32) -> u32 {
         (along >> 2) * self.strides[axis] + ((along & 3) << (2 * axis))
+    }
+
+    /// Empties all cells.
+    pub fn clear(&mut self) {
+        self.heads.fill(NONE);
+        self.occupied.fill(0);
+        self.population = 0;
+        self.fastest = 0.0;
+    }
+
+    /// Puts a sphere first into a cell and gives the one that was first.
+    #[inline]
+    pub fn put_first(&mut self, flat: u32, sphere: u32) -> u32 {
+        self.population += 1;
+        self.occupied[flat as usize / BLOCK] |= 1 << (flat as usize % BLOCK);
+        std::mem::replace(&mut self.heads[flat as usize], sphere)
+    }
+
+    /// Takes the first sphere out of a cell; `next` is first then.
+    #[inline]
+    pub fn take_first(&mut self, flat: u32, next: u32) {
+        self.population -= 1;
+        self.heads[flat as usize] = next;
+        if next == NONE {
+            self.occupied[flat as usize / BLOCK] &= !(1 << (flat as usize % BLOCK));
+        }
+    }
+
+    /// Whether a cell holds any sphere.
+    #[inline(always)]
+    pub fn is_occupied(&self, flat: u32) -> bool {
+        self.occupied[flat as usize / BLOCK] >> (flat as usize % BLOCK) & 1 == 1
     }
 
     /// Number of a cell.

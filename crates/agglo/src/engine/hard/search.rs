@@ -32,6 +32,11 @@ pub struct Meeting {
 impl Meeting {
     /// No impact.
     pub const NEVER: Self = Self { time: f64::INFINITY, partner: NONE, image: [0; 3] };
+
+    /// The one that an agenda says.
+    pub fn known(agenda: &Agenda) -> Self {
+        Self { time: agenda.collision, partner: agenda.partner, image: agenda.image }
+    }
 }
 
 /// Time [s] from now until two spheres meet (E1); infinite if they do not. `distance` goes from the first to the second
