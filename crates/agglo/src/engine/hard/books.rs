@@ -166,6 +166,11 @@ impl Books {
         }
     }
 
+    /// What walls do not explain of a momentum [kg m/s] now.
+    pub fn momentum_drift(&self, momentum: Vec3) -> Vec3 {
+        momentum - self.momentum_at_start - self.flows.walls
+    }
+
     /// Adds the energies of an impact. The sums are compensated (W. Kahan, Commun. ACM 8, 40 (1965)): in a gas that has cooled,
     /// millions of impacts each lose less than the last digit of the sum.
     pub fn add(&mut self, energy: &ImpactEnergy) {

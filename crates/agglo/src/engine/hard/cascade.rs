@@ -7,8 +7,8 @@ use crate::domain::Boundary;
 use crate::engine::SimError;
 use crate::math::Vec3;
 
+use super::approach::Approach;
 use super::cloud::{Change, Cloud, Contact};
-use super::meeting::Meeting;
 use super::near::Near;
 
 /// Told when a pair has to wait.
@@ -71,7 +71,7 @@ impl Cascade {
     #[inline]
     pub fn offer(&mut self, cloud: &Cloud, contact: Contact) {
         let spheres = &cloud.state.spheres;
-        if let Some(touching) = Meeting::of(spheres, &contact).touching_for() {
+        if let Some(touching) = Approach::of(spheres, &contact).touching_for() {
             let mut centers = contact.spheres.map(|at| spheres.motion[at as usize].position);
             centers.sort_unstable_by(Vec3::total_cmp);
             let stamps = contact.spheres.map(|at| self.stamps[at as usize]);
@@ -92,7 +92,7 @@ impl Cascade {
     ) -> Result<u64, SimError> {
         while let Some(Candidate { contact, stamps, .. }) = self.waiting.pop() {
             let is_void = contact.spheres.map(|at| self.stamps[at as usize]) != stamps;
-            if is_void || Meeting::of(&cloud.state.spheres, &contact).touching_for().is_none() {
+            if is_void || Approach::of(&cloud.state.spheres, &contact).touching_for().is_none() {
                 continue;
             }
             let mut pair = contact.spheres;
@@ -170,8 +170,7 @@ fn check(cloud: &Cloud, places: &[u32], time: f64) -> Result<(), SimError> {
         }
         let is_finite = motion.velocity.norm_squared().is_finite() && motion.position.is_finite();
         if !is_finite || !bulk.temperature.is_finite() {
-            let laws = cloud.laws.names().join(", ");
-            return Err(SimError::ImpactNotFinite { time, grain: bulk.id, laws });
+            return Err(cloud.not_finite(at, time));
         }
         let diameter = 2.0 * motion.radius;
         let edge = cloud.volume.edges().to_array().into_iter().fold(f64::INFINITY, f64::min);

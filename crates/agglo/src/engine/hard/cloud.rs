@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::domain::Volume;
-use crate::engine::Warnings;
+use crate::engine::{SimError, Warnings};
 use crate::impact::sticking::merged;
 use crate::impact::{Body, ImpactLaws, Outcome};
 use crate::math::Vec3;
@@ -333,6 +333,12 @@ impl Cloud {
                 mass,
             }));
         }
+    }
+
+    /// The error of a sphere whose motion is not finite at `time` [s].
+    pub(super) fn not_finite(&self, at: u32, time: f64) -> SimError {
+        let grain = self.state.spheres.bulk[at as usize].id;
+        SimError::ImpactNotFinite { time, grain, laws: self.laws.names().join(", ") }
     }
 
     /// Lets a sphere bounce off a smooth wall whose inward normal is along `axis`, and books the momentum.

@@ -325,8 +325,7 @@ impl Events {
         let motion = &spheres.motion[at];
         let speed = motion.velocity.norm();
         if !(speed.is_finite() && motion.position.is_finite()) {
-            let laws = cloud.laws.names().join(", ");
-            return Err(SimError::ImpactNotFinite { time, grain: spheres.bulk[at].id, laws });
+            return Err(cloud.not_finite(sphere, time));
         }
         self.leave_partner(sphere);
         let agenda = &mut self.agendas[at];

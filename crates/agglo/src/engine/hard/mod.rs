@@ -1,6 +1,7 @@
 //! Hard spheres that impact, stick and break, in a control volume.
 
 mod agenda;
+mod approach;
 mod around;
 pub mod books;
 mod cascade;
@@ -12,7 +13,7 @@ mod events;
 mod grid;
 mod homogenised;
 mod level;
-mod meeting;
+
 mod near;
 mod nearest;
 mod pieces;

@@ -16,7 +16,7 @@ use super::books::{self, Balance, Books, Counts};
 use super::cloud::{Cloud, CloudState};
 use super::event_driven::{Events, EventsState};
 use super::spheres::Spheres;
-use super::time_stepped::{Steps, StepsState};
+use super::time_stepped::Steps;
 
 /// Where the simulation stands in time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -40,7 +40,8 @@ enum Driver {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 enum DriverState<'a> {
     Events(EventsState<'a>),
-    Steps(StepsState),
+    /// Nothing: the next step follows from the spheres.
+    Steps,
 }
 
 /// All that a simulation needs to go on with the same bits; borrowed where it is written, owned where it is read.
@@ -124,7 +125,7 @@ impl Simulation {
                 cloud.contact_duration = options.duration(&cloud.state.spheres);
                 Driver::Events(Box::new(Events::start(&mut cloud)))
             }
-            Engine::TimeStepped(options) => Driver::Steps(Box::new(Steps::start(options, &mut cloud))),
+            Engine::TimeStepped(options) => Driver::Steps(Box::new(Steps::new(options))),
             Engine::Staggered(_) | Engine::Verlet(_) => return Err(SimError::NoImpact),
         };
         Ok(Self { cloud, driver, clock: Clock::default(), grains_at_start, end: scenario.time.end.si() })
@@ -141,8 +142,8 @@ impl Simulation {
             (Engine::EventDriven(_), DriverState::Events(saved)) => {
                 Driver::Events(Box::new(Events::resume(&cloud, saved)))
             }
-            (Engine::TimeStepped(options), DriverState::Steps(saved)) => {
-                Driver::Steps(Box::new(Steps::resume(options, &cloud, saved)))
+            (Engine::TimeStepped(options), DriverState::Steps) => {
+                Driver::Steps(Box::new(Steps::new(options)))
             }
             _ => return Err(SimError::NoImpact),
         };
@@ -171,7 +172,7 @@ impl Simulation {
             cloud: Cow::Borrowed(&self.cloud.state),
             driver: match &self.driver {
                 Driver::Events(events) => DriverState::Events(events.state()),
-                Driver::Steps(steps) => DriverState::Steps(steps.state()),
+                Driver::Steps(_) => DriverState::Steps,
             },
             grains_at_start: self.grains_at_start,
             contact_duration: self.cloud.contact_duration,
@@ -264,7 +265,10 @@ impl Simulation {
     /// Momentum that walls do not explain, over the sum of the momenta's sizes at the start.
     pub fn momentum_drift_relative(&self) -> f64 {
         let books = &self.cloud.state.books;
-        let drift = self.momentum() - books.momentum_at_start - books.flows.walls;
-        if books.momentum_size_at_start > 0.0 { drift.norm() / books.momentum_size_at_start } else { 0.0 }
+        if books.momentum_size_at_start > 0.0 {
+            books.momentum_drift(self.momentum()).norm() / books.momentum_size_at_start
+        } else {
+            0.0
+        }
     }
 }

@@ -54,25 +54,19 @@
 //! assert!((half_way - 5e-6).abs() < 1e-18);
 //! ```
 
-use serde::{Deserialize, Serialize};
-
 use crate::domain::Boundary;
 use crate::engine::SimError;
 use crate::math::Vec3;
 
+use super::approach::Approach;
 use super::cascade::Cascade;
 use super::cloud::Cloud;
-use super::meeting::Meeting;
 use super::near::Near;
 use super::nearest::Nearest;
 use super::simulation::Clock;
 use super::spheres::Spheres;
 use super::types::{Pairs, TimeStepped};
 use super::walls;
-
-/// What the driver has to remember: nothing. Whatever it keeps from step to step only spares work.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct StepsState {}
 
 /// Speeds of all spheres.
 #[derive(Clone, Copy, Debug)]
@@ -97,17 +91,8 @@ pub struct Steps {
 }
 
 impl Steps {
-    /// Starts at time zero.
-    pub fn start(options: &TimeStepped, _cloud: &mut Cloud) -> Self {
-        Self::new(options)
-    }
-
-    /// Goes on from what was remembered.
-    pub fn resume(options: &TimeStepped, _cloud: &Cloud, _state: StepsState) -> Self {
-        Self::new(options)
-    }
-
-    fn new(options: &TimeStepped) -> Self {
+    /// Starts, or goes on: whatever it keeps from step to step only spares work.
+    pub fn new(options: &TimeStepped) -> Self {
         Self {
             options: options.clone(),
             // Found by trial with a thousand spheres: nearest neighbours are farther away than the first to touch.
@@ -117,12 +102,6 @@ impl Steps {
             speeds: None,
             nearest_is_known: false,
         }
-    }
-
-    /// What has to be remembered.
-    #[expect(clippy::unused_self, reason = "the two drivers are asked alike")]
-    pub fn state(&self) -> StepsState {
-        StepsState {}
     }
 
     /// Makes one step, which does not pass `end` [s].
@@ -173,7 +152,7 @@ impl Steps {
             let times = self
                 .near
                 .contacts()
-                .map(|contact| Meeting::of(spheres, &contact).time_left(self.options.distance));
+                .map(|contact| Approach::of(spheres, &contact).time_left(self.options.distance));
             let shortest = times.fold(f64::INFINITY, f64::min);
             let unseen = if speeds.apart > 0.0 { self.near.slack() / speeds.apart } else { f64::INFINITY };
             if shortest.min(enough) <= unseen || !self.near.widen(spheres, &cloud.volume) {
@@ -190,7 +169,7 @@ impl Steps {
             self.nearest.find(spheres, &self.near, &cloud.volume);
         }
         let contacts = self.nearest.contacts().iter();
-        let times = contacts.map(|contact| Meeting::of(spheres, contact).time_left(self.options.distance));
+        let times = contacts.map(|contact| Approach::of(spheres, contact).time_left(self.options.distance));
         times.fold(f64::INFINITY, f64::min)
     }
 
@@ -258,8 +237,7 @@ impl Speeds {
         let spheres: &Spheres = &cloud.state.spheres;
         let velocity = |at: u32| spheres.motion[at as usize].velocity;
         if let Some(at) = spheres.living().find(|at| !velocity(*at).norm_squared().is_finite()) {
-            let laws = cloud.laws.names().join(", ");
-            return Err(SimError::ImpactNotFinite { time, grain: spheres.bulk[at as usize].id, laws });
+            return Err(cloud.not_finite(at, time));
         }
         let first = spheres.living().next().map_or(Vec3::ZERO, velocity);
         let (low, high) = spheres

@@ -1,49 +1,19 @@
 use super::*;
+use crate::engine::hard::test_clouds::{self, BOUNDARIES, Grain, particles, start};
 use crate::engine::hard::{Contact, Distance, Simulation, SimulationState};
-use crate::math::rng::{Purpose, Stream};
-use crate::particles::{Particles, Row};
 use crate::scenario::Scenario;
+use crate::units::Quantity;
 
-const DENSITY: f64 = 1000.0;
 const SOUND: &str = "shortest_step = \"10 ns\"";
 const ELASTIC: &str = "[impact.restitution.constant]\nrestitution = 1.0";
 const STICKY: &str = "[impact.restitution.constant]\nrestitution = 0.0";
 
 /// A cube of 2 cm about the origin.
 fn scenario(boundary: &str, engine: &str, impact: &str, end: f64) -> Scenario {
-    let text = format!(
-        "version = 1\ntime.end = \"{end:e} s\"\n[engine.time_stepped]\n{engine}\n\
-         [materials.stone]\ndensity = \"1000 kg/m3\"\nheat_capacity = \"1000 J/kg/K\"\nsurface_energy = \"1 J/m^2\"\n\
-         emissivity = 0.5\n\
-         [[grains]]\nmaterial = \"stone\"\nsize.constant.radius = \"1 mm\"\nplacement.table.file = \"none\"\n\
-         [volume]\nlower = [\"-1 cm\", \"-1 cm\", \"-1 cm\"]\nupper = [\"1 cm\", \"1 cm\", \"1 cm\"]\n\
-         boundary = \"{boundary}\"\n{impact}\n"
-    );
-    toml::from_str(&text).unwrap()
-}
-
-/// (position, velocity, radius).
-type Grain = ([f64; 3], [f64; 3], f64);
-
-fn particles(grains: &[Grain]) -> Particles {
-    let mut particles = Particles::default();
-    for (&(position, velocity, radius), id) in grains.iter().zip(0..) {
-        particles.push(Row {
-            id,
-            position: position.into(),
-            velocity: velocity.into(),
-            radius,
-            mass: DENSITY * 4.0 / 3.0 * std::f64::consts::PI * radius * radius * radius,
-            temperature: 300.0,
-            polarity: 1.0,
-            ..Row::default()
-        });
-    }
-    particles
-}
-
-fn start(scenario: &Scenario, grains: &[Grain]) -> Simulation {
-    Simulation::start(scenario, &particles(grains)).unwrap()
+    let engine = format!("[engine.time_stepped]\n{engine}");
+    let mut scenario = test_clouds::scenario(&engine, boundary, impact);
+    scenario.time.end = Quantity(end);
+    scenario
 }
 
 fn run(simulation: &mut Simulation) {
@@ -54,19 +24,7 @@ fn run(simulation: &mut Simulation) {
 
 /// Grains that do not overlap, of radii up to 1 : `ratio`, with velocities up to 20 m/s.
 fn crowd(n: usize, largest: f64, ratio: f64, seed: u64) -> Vec<Grain> {
-    let mut stream = Stream::new(seed, Purpose::Sampling, 0);
-    let mut grains: Vec<Grain> = Vec::new();
-    while grains.len() < n {
-        let mut between = |low: f64, high: f64| low + (high - low) * stream.uniform();
-        let radius = largest * ratio.powf(-between(0.0, 1.0));
-        let position = [(); 3].map(|()| between(-0.01 + radius, 0.01 - radius));
-        let velocity = [(); 3].map(|()| between(-20.0, 20.0));
-        let clear = |other: &Grain| (Vec3::from(other.0) - Vec3::from(position)).norm() > other.2 + radius;
-        if grains.iter().all(clear) {
-            grains.push((position, velocity, radius));
-        }
-    }
-    grains
+    test_clouds::crowd(n, largest, ratio, 0.0, seed)
 }
 
 /// All bits of a state but the names, in the order of the places.
@@ -307,7 +265,7 @@ fn steps_are_as_long_as_all_pairs_allow() {
                     (simulation.cloud().clone(), Speeds::of(simulation.cloud(), 0.0).unwrap());
                 let spheres = &cloud.state.spheres;
                 let mut least: f64 = images(spheres, boundary)
-                    .map(|contact| Meeting::of(spheres, &contact).time_left(Distance::Gap))
+                    .map(|contact| Approach::of(spheres, &contact).time_left(Distance::Gap))
                     .fold(f64::INFINITY, f64::min);
                 let spacing = (8e-6 / spheres.len() as f64).cbrt();
                 let reach = if boundary == "periodic" { (4.0 * spacing).min(0.02) } else { 4.0 * spacing };
@@ -341,12 +299,12 @@ fn nearest_neighbours_against_brute_force() {
             for at in spheres.living() {
                 let squares = images(spheres, boundary)
                     .filter(|contact| contact.spheres.contains(&at))
-                    .map(|contact| Meeting::of(spheres, &contact).distance_squared());
+                    .map(|contact| Approach::of(spheres, &contact).distance_squared());
                 let least = squares.fold(f64::INFINITY, f64::min);
                 // Rounded once, for the sign of the shift.
                 let is_it = |contact: &Contact| {
                     contact.spheres.contains(&at)
-                        && (Meeting::of(spheres, contact).distance_squared() / least - 1.0).abs() < 1e-12
+                        && (Approach::of(spheres, contact).distance_squared() / least - 1.0).abs() < 1e-12
                 };
                 assert!(nearest.contacts().iter().any(is_it), "{at} of {n} in {boundary}");
             }
@@ -382,16 +340,15 @@ fn books_close() {
 const LIVELY: &str = "[impact]\nfragmentation = {}\n[impact.restitution.constant]\nrestitution = 0.0\n\
                       [impact.tangential]\nfriction = 0.2";
 
+/// Engines and laws that differ in all that a step does.
+const WAYS: [(&str, &str); 4] =
+    [(SOUND, ELASTIC), (SOUND, LIVELY), ("pairs = \"nearest\"", STICKY), ("distance = \"centers\"", STICKY)];
+
 /// The order in memory decides nothing.
 #[test]
 fn grains_in_any_order_have_the_same_bits() {
-    for boundary in ["periodic", "reflecting", "antipodal", "open"] {
-        for (engine, impact) in [
-            (SOUND, ELASTIC),
-            (SOUND, LIVELY),
-            ("pairs = \"nearest\"", STICKY),
-            ("distance = \"centers\"", STICKY),
-        ] {
+    for boundary in BOUNDARIES {
+        for (engine, impact) in WAYS {
             let scenario = scenario(boundary, engine, impact, 0.3e-3);
             let grains = crowd(120, 1e-3, 3.0, 2);
             let shuffled: Vec<Grain> = (0..120).map(|k| grains[k * 49 % 120]).collect();
@@ -410,13 +367,8 @@ fn grains_in_any_order_have_the_same_bits() {
 /// A run that is written down and read back after every few steps goes the same way to the last bit.
 #[test]
 fn resumed_runs_are_the_same_runs() {
-    for boundary in ["periodic", "reflecting", "antipodal", "open"] {
-        for (engine, impact) in [
-            (SOUND, ELASTIC),
-            (SOUND, LIVELY),
-            ("pairs = \"nearest\"", STICKY),
-            ("distance = \"centers\"", STICKY),
-        ] {
+    for boundary in BOUNDARIES {
+        for (engine, impact) in WAYS {
             let scenario = scenario(boundary, engine, impact, 0.2e-3);
             let mut simulation = start(&scenario, &crowd(120, 1e-3, 3.0, 2));
             let mut resumed = simulation.clone();

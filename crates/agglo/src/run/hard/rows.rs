@@ -201,9 +201,7 @@ fn energy(time: f64, balance: &Balance) -> Vec<f64> {
 
 fn momentum(simulation: &Simulation) -> Vec<f64> {
     let (now, books) = (simulation.momentum(), &simulation.cloud().state.books);
-    let walls = books.flows.walls;
-    let drift = now - books.momentum_at_start - walls;
-    let vectors = [now, walls, drift];
+    let vectors = [now, books.flows.walls, books.momentum_drift(now)];
     std::iter::once(simulation.clock().time).chain(vectors.into_iter().flat_map(Vec3::to_array)).collect()
 }
 

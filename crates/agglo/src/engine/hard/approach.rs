@@ -11,7 +11,7 @@ const ROUNDING: f64 = 1e-12;
 
 /// A pair on its way.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Meeting {
+pub(super) struct Approach {
     /// From the first centre to the second [m].
     between: Vec3,
     /// Velocity of the second relative to the first [m/s].
@@ -22,7 +22,7 @@ pub(super) struct Meeting {
     closing: f64,
 }
 
-impl Meeting {
+impl Approach {
     /// Looks at a pair; all bits turn round when the partners are swapped.
     #[inline]
     pub fn of(spheres: &Spheres, contact: &Contact) -> Self {
