@@ -42,6 +42,15 @@ impl Medium {
         self.density.si() * self.sound_speed.si()
     }
 
+    /// Re = 2 R rho v/eta of a sphere of `radius` [m] at `speed` [m/s] relative to the medium; nothing where that has no
+    /// viscosity. The flow about it is Stokes's below 1 (R. Clift, J. R. Grace and M. E. Weber, *Bubbles, Drops, and
+    /// Particles* (1978), chapter 5).
+    #[inline]
+    pub fn reynolds_number(&self, radius: f64, speed: f64) -> Option<f64> {
+        let viscosity = self.viscosity.si();
+        (viscosity > 0.0).then(|| 2.0 * radius * self.density.si() * speed / viscosity)
+    }
+
     /// k a = 2 pi f R/c of sound of a `frequency` [Hz] at a grain of `radius` [m]: rays hold where it is large.
     ///
     /// Below about 10 diffraction matters; far below 1 rays mean nothing and the grain moves with the wave. In
@@ -55,5 +64,21 @@ impl Medium {
     /// ```
     pub fn wavenumber_radius(&self, frequency: f64, radius: f64) -> f64 {
         std::f64::consts::TAU * frequency * radius / self.sound_speed.si()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::units::Quantity;
+
+    /// 1 mm of radius at 0.5 m/s in water: 2e-3 m * 1000 kg/m³ * 0.5 m/s/1e-3 Pa s = 1000. To the rounding of four
+    /// products.
+    #[test]
+    fn reynolds_by_hand() {
+        let found = Medium::default().reynolds_number(1e-3, 0.5).unwrap();
+        assert!((found - 1000.0).abs() < 1e-11, "{found}");
+        let inviscid = Medium { viscosity: Quantity(0.0), ..Medium::default() };
+        assert_eq!(inviscid.reynolds_number(1e-3, 0.5), None);
     }
 }

@@ -125,11 +125,10 @@ impl Drag {
     }
 }
 
-/// 2 R ρ v/η; 0 in a medium without viscosity, which exerts no drag.
+/// Reynolds number; 0 in a medium without viscosity, which exerts no drag.
 #[inline]
 fn reynolds(medium: &Medium, radius: f64, speed: f64) -> f64 {
-    let viscosity = medium.viscosity.si();
-    if viscosity > 0.0 { 2.0 * radius * medium.density.si() * speed / viscosity } else { 0.0 }
+    medium.reynolds_number(radius, speed).unwrap_or(0.0)
 }
 
 #[cfg(test)]

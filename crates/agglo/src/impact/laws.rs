@@ -66,11 +66,7 @@ impl ImpactLaws {
         let mut pairs = Vec::with_capacity(names.len() * names.len());
         for a in &names {
             for b in &names {
-                let own = scenario.mixtures.iter().find(|mixture| {
-                    let [c, d] = &mixture.between;
-                    (c == *a && d == *b) || (c == *b && d == *a)
-                });
-                pairs.push(pair_law(&impact, own));
+                pairs.push(pair_law(&impact, Mixture::of(&scenario.mixtures, a, b)));
             }
         }
         let hardness = match &impact.restitution {
@@ -277,13 +273,9 @@ fn pair_law(impact: &Impact, own: Option<&Mixture>) -> PairLaw {
 }
 
 fn matter(impact: &Impact, material: &Material) -> Matter {
-    let activation = material.activation_energy.map_or(0.0, Quantity::si);
-    let hardness = material
-        .hardness
-        .map_or_else(softening::Hardness::infinite, |limit| softening::Hardness::new(limit.si(), activation));
     let emissivity = material.emissivity.unwrap_or(0.0);
     Matter {
-        hardness,
+        hardness: softening::Hardness::of(material).unwrap_or_else(softening::Hardness::infinite),
         reaction_heat: material.reaction_heat.map_or(0.0, Quantity::si),
         surface_energy: material.surface_energy.map(Quantity::si),
         cooler: impact.cooling.as_ref().map(|law| Cooler::new(law, emissivity)).filter(Cooler::acts),

@@ -33,6 +33,8 @@
 //! ```
 
 use crate::constants::GAS_CONSTANT;
+use crate::particles::Material;
+use crate::units::Quantity;
 
 /// The hardness of one material.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,6 +45,11 @@ pub struct Hardness {
 }
 
 impl Hardness {
+    /// That of a material; nothing where it has none.
+    pub fn of(material: &Material) -> Option<Self> {
+        Some(Self::new(material.hardness?.si(), material.activation_energy.map_or(0.0, Quantity::si)))
+    }
+
     /// From H0 [Pa] and Q [J/mol].
     pub fn new(limit: f64, activation_energy: f64) -> Self {
         Self { limit, activation_temperature: activation_energy / GAS_CONSTANT }

@@ -1,7 +1,7 @@
 //! Figures taken from a state: moments, clusters, sizes, the ledger. Nothing here changes a state.
 
+mod biot;
 mod clusters;
-mod dimensionless;
 mod ledger;
 mod moments;
 mod nearest;
@@ -10,8 +10,8 @@ mod shape;
 mod size_classes;
 mod size_rates;
 
+pub use biot::biot_number;
 pub use clusters::{Clusters, Joiner};
-pub use dimensionless::{biot_number, reynolds_number};
 pub use ledger::{Balance, Flows, Ledger, Momentum, Stores};
 pub use moments::{Moments, moment_about, moments};
 pub use nearest::mean_nearest_distance;

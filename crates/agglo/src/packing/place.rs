@@ -183,7 +183,7 @@ fn grain(request: &GrainGroup, properties: &Material, spot: Spot) -> Row {
         velocity: spot.velocity,
         spin: vector(request.spin),
         radius: spot.radius,
-        mass: properties.density.si() * 4.0 / 3.0 * std::f64::consts::PI * spot.radius.powi(3),
+        mass: properties.mass_of_sphere(spot.radius),
         temperature,
         charge: request.charge.si(),
         polarity: request.polarity,

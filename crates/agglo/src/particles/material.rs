@@ -123,6 +123,16 @@ pub struct Mixture {
 }
 
 impl Material {
+    /// Heat capacity [J/(kg K)]; 0 where it has none.
+    pub fn specific_heat(&self) -> f64 {
+        self.heat_capacity.map_or(0.0, SpecificHeat::si)
+    }
+
+    /// Mass [kg] of a sphere of `radius` [m].
+    pub fn mass_of_sphere(&self, radius: f64) -> f64 {
+        self.density.si() * 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3)
+    }
+
     /// Contact stiffness [Pa] at a temperature [K]; 0 where the material has none.
     pub fn stiffness_at(&self, temperature: f64) -> f64 {
         let cold = self.contact_stiffness.map_or(0.0, Pressure::si);
@@ -133,6 +143,16 @@ impl Material {
                 (cold * (-law.sensitivity * hotter).exp()).max(law.lowest_stiffness.si())
             }
         }
+    }
+}
+
+impl Mixture {
+    /// What two materials, by their names, have in common, whichever is named first.
+    pub fn of<'a>(mixtures: &'a [Self], a: &str, b: &str) -> Option<&'a Self> {
+        mixtures.iter().find(|mixture| {
+            let [c, d] = &mixture.between;
+            (c == a && d == b) || (c == b && d == a)
+        })
     }
 }
 
@@ -151,10 +171,7 @@ impl PairTable {
         let mut pairs = Vec::with_capacity(count * count);
         for a in &names {
             for b in &names {
-                let own = mixtures.iter().find(|mixture| {
-                    let [c, d] = &mixture.between;
-                    (c == *a && d == *b) || (c == *b && d == *a)
-                });
+                let own = Mixture::of(mixtures, a, b);
                 pairs.push(constants_of(&materials[*a], &materials[*b], own));
             }
         }

@@ -210,34 +210,29 @@ impl Microscale {
         let mut grains = Particles::default();
         for (at, &radius) in given.radii.iter().enumerate() {
             let material = given.materials.get(at).copied().unwrap_or(0);
-            // A number that no material has is found by the check.
-            let density = self.materials.get(material as usize).map_or(1.0, |found| found.density.si());
             let position = given.positions.get(at).copied().unwrap_or(self.volume.lower());
             grains.push(Row {
                 id: at as u32,
                 position: self.volume.wrap(position),
                 velocity: given.velocities[at],
                 radius,
-                mass: density * 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3),
+                // A number that no material has is found by the check.
+                mass: self.materials.get(material as usize).map_or(1.0, |found| found.mass_of_sphere(radius)),
                 material,
                 temperature: given.temperatures[at],
                 polarity: 1.0,
                 ..Row::default()
             });
         }
+        let specific_heat =
+            |material: u32| self.materials.get(material as usize).map_or(0.0, Material::specific_heat);
         let grown = |at: usize| Grown {
             primaries: given.primaries.get(at).copied().unwrap_or(1),
-            heat_capacity: grains.mass[at] * self.specific_heat(grains.material[at]),
+            heat_capacity: grains.mass[at] * specific_heat(grains.material[at]),
         };
         let grown = (0..grains.len()).map(grown).collect();
         let reference_radius = grains.radius.iter().sum::<f64>() / grains.len() as f64;
         MicroState { grains, grown, reference_radius, step: 0 }
-    }
-
-    /// Heat capacity of a material [J/(kg K)]; 0 where it has none.
-    fn specific_heat(&self, material: u32) -> f64 {
-        let of = |found: &Material| found.heat_capacity.map(Quantity::si);
-        self.materials.get(material as usize).and_then(of).unwrap_or_default()
     }
 
     /// Lets the grains fly and collide for `duration` [s]; gives the new state, in the order of names, and its means.

@@ -9,7 +9,7 @@ use crate::engine::{Engine, SimError, Warnings};
 use crate::impact::ImpactLaws;
 use crate::math::Vec3;
 use crate::measure::SizeRates;
-use crate::particles::Particles;
+use crate::particles::{Material, Particles};
 use crate::scenario::Scenario;
 
 use super::books::{self, Balance, Books, Counts};
@@ -97,11 +97,7 @@ impl Simulation {
     /// # Errors
     /// As [`Simulation::start`].
     pub fn start_grown(scenario: &Scenario, grains: &Particles, grown: &[Grown]) -> Result<Self, SimError> {
-        let heat_capacities: Vec<f64> = scenario
-            .materials
-            .values()
-            .map(|material| material.heat_capacity.map_or(0.0, crate::units::Quantity::si))
-            .collect();
+        let heat_capacities: Vec<f64> = scenario.materials.values().map(Material::specific_heat).collect();
         let mut spheres = Spheres::new(grains, |material| heat_capacities[material as usize]);
         for (bulk, grown) in spheres.bulk.iter_mut().zip(grown) {
             bulk.primaries = grown.primaries;

@@ -4,10 +4,9 @@ use crate::acoustics::Medium;
 use crate::engine::hard::Snapshot;
 use crate::impact::self_gravity::critical_radius;
 use crate::impact::softening::Hardness;
-use crate::measure::{biot_number, reynolds_number};
+use crate::measure::biot_number;
 use crate::particles::Material;
 use crate::scenario::Scenario;
-use crate::units::Quantity;
 
 /// Figures that say whether models hold; those that cannot be had are left out.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -28,7 +27,7 @@ impl Scales {
         let most = |figures: &mut dyn Iterator<Item = f64>| figures.reduce(f64::max);
         let medium = (scenario.medium != Medium::default()).then_some(&scenario.medium);
         let reynolds = |at: usize, medium: &Medium| {
-            reynolds_number(now.grains.radius[at], now.grains.velocity[at].norm(), medium)
+            medium.reynolds_number(now.grains.radius[at], now.grains.velocity[at].norm())
         };
         Self {
             self_gravity_radius: self_gravity_radius(&materials, now, largest),
@@ -40,8 +39,7 @@ impl Scales {
 
 fn self_gravity_radius(materials: &[&Material], now: &Snapshot, at: usize) -> Option<f64> {
     let material = materials.get(*now.grains.material.get(at)? as usize)?;
-    let activation_energy = material.activation_energy.map_or(0.0, Quantity::si);
-    let hardness = Hardness::new(material.hardness?.si(), activation_energy).at(now.grains.temperature[at]);
+    let hardness = Hardness::of(material)?.at(now.grains.temperature[at]);
     Some(critical_radius(material.density.si(), hardness))
 }
 

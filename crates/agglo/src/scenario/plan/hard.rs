@@ -2,7 +2,6 @@
 
 use super::Plan;
 use super::gas::Gas;
-use crate::constants::GAS_CONSTANT;
 use crate::domain::Boundary;
 use crate::engine::Engine;
 use crate::engine::hard::{Distance, Pairs, TimeStepped};
@@ -11,7 +10,7 @@ use crate::impact::fragmentation::BreakingEnergy;
 use crate::impact::heat::Balance;
 use crate::impact::restitution::hardness::{ForceTime, Hardness, Solver};
 use crate::impact::tangential::SlipLimit;
-use crate::impact::{Impact, Restitution, Sticking};
+use crate::impact::{Impact, Restitution, Sticking, softening};
 use crate::particles::Material;
 use crate::scenario::figures::{digits, readable};
 use crate::scenario::types::{GrainGroup, Scenario};
@@ -91,10 +90,8 @@ pub(super) struct Threshold {
 
 /// At the temperature of the start; heat softens.
 pub(super) fn threshold(law: &Hardness, material: &Material, group: &GrainGroup) -> Option<Threshold> {
-    let activation = material.activation_energy.map_or(0.0, crate::units::Quantity::si);
-    let heat = GAS_CONSTANT * group.temperature.si();
-    let resistance =
-        material.hardness?.si() * (activation / heat).exp() * law.sticking_area * law.deformation;
+    let hardness = softening::Hardness::of(material)?.at(group.temperature.si());
+    let resistance = hardness * law.sticking_area * law.deformation;
     Some(Threshold {
         speed: 2.0 * (1.5 * resistance / material.density.si()).sqrt(),
         radius: material.surface_energy.map(|energy| 4.0 * energy.si() / resistance),

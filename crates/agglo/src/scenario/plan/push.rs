@@ -78,12 +78,7 @@ fn of_beam(
     // Mean-chord argument: a grain of an agglomerate as wide as the beam is hit by (r/R)^2 of the rays.
     let hits = f64::from(beam.rays) * (radius / beam.radius.si()).powi(2);
     let speed = [per_hit * hits.max(1.0).sqrt(), per_hit * hits.max(1.0)];
-    let viscosity = medium.viscosity.si();
-    let reynolds = if viscosity > 0.0 {
-        medium.density.si() * speed[0] * 2.0 * radius / viscosity
-    } else {
-        f64::INFINITY
-    };
+    let reynolds = medium.reynolds_number(radius, speed[0]).unwrap_or(f64::INFINITY);
     let strain = strain_at(scenario, group, material, [radius, mass, speed[0]]);
     Push {
         beam: 0,

@@ -1,15 +1,13 @@
-//! Numbers that say whether a sphere is as uniform, and its flow as slow, as the laws take it to be.
+//! The number that says whether a sphere is as uniform as the laws take it to be.
 //!
 //! # Equation
 //! ```text
 //! Bi = h_eff (r/3)/k,   h_eff = h + 4 σ ε T³
-//! Re = 2 r ρ v/η
 //! ```
 //! r/3 is the sphere's volume over its surface; 4 σ ε T³ is the slope of the radiated flux σ ε T⁴.
 //!
 //! # Source
-//! F. P. Incropera and D. P. DeWitt, *Fundamentals of Heat and Mass Transfer*, chapter 5 (lumped heat capacity); R. Clift,
-//! J. R. Grace and M. E. Weber, *Bubbles, Drops, and Particles* (1978), chapter 5.
+//! F. P. Incropera and D. P. DeWitt, *Fundamentals of Heat and Mass Transfer*, chapter 5 (lumped heat capacity).
 //!
 //! # Symbols
 //! | symbol | name in code   | unit      | meaning                                                    |
@@ -19,11 +17,9 @@
 //! | T      | `temperature`  | K         | of the surface                                             |
 //! | k      | `conductivity` | W/(m K)   | of the sphere                                              |
 //! | r      | `radius`       | m         |                                                            |
-//! | ρ, η   | `medium`       | kg/m³, Pa s | density and dynamic viscosity of the medium              |
-//! | v      | `speed`        | m/s       | of the sphere relative to the medium                       |
 //!
 //! # Valid when
-//! One temperature for a sphere holds for Bi < 0.1. The flow about a sphere is Stokes's for Re < 1.
+//! One temperature for a sphere holds for Bi < 0.1.
 //!
 //! # Compared with others
 //! Radiation to colder surroundings is here taken at its slope, which is up to four times its mean coefficient: the Biot
@@ -36,7 +32,6 @@
 //! assert_eq!(biot_number(1e-3, 40.0, 10.0, 0.0, 300.0), Some(10.0 * 1e-3 / 120.0));
 //! ```
 
-use crate::acoustics::Medium;
 use crate::constants::STEFAN_BOLTZMANN;
 
 /// Bi of a sphere of `radius` [m] and `conductivity` [W/(m K)] with the heat transfer coefficient `convection`
@@ -52,16 +47,9 @@ pub fn biot_number(
     (conductivity > 0.0).then(|| coefficient * radius / (3.0 * conductivity))
 }
 
-/// Re of a sphere of `radius` [m] at `speed` [m/s] relative to a medium; nothing where that has no viscosity.
-pub fn reynolds_number(radius: f64, speed: f64, medium: &Medium) -> Option<f64> {
-    let (density, viscosity) = (medium.density.si(), medium.viscosity.si());
-    (viscosity > 0.0).then(|| 2.0 * radius * density * speed / viscosity)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::units::Quantity;
 
     /// T = 1000 K, ε = 0.5, h = 20 W/(m² K): 4 * 5.670374419e-8 * 0.5 * 1e9 = 113.40748838; with r = 6 mm and
     /// k = 2 W/(m K) Bi = 133.40748838 * 6e-3/6 = 0.13340748838. To the rounding of four products.
@@ -73,15 +61,5 @@ mod tests {
         let [once, twice] = [500.0, 1000.0].map(|hot| biot_number(1.0, 1.0, 0.0, 1.0, hot).unwrap());
         assert!((twice / once - 8.0).abs() < 1e-14);
         assert_eq!(biot_number(1.0, 0.0, 1.0, 1.0, 300.0), None);
-    }
-
-    /// 1 mm of radius at 0.5 m/s in water: 2e-3 m * 1000 kg/m³ * 0.5 m/s/1e-3 Pa s = 1000. To the rounding of four
-    /// products.
-    #[test]
-    fn reynolds_by_hand() {
-        let found = reynolds_number(1e-3, 0.5, &Medium::default()).unwrap();
-        assert!((found - 1000.0).abs() < 1e-11, "{found}");
-        let inviscid = Medium { viscosity: Quantity(0.0), ..Medium::default() };
-        assert_eq!(reynolds_number(1e-3, 0.5, &inviscid), None);
     }
 }
