@@ -54,7 +54,9 @@ impl Surroundings for Around<'_> {
             if level.population > 0 {
                 // Cells are about where spheres were when they last moved into one: rounding apart, where they are.
                 let farthest = (reach + 0.5 * level.widest()) * (1.0 + 1e-9);
-                self.grid.visit_within(number, center, farthest, |at, image| {
+                let corner = Vec3::new(farthest, farthest, farthest);
+                let middle = center - self.grid.frame.flown(time);
+                self.grid.visit_within(number, [middle - corner, middle + corner], |at, image| {
                     let sphere = &spheres.motion[at as usize];
                     let place = sphere.at(time) + self.grid.shift(image);
                     if (place - center).norm() <= reach + sphere.radius {

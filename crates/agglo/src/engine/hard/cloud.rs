@@ -293,8 +293,8 @@ impl Cloud {
     pub(super) fn is_first(&self, a: u32, b: u32) -> bool {
         let spheres = &self.state.spheres;
         let mass = |at: u32| spheres.bulk[at as usize].mass;
-        let place = |at: u32| &spheres.motion[at as usize].position;
-        mass(b).total_cmp(&mass(a)).then_with(|| place(a).total_cmp(place(b))).is_le()
+        let place = |at: u32| self.volume.wrap(spheres.motion[at as usize].position);
+        mass(b).total_cmp(&mass(a)).then_with(|| place(a).total_cmp(&place(b))).is_le()
     }
 
     /// Writes an event down and gives its number.

@@ -17,6 +17,7 @@
 //! - Simultaneous events are taken in the order of names.
 //! - Inelastic collapse: a bounce is elastic if one of the two bounced less than `contact_duration` before. Sticking and
 //!   breaking are not concerned. The summary counts such impacts.
+//! - Cells fly with the mean velocity of the spheres where the volume has no wall and no antipodal face.
 //!
 //! # Symbols
 //! | symbol | name in code       | unit | meaning                                                  |
@@ -41,6 +42,7 @@ use crate::neighbors::morton_code;
 use super::agenda::{Agenda, NONE};
 use super::around::{Around, fetch};
 use super::cloud::{Change, Cloud, Contact};
+use super::frame::Frame;
 use super::grid::Grid;
 use super::queue::Queue;
 use super::search::{Candidate, Meeting, Seeker};
@@ -62,8 +64,9 @@ const CONTACT: f64 = 1e-6;
 pub struct EventsState<'a> {
     agendas: Cow<'a, [Agenda]>,
     filed: Filed,
-    /// Fastest sphere that each level has seen [m/s]: how far it is looked ahead hangs on it.
-    fastest: Vec<f64>,
+    frame: Frame,
+    /// Bounds of the velocities that each level has seen [m/s]: how far it is looked ahead hangs on them.
+    velocities: Vec<[Vec3; 2]>,
 }
 
 /// What the grid was made for, and what has happened since.
@@ -120,6 +123,16 @@ impl EventDriven {
     }
 }
 
+/// How fast cells fly [m/s]: with the mean of the spheres, unless they must lie at the faces of the volume. It is summed
+/// in the order of memory, which does not depend on names once spheres are sorted.
+fn drift(cloud: &Cloud) -> Vec3 {
+    if matches!(cloud.volume.boundary, Boundary::Reflecting | Boundary::Antipodal) {
+        return Vec3::ZERO;
+    }
+    let motion = &cloud.state.spheres.motion;
+    motion.iter().fold(Vec3::ZERO, |sum, one| sum + one.velocity) / motion.len().max(1) as f64
+}
+
 impl Events {
     /// Starts at time zero.
     pub fn start(cloud: &mut Cloud) -> Self {
@@ -138,9 +151,10 @@ impl Events {
     pub fn resume(cloud: &Cloud, state: EventsState<'_>) -> Self {
         let filed = state.filed;
         let mut events = Self::with(cloud, state.agendas.into_owned(), filed);
+        events.grid.frame = state.frame;
         events.link_all(cloud);
-        for (level, speed) in (0..).zip(state.fastest) {
-            events.grid.note_speed(level, speed);
+        for (level, velocities) in (0..).zip(state.velocities) {
+            events.grid.note_velocities(level, velocities);
         }
         events.queue_all(cloud, filed.moment);
         events
@@ -148,8 +162,13 @@ impl Events {
 
     /// What has to be remembered.
     pub fn state(&self) -> EventsState<'_> {
-        let fastest = self.grid.levels().iter().map(|level| level.fastest).collect();
-        EventsState { agendas: Cow::Borrowed(&self.agendas), filed: self.filed, fastest }
+        let velocities = self.grid.levels().iter().map(|level| level.velocities).collect();
+        EventsState {
+            agendas: Cow::Borrowed(&self.agendas),
+            filed: self.filed,
+            frame: self.grid.frame,
+            velocities,
+        }
     }
 
     /// Deals with events until `until` [s], or with some thousand of them.
@@ -193,7 +212,11 @@ impl Events {
         }
         if 2 * living < self.filed.spheres || living > 2 * self.filed.spheres {
             self.file_anew(cloud, time);
-        } else if self.filed.events > EVENTS_PER_SORT * living {
+        } else if self.filed.events > EVENTS_PER_SORT * living || self.grid.is_far(time) {
+            let back = self.grid.take_back(&cloud.volume, time);
+            if back != Vec3::ZERO {
+                cloud.state.spheres.motion.iter_mut().for_each(|motion| motion.position += back);
+            }
             self.sort(cloud);
             self.link_all(cloud);
             self.queue_all(cloud, time);
@@ -307,8 +330,9 @@ impl Events {
     }
 
     /// Files a sphere, which is in no cell, under the cell where it is.
-    fn place(&mut self, cloud: &Cloud, sphere: u32, time: f64) -> Result<(), SimError> {
-        let (motion, edge) = (&cloud.state.spheres.motion[sphere as usize], self.grid.shortest_edge());
+    fn place(&mut self, cloud: &mut Cloud, sphere: u32, time: f64) -> Result<(), SimError> {
+        let (motion, edge) = (&mut cloud.state.spheres.motion[sphere as usize], self.grid.shortest_edge());
+        motion.position += self.grid.way_back(motion.at(time), time);
         if 2.0 * motion.radius > edge && cloud.volume.boundary != Boundary::Open {
             let grain = cloud.state.spheres.bulk[sphere as usize].id;
             return Err(SimError::Outgrown { time, grain, diameter: 2.0 * motion.radius, edge });
@@ -323,13 +347,12 @@ impl Events {
     fn look_again(&mut self, cloud: &Cloud, sphere: u32, time: f64) -> Result<(), SimError> {
         let (spheres, at) = (&cloud.state.spheres, sphere as usize);
         let motion = &spheres.motion[at];
-        let speed = motion.velocity.norm();
-        if !(speed.is_finite() && motion.position.is_finite()) {
+        if !(motion.velocity.is_finite() && motion.position.is_finite()) {
             return Err(cloud.not_finite(sphere, time));
         }
         self.leave_partner(sphere);
         let agenda = &mut self.agendas[at];
-        self.grid.note_speed(agenda.level, speed);
+        self.grid.note_velocities(agenda.level, [motion.velocity; 2]);
         (agenda.crossing, agenda.exit) = self.grid.exit(agenda, motion, time);
         agenda.collision = f64::INFINITY;
         let found = Seeker::new(&spheres.motion, &self.agendas, &self.grid, sphere, time, Meeting::NEVER)
@@ -383,13 +406,18 @@ impl Events {
 
     /// Sorts the spheres in memory and lets all look for their next impacts.
     fn file_all(&mut self, cloud: &mut Cloud, time: f64) {
-        let spheres = &cloud.state.spheres;
+        let spheres = &mut cloud.state.spheres;
         self.agendas.clear();
         self.agendas.resize(spheres.places(), Agenda::EMPTY);
-        for at in spheres.living() {
-            self.grid.seat(&mut self.agendas[at as usize], &spheres.motion[at as usize], time);
+        self.grid.set_off(&cloud.volume, time, Vec3::ZERO);
+        for ((agenda, motion), bulk) in self.agendas.iter_mut().zip(&mut spheres.motion).zip(&spheres.bulk) {
+            if bulk.lives() {
+                motion.position += self.grid.way_back(motion.at(time), time);
+                self.grid.seat(agenda, motion, time);
+            }
         }
         self.sort(cloud);
+        self.grid.set_off(&cloud.volume, time, drift(cloud));
         self.link_all(cloud);
         for sphere in 0..cloud.state.spheres.places() as u32 {
             let motion = &cloud.state.spheres.motion;
@@ -413,8 +441,8 @@ impl Events {
         for (agenda, sphere) in self.agendas.iter_mut().zip(0..) {
             if agenda.level != Agenda::NOWHERE {
                 self.grid.link(agenda, sphere);
-                self.grid
-                    .note_speed(agenda.level, cloud.state.spheres.motion[sphere as usize].velocity.norm());
+                let velocity = cloud.state.spheres.motion[sphere as usize].velocity;
+                self.grid.note_velocities(agenda.level, [velocity; 2]);
             }
         }
     }

@@ -13,6 +13,7 @@ use crate::domain::{Boundary, Volume};
 use crate::math::{Vec3, prefetch};
 
 use super::agenda::{Agenda, Exit, NONE};
+use super::frame::Frame;
 use super::level::{Level, SLACK};
 use super::spheres::Sphere;
 
@@ -24,13 +25,13 @@ const CELL_OVER_SPACING: f64 = 0.6;
 /// Levels of cells, from the single cell to the finest.
 #[derive(Clone, Debug)]
 pub struct Grid {
-    /// Lower corner of the volume [m].
-    lower: Vec3,
+    /// Where the cells are.
+    pub frame: Frame,
     /// Edges of the volume [m].
     pub edges: Vec3,
     /// Widths of the finest cells [m].
     widths: Vec3,
-    boundary: Boundary,
+    pub(super) boundary: Boundary,
     levels: Vec<Level>,
     /// The next sphere of the same cell.
     after: Vec<u32>,
@@ -91,7 +92,8 @@ impl Grid {
             let most = (least / COARSE).max(1).ilog2();
             levels.extend((0..=most).rev().map(|doublings| Level::new(finest, doublings, edges)));
         }
-        Self { lower: volume.lower(), edges, widths, boundary: volume.boundary, levels, after: Vec::new() }
+        let frame = Frame { lower: volume.lower(), drift: Vec3::ZERO, since: 0.0 };
+        Self { frame, edges, widths, boundary: volume.boundary, levels, after: Vec::new() }
     }
 
     /// Shortest edge of the volume [m].
@@ -112,7 +114,7 @@ impl Grid {
     /// Seats a sphere in the level and the cell where it is at a time [s]; it is not filed there yet.
     pub fn seat(&self, agenda: &mut Agenda, sphere: &Sphere, time: f64) {
         agenda.level = self.level_of(sphere.radius);
-        agenda.cell = self.cell_of(agenda.level, sphere.at(time));
+        agenda.cell = self.cell_of(agenda.level, sphere.at(time) - self.frame.flown(time));
     }
 
     /// Level for spheres of a radius [m].
@@ -121,7 +123,7 @@ impl Grid {
         (self.levels.iter().rposition(fits).unwrap_or(0)) as u8
     }
 
-    /// Cell of a place in a level.
+    /// Cell of a place in a level; what the cells have flown is taken off already, as in all that follows.
     pub fn cell_of(&self, level: u8, place: Vec3) -> [i32; 3] {
         let (finest, level) = (self.finest(), &self.levels[level as usize]);
         [0, 1, 2].map(|axis| {
@@ -140,10 +142,10 @@ impl Grid {
 
     /// Coordinate of the finest cell at a place along an axis [m], which may lie beyond the volume.
     fn finest_along(&self, axis: usize, place: f64) -> i32 {
-        let along = ((place - self.lower[axis]) / self.widths[axis]).floor() as i32;
+        let along = ((place - self.frame.lower[axis]) / self.widths[axis]).floor() as i32;
         // A single cell is its own finest one.
         if self.finest().doublings > 0 {
-            ((place - self.lower[axis]) / self.edges[axis]).floor() as i32
+            ((place - self.frame.lower[axis]) / self.edges[axis]).floor() as i32
         } else {
             along
         }
@@ -201,34 +203,35 @@ impl Grid {
         agenda.cell.map(|along| along << level.doublings)
     }
 
-    /// Keeps in mind how fast spheres of a level are.
+    /// Keeps in mind how fast spheres of a level are along each axis [m/s].
     #[inline]
-    pub fn note_speed(&mut self, level: u8, speed: f64) {
-        let level = &mut self.levels[level as usize];
-        level.fastest = level.fastest.max(speed);
+    pub fn note_velocities(&mut self, level: u8, [lowest, highest]: [Vec3; 2]) {
+        let [low, high] = &mut self.levels[level as usize].velocities;
+        (*low, *high) = (low.min(lowest), high.max(highest));
     }
 
     /// When and how a sphere leaves its cell or meets a wall, at `now` [s] or later.
     #[inline]
     pub fn exit(&self, agenda: &Agenda, sphere: &Sphere, now: f64) -> (f64, Exit) {
         let level = &self.levels[agenda.level as usize];
-        let place = sphere.at(now);
+        let place = sphere.at(now) - self.frame.flown(now);
+        let velocity = sphere.velocity - self.frame.drift;
         let mut first = (f64::INFINITY, Exit::default());
         for axis in 0..3 {
-            let speed = sphere.velocity[axis];
+            let speed = velocity[axis];
             if speed == 0.0 {
                 continue;
             }
             let side = if speed > 0.0 { 1 } else { -1 };
             let cell = agenda.cell[axis];
             let face = self.face(level, axis, if side > 0 { cell + 1 } else { cell });
-            let mut time = (self.lower[axis] + face - place[axis]) / speed;
+            let mut time = (self.frame.lower[axis] + face - place[axis]) / speed;
             let mut is_wall = false;
             if self.boundary == Boundary::Reflecting
                 && cell + side == if side > 0 { level.counts[axis] } else { -1 }
             {
                 let wall = if side > 0 { self.edges[axis] - sphere.radius } else { sphere.radius };
-                time = (self.lower[axis] + wall - place[axis]) / speed;
+                time = (self.frame.lower[axis] + wall - place[axis]) / speed;
                 is_wall = true;
             }
             if time < first.0 {
@@ -408,46 +411,77 @@ impl Grid {
         }
     }
 
-    /// Cells of a level along an axis within `reach` [m] of a place, the first and the last.
-    fn range(&self, level: &Level, axis: usize, place: Vec3, reach: f64) -> (i32, i32) {
+    /// Cells of a level along an axis from one coordinate to another [m], the first and the last.
+    fn range(&self, level: &Level, axis: usize, [from, to]: [Vec3; 2]) -> (i32, i32) {
         let count = level.counts[axis];
         let along = |x: f64| level.coarsened(axis, self.finest(), self.finest_along(axis, x));
-        let (from, to) = (along(place[axis] - reach), along(place[axis] + reach));
+        let (from, to) = (along(from[axis]), along(to[axis]));
         match self.boundary {
-            // A sphere is not wider than the volume: images further away do not meet it.
-            Boundary::Periodic => (from.max(-count), to.min(2 * count - 1)),
+            // Nobody looks further than `FARTHEST` edges and half a volume.
+            Boundary::Periodic => (from.max(-4 * count), to.min(5 * count - 1)),
             Boundary::Open => (from, to.min(from.saturating_add(count - 1))),
             Boundary::Antipodal | Boundary::Reflecting => (from.max(0), to.min(count - 1)),
         }
     }
 
-    /// How many cells of a level lie within `reach` [m] of a place along each axis.
-    pub fn cells_within(&self, number: usize, place: Vec3, reach: f64) -> u64 {
+    /// How many cells of a level lie in a block between two corners [m].
+    pub fn cells_within(&self, number: usize, block: [Vec3; 2]) -> u64 {
         let level = &self.levels[number];
         let cells = |axis: usize| {
-            let (from, to) = self.range(level, axis, place, reach);
+            let (from, to) = self.range(level, axis, block);
             i64::from(to).saturating_sub(i64::from(from)).max(0) as u64 + 1
         };
         cells(0) * cells(1) * cells(2)
     }
 
-    /// Visits the spheres of a level whose centres may lie within `reach` [m] of `place` along each axis.
-    pub fn visit_within(&self, number: usize, place: Vec3, reach: f64, mut visit: impl FnMut(u32, [i8; 3])) {
+    /// Visits the spheres of a level whose centres may lie in a block between two corners [m].
+    pub fn visit_within(&self, number: usize, block: [Vec3; 2], mut visit: impl FnMut(u32, [i8; 3])) {
         let level = &self.levels[number];
-        let range = |axis: usize| self.range(level, axis, place, reach);
+        let range = |axis: usize| self.range(level, axis, block);
         let [(x0, x1), (y0, y1), (z0, z1)] = [range(0), range(1), range(2)];
-        let fold = |along: i32, axis: usize| {
-            let count = level.counts[axis];
-            let image = if self.boundary == Boundary::Periodic { along.div_euclid(count) as i8 } else { 0 };
-            (along.rem_euclid(count) as u32, image)
-        };
-        for (z, image_z) in (z0..=z1).map(|along| fold(along, 2)) {
-            for (y, image_y) in (y0..=y1).map(|along| fold(along, 1)) {
-                for (x, image_x) in (x0..=x1).map(|along| fold(along, 0)) {
-                    self.visit_cell(level, level.flat([x, y, z]), [image_x, image_y, image_z], &mut visit);
+        let (z, y, x) =
+            (self.walk(level, 2, z0, z1), self.walk(level, 1, y0, y1), self.walk(level, 0, x0, x1));
+        for (z, image_z) in z {
+            for (y, image_y) in y.clone() {
+                for (x, image_x) in x.clone() {
+                    self.visit_cell(level, x + y + z, [image_x, image_y, image_z], &mut visit);
                 }
             }
         }
+    }
+
+    /// Cells from one to another along an axis, folded into the volume: what they add to a cell's number, and the edges
+    /// to add.
+    #[inline(always)]
+    fn walk(
+        &self,
+        level: &Level,
+        axis: usize,
+        from: i32,
+        to: i32,
+    ) -> impl Iterator<Item = (u32, i8)> + Clone {
+        let count = level.counts[axis];
+        let (mut round, mut within) = (from.div_euclid(count), from.rem_euclid(count));
+        let is_periodic = self.boundary == Boundary::Periodic;
+        (from..=to).map(move |_| {
+            let cell = (level.part(axis, within as u32), if is_periodic { round as i8 } else { 0 });
+            within += 1;
+            if within == count {
+                (round, within) = (round + 1, 0);
+            }
+            cell
+        })
+    }
+
+    /// Visits all spheres of a level.
+    pub fn visit_level(&self, number: usize, mut visit: impl FnMut(u32)) {
+        self.levels[number].each_first(|first| {
+            let mut sphere = first;
+            while sphere != NONE {
+                visit(sphere);
+                sphere = self.after[sphere as usize];
+            }
+        });
     }
 
     /// What an image adds to a position [m].

@@ -111,10 +111,16 @@ fn an_open_volume_has_no_end() {
             let mut near = Vec::new();
             let level = found.agendas[at].level as usize;
             let (place, reach) = (found.spheres[at].position, 1.6 * found.spheres[at].radius);
-            found.grid.visit_within(level, place, reach, |other, image| near.push((other, image)));
+            found.grid.visit_within(level, block(place, reach), |other, image| near.push((other, image)));
             assert!(near.contains(&(at as u32 + 40, [0; 3])) && near.contains(&(at as u32, [0; 3])));
         }
     }
+}
+
+/// All that is within reach along each axis.
+fn block(place: Vec3, reach: f64) -> [Vec3; 2] {
+    let corner = Vec3::new(reach, reach, reach);
+    [place - corner, place + corner]
 }
 
 /// Everyone of a level whose centre is within reach along each axis, once per image.
@@ -125,7 +131,9 @@ fn searches_within_a_reach() {
         for (center, reach) in spheres.iter().zip([0.01, 0.05, 0.2, 0.5, 1.1].into_iter().cycle()) {
             for number in 0..grid.levels().len() {
                 let mut seen = Vec::new();
-                grid.visit_within(number, center.position, reach, |other, image| seen.push((other, image)));
+                grid.visit_within(number, block(center.position, reach), |other, image| {
+                    seen.push((other, image));
+                });
                 let visits = seen.len();
                 seen.sort_unstable();
                 seen.dedup();
@@ -171,7 +179,7 @@ fn exits_are_at_faces() {
             let level = &grid.levels()[agenda.level as usize];
             let (place, axis) = (sphere.at(time), exit.axis as usize);
             let face = agenda.cell[axis] + i32::from(exit.side > 0);
-            let mut at = grid.lower[axis] + grid.face(level, axis, face);
+            let mut at = grid.frame.lower[axis] + grid.face(level, axis, face);
             if exit.is_wall {
                 at -= f64::from(exit.side) * sphere.radius;
             }
@@ -183,5 +191,41 @@ fn exits_are_at_faces() {
             let before = sphere.at(time * (1.0 - 1e-9));
             assert_eq!(grid.cell_of(agenda.level, before), agenda.cell);
         }
+    }
+}
+
+/// Cells that fly: a sphere is in its cell until its exit, and whoever left the block comes back by whole edges.
+#[test]
+fn cells_fly_with_a_wind() {
+    let volume = volume(Boundary::Periodic);
+    let Filed { mut grid, spheres, .. } = filed(Boundary::Periodic, 200, 1.0, 19);
+    grid.set_off(&volume, 0.5, Vec3::new(40.0, -2.0, 0.3));
+    for (sphere, time) in spheres.iter().zip([0.5, 0.9, 7.0].into_iter().cycle()) {
+        let mut sphere = *sphere;
+        let back = grid.way_back(sphere.at(time), time);
+        sphere.position += back;
+        for axis in 0..3 {
+            let edges = back[axis] / grid.edges[axis];
+            assert!((edges - edges.round()).abs() < 1e-12);
+            let from_corner = (sphere.at(time) - grid.frame.flown(time) - grid.frame.lower)[axis];
+            // Positions of some hundred edges are rounded at 1e-14 of an edge.
+            assert!((-1e-12..grid.edges[axis] + 1e-12).contains(&from_corner), "{from_corner}");
+        }
+        let mut agenda = Agenda::EMPTY;
+        grid.seat(&mut agenda, &sphere, time);
+        let (exit, _) = grid.exit(&agenda, &sphere, time);
+        let cell = |time: f64| grid.cell_of(agenda.level, sphere.at(time) - grid.frame.flown(time));
+        let stay = exit - time;
+        assert!(stay > 0.0 && stay.is_finite());
+        assert_eq!(cell(time + stay * (1.0 - 1e-6)), agenda.cell);
+        // Beyond a face of the whole block cells are clamped.
+        let later = time + stay * (1.0 + 1e-6);
+        let after = sphere.at(later) - grid.frame.flown(later);
+        assert!(!volume.contains(after) || cell(later) != agenda.cell);
+    }
+    let back = grid.take_back(&volume, 7.0);
+    let flown = Vec3::new(40.0, -2.0, 0.3) * 6.5 + back;
+    for axis in 0..3 {
+        assert!(flown[axis] >= -1e-12 && flown[axis] < grid.edges[axis], "{flown:?}");
     }
 }

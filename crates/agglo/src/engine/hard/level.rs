@@ -12,6 +12,12 @@ const BLOCK: usize = 64;
 /// Cells are this much wider than the spheres that they are for, so that rounding cannot let a neighbour slip.
 pub const SLACK: f64 = 1.0 + 1e-9;
 
+/// Nobody's velocities: above the highest and below the lowest.
+const NO_VELOCITIES: [Vec3; 2] = [
+    Vec3::new(f64::INFINITY, f64::INFINITY, f64::INFINITY),
+    Vec3::new(f64::NEG_INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY),
+];
+
 /// Cells of one size.
 #[derive(Clone, Debug)]
 pub struct Level {
@@ -28,8 +34,8 @@ pub struct Level {
     strides: [u32; 3],
     /// Spheres in it.
     pub population: u32,
-    /// No sphere in it is faster [m/s].
-    pub fastest: f64,
+    /// Along each axis the velocities of its spheres lie between these two [m/s].
+    pub velocities: [Vec3; 2],
 }
 
 impl Level {
@@ -50,7 +56,7 @@ impl Level {
             occupied: vec![0; blocks],
             strides: [BLOCK as u32, BLOCK as u32 * bx, BLOCK as u32 * bx * by],
             population: 0,
-            fastest: 0.0,
+            velocities: NO_VELOCITIES,
         }
     }
 
@@ -79,7 +85,7 @@ impl Level {
         self.heads.fill(NONE);
         self.occupied.fill(0);
         self.population = 0;
-        self.fastest = 0.0;
+        self.velocities = NO_VELOCITIES;
     }
 
     /// Puts a sphere first into a cell and gives the one that was first.
@@ -97,6 +103,23 @@ impl Level {
         self.heads[flat as usize] = next;
         if next == NONE {
             self.occupied[flat as usize / BLOCK] &= !(1 << (flat as usize % BLOCK));
+        }
+    }
+
+    /// Words of bits that say which cells hold any.
+    pub fn words(&self) -> usize {
+        self.occupied.len()
+    }
+
+    /// Visits the first sphere of each cell that holds any.
+    #[inline]
+    pub fn each_first(&self, mut visit: impl FnMut(u32)) {
+        for (&word, first) in self.occupied.iter().zip((0..).step_by(BLOCK)) {
+            let mut left = word;
+            while left != 0 {
+                visit(self.heads[first + left.trailing_zeros() as usize]);
+                left &= left - 1;
+            }
         }
     }
 

@@ -10,6 +10,7 @@ mod cloud;
 mod embedded;
 mod event_driven;
 mod events;
+mod frame;
 mod grid;
 mod homogenised;
 mod level;

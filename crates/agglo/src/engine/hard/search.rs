@@ -64,7 +64,9 @@ pub fn time_to_meet(distance: Vec3, velocity: Vec3, reach: f64, limit: f64) -> f
 }
 
 /// A sphere does not look into more cells than this for smaller ones, if it need not.
-const MOST_CELLS: u64 = 200;
+const MOST_WORK: u64 = 400;
+/// Edges of the volume that such a look may span at the most.
+const FARTHEST: f64 = 2.0;
 
 /// Whether two spheres that touch approach no faster than velocities are rounded: they stay together. Impacts could not
 /// part them, and would follow one another without end.
@@ -176,36 +178,103 @@ impl<'a> Seeker<'a> {
             (&self.motion[self.sphere as usize], self.agendas[self.sphere as usize].crossing);
         let levels =
             || grid.levels().iter().enumerate().skip(finer).filter(|(_, level)| level.population > 0);
-        let fastest = levels().map(|(_, level)| level.fastest).fold(0.0, f64::max);
-        let finest = levels().map(|(_, level)| level.widest()).fold(f64::INFINITY, f64::min);
-        let speed = own.velocity.norm() + fastest;
+        let speed_of = |(_, level): (usize, &Level)| View::new(own, self.now, level).speed();
+        let speed = levels().map(speed_of).fold(0.0, f64::max);
         if speed == 0.0 {
             return;
         }
-        let place = own.at(self.now);
-        // A little more than can be travelled, for rounding.
-        let reach =
-            |level: &Level, ahead: f64| (own.radius + 0.5 * level.widest() + speed * ahead) * (1.0 + 1e-9);
-        let mut horizon = finest / speed;
+        let farthest = FARTHEST * grid.shortest_edge() / speed;
+        // The time in which the block that has to be looked at grows by half: cheapest for each second looked ahead.
+        let mut horizon = (0.5 * own.radius / speed).min(farthest);
         loop {
             let ahead = horizon.min((self.best.time.min(crossing) - self.now).max(0.0));
             for (number, level) in levels() {
-                let reach = reach(level, ahead);
-                grid.visit_within(number, place, reach, |other, image| scratch.push((other, image)));
+                let block = View::new(own, self.now, level).block(ahead);
+                self.gather(number, level, block, scratch);
                 self.consider(scratch);
             }
             if self.best.time.min(crossing) - self.now <= horizon {
                 return;
             }
             let next = 2.0 * horizon;
-            let cells: u64 =
-                levels().map(|(number, level)| grid.cells_within(number, place, reach(level, next))).sum();
-            if cells > MOST_CELLS {
+            let work = |(number, level): (usize, &Level)| {
+                let block = View::new(own, self.now, level).block(next);
+                grid.cells_within(number, self.in_cells(block)).min(work_of_all(level))
+            };
+            let work: u64 = levels().map(work).sum();
+            if work > MOST_WORK || next > farthest {
                 self.best = Meeting { time: self.now + horizon, ..Meeting::NEVER };
                 return;
             }
             horizon = next;
         }
+    }
+
+    /// A block [m] less what the cells have flown.
+    fn in_cells(&self, block: [Vec3; 2]) -> [Vec3; 2] {
+        let flown = self.grid.frame.flown(self.now);
+        block.map(|corner| corner - flown)
+    }
+
+    /// Gathers the spheres of a level in a block between two corners [m]: from the cells there, or from all the spheres
+    /// where they are fewer.
+    fn gather(&self, number: usize, level: &Level, block: [Vec3; 2], scratch: &mut Vec<Candidate>) {
+        let grid = self.grid;
+        let in_cells = self.in_cells(block);
+        if grid.cells_within(number, in_cells) <= work_of_all(level) {
+            grid.visit_within(number, in_cells, |other, image| scratch.push((other, image)));
+            return;
+        }
+        grid.visit_level(number, |other| {
+            let place = self.motion[other as usize].at(self.now);
+            let images = |axis: usize| grid.images(axis, place[axis], block.map(|corner| corner[axis]));
+            let (x0, x1) = images(0);
+            let (y0, y1) = images(1);
+            let (z0, z1) = images(2);
+            for z in z0..=z1 {
+                for y in y0..=y1 {
+                    (x0..=x1).for_each(|x| scratch.push((other, [x, y, z])));
+                }
+            }
+        });
+    }
+}
+
+/// What looking at all spheres of a level costs, in cells.
+fn work_of_all(level: &Level) -> u64 {
+    4 * u64::from(level.population) + level.words() as u64
+}
+
+/// Where spheres of a level are now if they can be met soon.
+struct View {
+    place: Vec3,
+    /// Sum of the radii at the most [m].
+    reach: f64,
+    /// How fast they can come from below and from above along each axis [m/s].
+    closing: [Vec3; 2],
+}
+
+impl View {
+    #[inline]
+    fn new(own: &Sphere, now: f64, level: &Level) -> Self {
+        let [low, high] = level.velocities;
+        let closing = [(high - own.velocity).max(Vec3::ZERO), (own.velocity - low).max(Vec3::ZERO)];
+        Self { place: own.at(now), reach: own.radius + 0.5 * level.widest(), closing }
+    }
+
+    /// The fastest along any axis [m/s].
+    #[inline]
+    fn speed(&self) -> f64 {
+        self.closing.iter().flat_map(|closing| closing.to_array()).fold(0.0, f64::max)
+    }
+
+    /// The block in which are all that can be met within a time [s], between two corners [m].
+    #[inline]
+    fn block(&self, ahead: f64) -> [Vec3; 2] {
+        // A little more than can be travelled, for rounding.
+        let side =
+            |closing: Vec3| (Vec3::new(self.reach, self.reach, self.reach) + closing * ahead) * (1.0 + 1e-9);
+        [self.place - side(self.closing[0]), self.place + side(self.closing[1])]
     }
 }
 

@@ -1,0 +1,83 @@
+//! Cells that fly with the spheres.
+//!
+//! Spheres that all fly one way would pass through cells that lie still, one event for each, without meeting anyone. So the
+//! cells fly at the mean velocity of the spheres, where no face of the volume does anything but bring spheres back by an
+//! edge. Positions are those of the images in the flying block; what is given out is folded into the volume.
+
+use serde::{Deserialize, Serialize};
+
+use crate::domain::{Boundary, Volume};
+use crate::math::Vec3;
+
+use super::grid::Grid;
+
+/// Edges of the volume that cells may fly before they are taken back.
+const FAR: f64 = 64.0;
+
+/// Where the cells are. Where there is no wall they fly with the spheres, so that a wind drives nobody through them.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Frame {
+    /// Lower corner of the cells [m] at `since`.
+    pub lower: Vec3,
+    /// Their velocity [m/s].
+    pub drift: Vec3,
+    /// A moment [s].
+    pub since: f64,
+}
+
+impl Frame {
+    /// How far the cells have flown [m].
+    #[inline]
+    pub fn flown(&self, time: f64) -> Vec3 {
+        self.drift * (time - self.since)
+    }
+}
+
+impl Grid {
+    /// Lets the cells, which are empty, fly on from where the volume is at a time [s].
+    pub fn set_off(&mut self, volume: &Volume, time: f64, drift: Vec3) {
+        self.frame = Frame { lower: volume.lower(), drift, since: time };
+    }
+
+    /// Edges [m] to add to the position of a sphere so that it is in the cells at a time [s].
+    pub fn way_back(&self, place: Vec3, time: f64) -> Vec3 {
+        self.whole_edges(place - self.frame.flown(time) - self.frame.lower)
+    }
+
+    /// Edges [m] that take a vector into the block of one volume at the origin.
+    fn whole_edges(&self, way: Vec3) -> Vec3 {
+        if self.boundary != Boundary::Periodic {
+            return Vec3::ZERO;
+        }
+        let along = |axis: usize| -(way[axis] / self.edges[axis]).floor() * self.edges[axis];
+        Vec3::new(along(0), along(1), along(2))
+    }
+
+    /// Whether the cells have flown so far that positions are about to lose digits.
+    #[inline]
+    pub fn is_far(&self, time: f64) -> bool {
+        let flown = self.frame.flown(time).to_array();
+        self.boundary == Boundary::Periodic
+            && flown.into_iter().zip(self.edges.to_array()).any(|(way, edge)| way.abs() > FAR * edge)
+    }
+
+    /// Takes the cells back by whole edges to where the volume is; gives what must be added to all positions [m].
+    pub fn take_back(&mut self, volume: &Volume, time: f64) -> Vec3 {
+        let lower = self.frame.lower + self.frame.flown(time);
+        let back = self.whole_edges(lower - volume.lower());
+        self.frame = Frame { lower: lower + back, since: time, ..self.frame };
+        back
+    }
+
+    /// The images of a place along an axis that lie between two coordinates [m]: the first and the last number of edges
+    /// to add.
+    #[inline]
+    pub fn images(&self, axis: usize, place: f64, [from, to]: [f64; 2]) -> (i8, i8) {
+        if self.boundary == Boundary::Periodic {
+            let edge = self.edges[axis];
+            (((from - place) / edge).ceil() as i8, ((to - place) / edge).floor() as i8)
+        } else {
+            (0, if from <= place && place <= to { 0 } else { -1 })
+        }
+    }
+}
