@@ -27,13 +27,21 @@ pub(super) struct Gas {
     pub free_path: f64,
     /// Mean relative speed of two grains [m/s].
     pub relative_speed: f64,
-    /// Mean distance of the centres of two grains that touch [m].
-    pub touching: f64,
+    /// Mass of all [kg].
+    pub mass: f64,
+    /// Kinetic energy [J], as seen by one at rest and by one who moves with the centre of mass.
+    pub kinetic: [f64; 2],
+    /// Sum over the axes of the size of the mean velocity, averaged over the groups [m/s].
+    pub drift: f64,
+    /// The group with most of the mass.
+    pub heaviest: Option<GrainGroup>,
 }
 
 /// The grains of one group.
 struct Kind {
     count: f64,
+    /// Mass of all of them [kg].
+    mass: f64,
     radius: f64,
     mean: Vec3,
     /// Variance of the velocity [m²/s²], all components together.
@@ -44,14 +52,18 @@ impl Gas {
     /// The gas that a scenario of hard spheres starts from; `counts` are the grains of each group.
     pub fn at_start(scenario: &Scenario, counts: &[u64]) -> Option<Self> {
         let volume = scenario.volume.as_ref()?.volume();
-        let kinds: Vec<Kind> =
-            scenario.grains.iter().zip(counts).map(|(group, count)| kind(group, *count as f64)).collect();
+        let kinds: Vec<Kind> = scenario
+            .grains
+            .iter()
+            .zip(counts)
+            .map(|(group, count)| kind(scenario, group, *count as f64))
+            .collect();
         let solid = |kind: &Kind| kind.count * 4.0 / 3.0 * PI * kind.radius.powi(3);
         let solid_fraction = kinds.iter().map(solid).sum::<f64>() / volume;
         let phi = solid_fraction.min(DENSEST);
         let chi = (1.0 - 0.5 * phi) / (1.0 - phi).powi(3);
         let count: f64 = kinds.iter().map(|kind| kind.count).sum();
-        let (mut met, mut sections, mut speeds, mut distances) = (0.0, 0.0, 0.0, 0.0);
+        let (mut met, mut sections, mut speeds) = (0.0, 0.0, 0.0);
         for a in &kinds {
             for b in &kinds {
                 let (sigma, speed) = (a.radius + b.radius, relative_speed(a, b));
@@ -59,26 +71,43 @@ impl Gas {
                 met += a.count * section * speed;
                 sections += a.count * section;
                 speeds += a.count * b.count * speed;
-                distances += a.count * b.count * sigma;
             }
         }
+        let heaviest = (0..kinds.len()).max_by(|a, b| kinds[*a].mass.total_cmp(&kinds[*b].mass));
+        let drift =
+            |kind: &Kind| kind.count / count * kind.mean.to_array().into_iter().map(f64::abs).sum::<f64>();
         Some(Self {
+            mass: kinds.iter().map(|kind| kind.mass).sum(),
+            kinetic: kinetic(&kinds),
+            drift: kinds.iter().map(drift).sum(),
+            heaviest: heaviest.map(|at| scenario.grains[at].clone()),
             solid_fraction,
             // Each impact is one of two grains.
             rate: 0.5 * met,
             free_time: count / met,
             free_path: count / (std::f64::consts::SQRT_2 * sections),
             relative_speed: speeds / (count * count),
-            touching: distances / (count * count),
         })
     }
+}
+
+/// Kinetic energy [J] as seen at rest, and from the centre of mass.
+fn kinetic(kinds: &[Kind]) -> [f64; 2] {
+    let mass: f64 = kinds.iter().map(|kind| kind.mass).sum();
+    let momentum = kinds.iter().fold(Vec3::ZERO, |sum, kind| sum + kind.mean * kind.mass);
+    let of = |kind: &Kind| 0.5 * kind.mass * (kind.mean.norm_squared() + kind.scatter);
+    let all: f64 = kinds.iter().map(of).sum();
+    let common = if mass > 0.0 { 0.5 * momentum.norm_squared() / mass } else { 0.0 };
+    [all, (all - common).max(0.0)]
 }
 
 fn relative_speed(a: &Kind, b: &Kind) -> f64 {
     ((a.mean - b.mean).norm_squared() + 8.0 / (3.0 * PI) * (a.scatter + b.scatter)).sqrt()
 }
 
-fn kind(group: &GrainGroup, count: f64) -> Kind {
+fn kind(scenario: &Scenario, group: &GrainGroup, count: f64) -> Kind {
+    let density = scenario.materials.get(&group.material).map_or(0.0, |material| material.density.si());
+    let mass = count * density * group.size.mean_volume();
     let radius = (0.75 * group.size.mean_volume() / PI).cbrt();
     let scatter = match &group.velocity_spread {
         None => 0.0,
@@ -92,7 +121,7 @@ fn kind(group: &GrainGroup, count: f64) -> Kind {
         let part = 1.0 / list.velocities.len() as f64;
         let mean = velocities().fold(Vec3::ZERO, |sum, v| sum + v * part);
         let scatter = velocities().map(|v| part * (v - mean).norm_squared()).sum();
-        return Kind { count, radius, mean, scatter };
+        return Kind { count, mass, radius, mean, scatter };
     }
-    Kind { count, radius, mean: vector(group.velocity), scatter }
+    Kind { count, mass, radius, mean: vector(group.velocity), scatter }
 }

@@ -1,12 +1,13 @@
 //! What is planned for hard spheres, and what to keep in mind of their laws.
 
 use super::Plan;
+use super::forecast::{Forecast, MeanField, Now};
 use super::gas::Gas;
 use crate::domain::Boundary;
 use crate::engine::Engine;
 use crate::engine::hard::{Distance, Pairs, TimeStepped};
 use crate::impact::cooling::Integration;
-use crate::impact::fragmentation::BreakingEnergy;
+use crate::impact::fragmentation::{BreakingEnergy, surface};
 use crate::impact::heat::Balance;
 use crate::impact::restitution::hardness::{ForceTime, Hardness, Solver};
 use crate::impact::tangential::SlipLimit;
@@ -15,8 +16,10 @@ use crate::particles::Material;
 use crate::scenario::figures::{digits, readable};
 use crate::scenario::types::{GrainGroup, Scenario};
 
-/// Time [s] of one impact with what it changes in the queue; measured runs are within a few times of it.
-const SECONDS_PER_IMPACT: f64 = 3e-6;
+/// Time [s] of one impact: the laws, and two searches for the next one.
+const SECONDS_PER_IMPACT: f64 = 2e-6;
+/// Time [s] of one move into the next cell.
+const SECONDS_PER_CROSSING: f64 = 1e-6;
 /// Time [s] of one step for one grain: its move and its search for neighbours.
 const SECONDS_PER_GRAIN: f64 = 2e-7;
 /// The fastest pair that matters for the step is about this many times as fast as the mean one.
@@ -25,59 +28,103 @@ const FASTEST: f64 = 2.0;
 /// Impacts, steps and time of a run of hard spheres.
 pub(super) fn estimate(plan: &mut Plan, scenario: &Scenario, counts: &[u64]) {
     let Some(gas) = Gas::at_start(scenario, counts) else { return };
-    let end = scenario.time.end.si();
-    plan.impacts = impacts(scenario, &gas, plan.grains as f64);
-    plan.seconds = plan.impacts * SECONDS_PER_IMPACT;
-    if let Engine::TimeStepped(law) = &scenario.engine {
-        plan.step = step(law, &gas).min(end);
-        plan.steps = end / plan.step;
-        plan.seconds += plan.steps * plan.grains as f64 * SECONDS_PER_GRAIN;
+    let (end, grains) = (scenario.time.end.si(), plan.grains as f64);
+    let stepped = match &scenario.engine {
+        Engine::TimeStepped(law) => Some(law),
+        _ => None,
+    };
+    let length = |now: &Now| stepped.map_or(f64::INFINITY, |law| step(law, now).min(end));
+    let at_rest = |step: f64| Forecast {
+        grains,
+        steps: end / step,
+        grain_steps: grains * end / step,
+        ..Forecast::default()
+    };
+    let found = match MeanField::new(scenario, &gas, grains) {
+        Some(field) => field.run(end, &length),
+        None => at_rest(stepped.map_or(f64::INFINITY, |law| law.longest_step.si().min(end))),
+    };
+    plan.impacts = found.impacts;
+    plan.seconds = found.impacts * SECONDS_PER_IMPACT;
+    if stepped.is_some() {
+        plan.steps = found.steps;
+        plan.seconds += found.grain_steps * SECONDS_PER_GRAIN;
+    } else {
+        plan.seconds += found.crossings * SECONDS_PER_CROSSING;
     }
-    describe(plan, scenario, &gas);
+    expectations(plan, &found);
+    describe(plan, scenario, &gas, grains);
 }
 
-/// Expected impacts: Haff's law where restitution is constant, else those at the rate of the start.
-fn impacts(scenario: &Scenario, gas: &Gas, grains: f64) -> f64 {
-    let end = scenario.time.end.si();
-    let at_first_rate = gas.rate * end;
-    let laws = scenario.impact.as_ref();
-    let Some(Restitution::Constant(law)) = laws.map(|laws| &laws.restitution) else { return at_first_rate };
-    let lost = 1.0 - law.restitution * law.restitution;
-    if law.restitution == 0.0 && laws.is_some_and(|laws| laws.sticking == Sticking::Merge) {
-        return at_first_rate.min(grains - 1.0).max(0.0);
+/// What will become of the grains, as far as means can tell.
+fn expectations(plan: &mut Plan, found: &Forecast) {
+    let mut row = |label: &str, words: String| plan.figures.push((label.to_owned(), words));
+    if found.impacts > 0.0 {
+        row("impacts", format!("about {}", about(found.impacts)));
     }
-    if lost == 0.0 || at_first_rate == 0.0 {
-        return at_first_rate;
+    if found.steps > 0.0 {
+        row("steps", format!("about {}, as long as the grains allow", about(found.steps)));
     }
-    let cooling_time = 6.0 * gas.free_time / lost;
-    gas.rate * cooling_time * (end / cooling_time).ln_1p()
+    let start = plan.grains as f64;
+    let change = (found.grains / start).ln();
+    if change < -0.01 {
+        row("grains at the end", format!("about {}, if they grow alike", about(found.grains)));
+    } else if change > 0.01 {
+        row("grains at the end", "more than at the start".to_owned());
+    }
 }
 
-/// A step of the time-stepped engine at the start [s].
-fn step(law: &TimeStepped, gas: &Gas) -> f64 {
+/// Two significant digits: "1600", "3.2e6".
+fn about(value: f64) -> String {
+    digits(format!("{:.1e}", value.max(1.0)).parse().unwrap_or(value))
+}
+
+/// A step of the time-stepped engine [s].
+fn step(law: &TimeStepped, now: &Now) -> f64 {
+    let relative_speed = 4.0 / std::f64::consts::PI.sqrt() * now.deviation;
     let approach = match law.distance {
         // With all gaps in play the next impact of any pair is what a step must not pass.
-        Distance::Gap => 1.0 / gas.rate,
-        Distance::Centers => gas.touching / (FASTEST * gas.relative_speed),
+        Distance::Gap => 1.0 / now.rate,
+        Distance::Centers => 2.0 * now.radius / (FASTEST * relative_speed),
     };
     (law.fraction * approach).clamp(law.shortest_step.si(), law.longest_step.si())
 }
 
-fn describe(plan: &mut Plan, scenario: &Scenario, gas: &Gas) {
+fn describe(plan: &mut Plan, scenario: &Scenario, gas: &Gas, grains: f64) {
     plan.figures.push(("solid fraction".to_owned(), digits(gas.solid_fraction)));
-    if gas.rate > 0.0 {
+    if gas.rate > 0.0 && grains > 1.0 {
         let way = format!("{}, {}", readable(gas.free_path, "m"), readable(gas.free_time, "s"));
         plan.figures.push(("from impact to impact".to_owned(), format!("{way} at the start")));
     }
     let Some(laws) = &scenario.impact else { return };
-    let Restitution::Hardness(law) = &laws.restitution else { return };
-    for (index, group) in scenario.grains.iter().enumerate() {
-        if let Some(threshold) =
-            scenario.materials.get(&group.material).and_then(|m| threshold(law, m, group))
-        {
-            plan.figures.push((format!("grains {index}"), threshold.words(laws)));
+    if let Restitution::Hardness(law) = &laws.restitution {
+        let unbreakable = is_unbreakable(scenario, laws, gas);
+        for (index, group) in scenario.grains.iter().enumerate() {
+            let found = scenario.materials.get(&group.material).and_then(|m| threshold(law, m, group));
+            if let Some(threshold) = found {
+                let words = threshold.words(laws, unbreakable);
+                plan.figures.push((format!("grains {index}"), words));
+            }
         }
     }
+    if laws.fragmentation.is_some() && is_unbreakable(scenario, laws, gas) {
+        let words = "none: two grains in one cost more to part than all fly with".to_owned();
+        plan.figures.push(("breakage".to_owned(), words));
+    }
+}
+
+/// Whether all kinetic energy together could not part two grains that are one.
+fn is_unbreakable(scenario: &Scenario, laws: &Impact, gas: &Gas) -> bool {
+    let Some(law) = &laws.fragmentation else { return true };
+    let energy = match law.energy {
+        BreakingEnergy::Published => gas.kinetic[0],
+        BreakingEnergy::CenterOfMass => gas.kinetic[1],
+    };
+    let cost = |group: &GrainGroup| {
+        let surface_energy = scenario.materials.get(&group.material)?.surface_energy?.si();
+        Some(surface(2, surface_energy, 2_f64.cbrt() * group.size.smallest(), 2))
+    };
+    scenario.grains.iter().filter_map(cost).all(|cost| cost > energy)
 }
 
 /// Where grains of one group stop to rebound.
@@ -99,14 +146,14 @@ pub(super) fn threshold(law: &Hardness, material: &Material, group: &GrainGroup)
 }
 
 impl Threshold {
-    fn words(&self, laws: &Impact) -> String {
+    fn words(&self, laws: &Impact, unbreakable: bool) -> String {
         let what = match laws.sticking {
             Sticking::Merge => "stick",
             Sticking::Never => "do not rebound",
         };
         let approach = readable(self.speed, "m/s");
         match (&laws.fragmentation, self.radius) {
-            (Some(_), Some(radius)) => {
+            (Some(_), Some(radius)) if !unbreakable => {
                 let radius = readable(radius, "m");
                 format!(
                     "two equal ones {what} from an approach of {approach}; above a radius of {radius} they break into eight there"

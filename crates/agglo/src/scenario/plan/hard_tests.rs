@@ -3,10 +3,16 @@
 use std::path::Path;
 
 use super::Plan;
+use super::forecast::MeanField;
 use super::gas::Gas;
 use crate::scenario::types::Scenario;
 
 const SET_1: &str = include_str!("../../../../../scenarios/reacting-agglomeration.toml");
+const SET_2: &str = include_str!("../../../../../scenarios/reacting-set-2.toml");
+const SET_3: &str = include_str!("../../../../../scenarios/reacting-set-3.toml");
+const SET_4: &str = include_str!("../../../../../scenarios/reacting-set-4.toml");
+const SET_5: &str = include_str!("../../../../../scenarios/reacting-set-5.toml");
+const SET_6: &str = include_str!("../../../../../scenarios/reacting-set-6.toml");
 const PUBLISHED: &str = include_str!("../../../../../scenarios/reacting-agglomeration-published.toml");
 
 /// 1000 grains of radius 1 mm in a box of 10 cm, so that φ = 4.18879e-3; velocities as asked for.
@@ -66,10 +72,23 @@ fn a_gas_that_cools() {
     let gas = start_of(&gas_of(MAXWELL, "0.8"), 1000);
     let haff = 6.0 * gas.free_time / 0.36;
     let by_hand = gas.rate * haff * (1.0 + 10.0 / haff).ln();
-    // Both ways to the logarithm round once or twice.
-    assert!((plan_of(&gas_of(MAXWELL, "0.8")).impacts / by_hand - 1.0).abs() < 1e-12);
-    // With e = 0 every impact takes one grain away: 999 and no more.
-    assert_eq!(plan_of(&gas_of(MAXWELL, "0")).impacts, 999.0);
+    // The midpoint rule in steps of 5 % errs by their square over 24, 1e-4.
+    assert!((plan_of(&gas_of(MAXWELL, "0.8")).impacts / by_hand - 1.0).abs() < 3e-4);
+}
+
+/// Where all stick, an impact takes 2 m s² of the energy 3 n m s²/2 with it, so that s² goes with n^(4/3), the rate with n (n - 1),
+/// and (n - 1)/n falls exponentially.
+#[test]
+fn grains_that_all_stick() {
+    let gas = start_of(&gas_of(MAXWELL, "0"), 1000);
+    for end in [1.0, 10.0, 1000.0] {
+        let text = gas_of(MAXWELL, "0").replace("time.end = \"10 s\"", &format!("time.end = \"{end} s\""));
+        let left = 0.999 * (-gas.rate * end / 999_000.0).exp();
+        let wanted = 1000.0 - 1.0 / (1.0 - left);
+        // Number and rate change by 5 % and 10 % in a step: the square of that over 24, a few times.
+        let found = plan_of(&text).impacts;
+        assert!((found / wanted - 1.0).abs() < 2e-3, "{found} and not {wanted} in {end} s");
+    }
 }
 
 /// Two streams through one another: |u| = 3 m/s between them and none within.
@@ -95,25 +114,49 @@ fn a_gas_at_rest() {
 }
 
 /// Set 1: H = 0.26548 MPa x exp(352.41/(8.314463 x 502.18)) = 1.08807 x 0.26548 MPa, so that
-/// 2 sqrt(1.5 H/6652.7) = 16.14 m/s and 4 x 8.3685e15/H = 1.159e11 m.
+/// 2 sqrt(1.5 H/6652.7) = 16.14 m/s; surfaces cost 8.4e15 J/m².
 #[test]
 fn the_papers_best_set() {
     let plan = plan_of(SET_1);
     let page = plan.to_string();
-    assert!(page.contains("stick from an approach of 16.14 m/s; above a radius of 115.9 Gm"), "{page}");
+    assert!(page.contains("stick from an approach of 16.14 m/s\n") && page.contains("breakage"), "{page}");
     // (4/3) pi 0.79041³/8; 1/(sqrt 2 pi n σ² χ) with n = 1.25e8/m³, σ = 1.58082 mm, χ = 2.13622.
     assert!(page.contains("0.2586") && page.contains("337.3 um"), "{page}");
-    // 1000 grains of radius b L-wise: n pi σ² χ sqrt(16 x 1.02/(9 pi)) v0 = 2.94153e5/s, for 10 ms, two to an impact.
-    assert!((plan.impacts / 1.470_764e6 - 1.0).abs() < 1e-5, "{}", plan.impacts);
+    // 1000 grains of radius b L-wise: n pi σ² χ sqrt(16 x 1.02/(9 pi)) v0 = 2.94153e5/s, two to an impact.
+    let rate = start_of(SET_1, 1000).rate;
+    assert!((rate / 1.470_764e8 - 1.0).abs() < 1e-5, "{rate}");
     assert_eq!((plan.steps, plan.memory), (0.0, 400_000.0));
     assert!(plan.notes.is_empty(), "{:?}", plan.notes);
 }
 
-/// Half of σ over twice the mean relative speed, 1.58082 mm/(4 x 140.27 m/s) = 2.817 us.
+/// What runs of the shipped scenarios come to (seed 1): impacts, grains at the end.
+#[test]
+fn forecasts_are_near_what_runs_give() {
+    let runs = [
+        (SET_1, 1852.0, 50.0),
+        (SET_2, 1804.0, 47.0),
+        (SET_3, 2016.0, 56.0),
+        (SET_4, 1843.0, 56.0),
+        (SET_5, 1409.0, 34.0),
+        (SET_6, 4025.0, 235.0),
+    ];
+    for (text, impacts, grains) in runs {
+        let scenario = Scenario::from_toml(text).unwrap();
+        let gas = Gas::at_start(&scenario, &[1000]).unwrap();
+        let found = MeanField::new(&scenario, &gas, 1000.0).unwrap().run(0.01, &|_| f64::INFINITY);
+        // One start scatters by some per cent; a mean field leaves the scatter of sizes out.
+        assert!((found.impacts / impacts - 1.0).abs() < 0.25, "{found:?}");
+        assert!((found.grains / grains - 1.0).abs() < 0.4, "{found:?}");
+    }
+}
+
+/// The run takes 40 steps: first of half of σ over twice the mean relative speed, 1.58082 mm/(4 x 140.27 m/s) = 2.817 us, then
+/// longer and longer.
 #[test]
 fn the_published_model_is_told_from_the_sound_one() {
     let plan = plan_of(PUBLISHED);
-    assert!(plan.to_string().contains("3551 of 2.817 us"), "{plan}");
+    assert!((13.0..120.0).contains(&plan.steps), "{plan}");
+    assert!(plan.seconds < 1.0, "{plan}");
     for word in [
         "nearest",
         "centers",
@@ -134,8 +177,12 @@ fn the_published_model_is_told_from_the_sound_one() {
 fn steps_stay_within_their_bounds() {
     let over_gaps = PUBLISHED.replace("distance = \"centers\"", "distance = \"gap\"");
     let plan = plan_of(&over_gaps);
-    assert_eq!(plan.step, 1e-8);
-    assert!((plan.steps - 1e6).abs() < 1e-3);
+    let shortest = PUBLISHED
+        .replace("distance = \"centers\"", "distance = \"gap\"")
+        .replace("longest_step = \"1 ms\"", "longest_step = \"10 ns\"");
+    // Ten nanoseconds at the least and at the most.
+    assert!((plan_of(&shortest).steps - 1e6).abs() < 1e-3);
+    assert!(plan.steps < 1e6 && plan.steps > 1000.0, "{plan}");
 }
 
 #[test]

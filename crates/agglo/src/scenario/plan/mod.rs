@@ -3,6 +3,7 @@
 //! Everything here is an estimate from closed forms; nothing is simulated.
 
 mod counts;
+mod forecast;
 mod gas;
 mod hard;
 mod notes;
@@ -24,11 +25,11 @@ pub struct Plan {
     pub rays_per_pulse: u64,
     /// Pulses of all beams that start before the end.
     pub pulses: u64,
-    /// Expected number of impacts of hard spheres; where they stick or soften, the most.
+    /// Expected number of impacts of hard spheres.
     pub impacts: f64,
-    /// Expected number of steps; with adaptive steps the least, from impact to impact none.
+    /// Expected number of steps; from impact to impact none. Soft spheres with adaptive steps: the least.
     pub steps: f64,
-    /// Length of a step [s].
+    /// Length of a step [s]; 0 for hard spheres, whose steps follow the gaps.
     pub step: f64,
     /// Expected memory [B].
     pub memory: f64,
@@ -63,10 +64,7 @@ impl Plan {
             rows.push(("rays per pulse".to_owned(), self.rays_per_pulse.to_string()));
             rows.push(("pulses".to_owned(), self.pulses.to_string()));
         }
-        if self.impacts > 0.0 {
-            rows.push(("impacts".to_owned(), format!("at most about {}", digits(self.impacts.ceil()))));
-        }
-        if self.steps > 0.0 {
+        if self.step > 0.0 {
             let steps = format!("{} of {}", digits(self.steps.ceil()), readable(self.step, "s"));
             rows.push(("steps".to_owned(), steps));
         }
