@@ -4,6 +4,7 @@ use super::contact::needs;
 use super::{Check, used_materials};
 use crate::engine::Engine;
 use crate::engine::soft::Limits;
+use crate::impact::cooling::Integration;
 use crate::impact::fragmentation::Pieces;
 use crate::impact::restitution::hardness::{FixedPoint, Solver};
 use crate::impact::restitution::{Constant, Hardness};
@@ -82,7 +83,7 @@ fn laws(check: &mut Check, scenario: &Scenario, law: &Impact) {
         fragmentation(check, scenario, law);
     }
     if let Some(law) = &law.cooling {
-        cooling(check, law);
+        cooling(check, scenario, law);
     }
     heat_capacities(check, scenario, law);
 }
@@ -135,7 +136,14 @@ fn fragmentation(check: &mut Check, scenario: &Scenario, law: &Fragmentation) {
     }
 }
 
-fn cooling(check: &mut Check, law: &Cooling) {
+fn cooling(check: &mut Check, scenario: &Scenario, law: &Cooling) {
+    if law.integration == Integration::Published && matches!(scenario.engine, Engine::EventDriven(_)) {
+        // It would be one step from a grain's impact to its next.
+        let message =
+            "found \"published\", which takes the engine's steps; engine.event_driven has none".to_owned();
+        let help = "choose \"exact\", or [engine.time_stepped]";
+        check.fail_with("impact.cooling.integration", message, help);
+    }
     check.not_negative("impact.cooling.convection", law.convection);
     check.positive("impact.cooling.gas_temperature", law.gas_temperature);
     check.positive("impact.cooling.surroundings", law.surroundings);
