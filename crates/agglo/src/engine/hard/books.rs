@@ -119,6 +119,14 @@ pub struct Balance {
     pub drift_relative: f64,
 }
 
+impl Balance {
+    /// Heat that impacts made out of nothing, over all energy that was there or came in; below zero where heat was lost.
+    pub fn unbalanced_relative(&self) -> f64 {
+        let all = self.kinetic_at_start + self.thermal_at_start + self.reaction + self.unbalanced.max(0.0);
+        if all > 0.0 { self.unbalanced / all } else { 0.0 }
+    }
+}
+
 impl Books {
     /// Opens the books on spheres at the start.
     pub fn open(spheres: &Spheres) -> Self {
@@ -225,5 +233,27 @@ mod tests {
         let wanted = 1.0 + 1e6 * part;
         assert!((books.flows.impacts.normal - wanted).abs() < 3e-16);
         assert!((books.flows.impacts.heat - wanted).abs() < 3e-16);
+    }
+
+    /// 2 J of motion and 3 J of heat at the start, 4 J of reaction, and 7 J of heat of which 1 J was lost motion: 2 J of
+    /// nothing, of 11 J in all.
+    #[test]
+    fn heat_from_nothing_is_named() {
+        let mut books = Books { stores_at_start: Stores { kinetic: 2.0, thermal: 3.0 }, ..Books::default() };
+        books.add(&ImpactEnergy { normal: 1.0, reaction: 4.0, heat: 7.0, ..ImpactEnergy::default() });
+        let balance = books.balance(Stores { kinetic: 1.0, thermal: 10.0 }, 0.0);
+        assert_eq!((balance.unbalanced, balance.drift), (2.0, 0.0));
+        assert!((balance.unbalanced_relative() - 2.0 / 11.0).abs() < 1e-15);
+        assert_eq!(Balance::default().unbalanced_relative(), 0.0);
+    }
+
+    /// The drift is relative to all energy that was there or came in, that from nothing included: 1.1 J of 11 J.
+    #[test]
+    fn drift_is_relative_to_all_energy() {
+        let mut books = Books { stores_at_start: Stores { kinetic: 2.0, thermal: 3.0 }, ..Books::default() };
+        books.add(&ImpactEnergy { normal: 1.0, reaction: 4.0, heat: 7.0, ..ImpactEnergy::default() });
+        let balance = books.balance(Stores { kinetic: 1.0, thermal: 11.1 }, 0.0);
+        // 11.1 - 10 loses three bits.
+        assert!((balance.drift_relative - 0.1).abs() < 1e-14);
     }
 }

@@ -223,7 +223,7 @@ fn published(note: &mut dyn FnMut(&str), laws: &Impact) {
     }
     if laws.heat.balance == Balance::Published {
         note(
-            "impact.heat.balance = published: a pair gets more heat than the energy it lost, and how much depends on the observer; energy is sound",
+            "impact.heat.balance = published: a pair gets more heat than the energy it lost, and how much depends on the observer; the run's drift does not show it, its row \"false heat\" does; energy is sound",
         );
     }
     if laws.fragmentation.as_ref().is_some_and(|law| law.energy == BreakingEnergy::Published) {
