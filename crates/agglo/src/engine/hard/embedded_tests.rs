@@ -231,3 +231,30 @@ fn a_scenario_that_lacks_something_is_refused() {
     let message = Microscale::new(&scenario).unwrap_err().to_string();
     assert!(message.contains("materials.lead") && message.contains("materials.clay"), "{message}");
 }
+
+/// An agglomerate of eight is hit and breaks: where its pieces go is drawn anew in each step of the macroscale code, and a step
+/// made twice is the same.
+#[test]
+fn each_step_draws_its_own_numbers() {
+    let law = "[materials.sand]\ndensity = \"2000 kg/m3\"\nheat_capacity = \"1000 J/kg/K\"\nsurface_energy = \"1 J/m2\"\n\
+               [impact.fragmentation]\n[impact.restitution.constant]\nrestitution = 0.5\n\
+               [[grains]]\nmaterial = \"sand\"\nsize.constant.radius = \"0.5 mm\"\nplacement.fill.count = 1";
+    let microscale = microscale(law, "event_driven");
+    let start = microscale
+        .state(&MicroGrains {
+            radii: vec![1e-3, 1e-3],
+            velocities: vec![Vec3::new(20.0, 0.0, 0.0), Vec3::ZERO],
+            temperatures: vec![300.0; 2],
+            positions: vec![Vec3::new(-2e-3, 0.0, 0.0), Vec3::new(2e-3, 0.0, 0.0)],
+            materials: vec![2, 2],
+            primaries: vec![8, 8],
+        })
+        .unwrap();
+    let places = |step: u32| {
+        let (state, _) = microscale.step(&MicroState { step, ..start.clone() }, 1.1e-4).unwrap();
+        assert!(state.grains.len() > 2, "{}", state.grains.len());
+        state.grains.position
+    };
+    assert_eq!(places(0), places(0));
+    assert_ne!(places(0), places(1));
+}

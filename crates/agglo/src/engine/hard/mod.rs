@@ -29,6 +29,8 @@ mod walls;
 #[cfg(test)]
 mod cases_tests;
 #[cfg(test)]
+mod corner_tests;
+#[cfg(test)]
 mod oracle_tests;
 #[cfg(test)]
 mod test_clouds;
