@@ -119,11 +119,16 @@ pub struct Balance {
     pub drift_relative: f64,
 }
 
+/// Heat from nothing below this part of all heat is rounding.
+const ROUNDING: f64 = 1e-12;
+
 impl Balance {
-    /// Heat that impacts made out of nothing, over all energy that was there or came in; below zero where heat was lost.
-    pub fn unbalanced_relative(&self) -> f64 {
-        let all = self.kinetic_at_start + self.thermal_at_start + self.reaction + self.unbalanced.max(0.0);
-        if all > 0.0 { self.unbalanced / all } else { 0.0 }
+    /// Heat that impacts made out of nothing, over the motion that they took; below zero where heat was lost. Nothing
+    /// where it is no more than rounding.
+    pub fn false_heat(&self) -> Option<f64> {
+        let all = self.heat.abs() + self.reaction + self.surface;
+        let taken = self.normal + self.tangential;
+        (self.unbalanced.abs() > ROUNDING * all && taken > 0.0).then(|| self.unbalanced / taken)
     }
 }
 
@@ -235,16 +240,16 @@ mod tests {
         assert!((books.flows.impacts.heat - wanted).abs() < 3e-16);
     }
 
-    /// 2 J of motion and 3 J of heat at the start, 4 J of reaction, and 7 J of heat of which 1 J was lost motion: 2 J of
-    /// nothing, of 11 J in all.
+    /// 4 J of reaction, and 7 J of heat of which 1 J was lost motion: 2 J of nothing, twice what motion gave.
     #[test]
     fn heat_from_nothing_is_named() {
         let mut books = Books { stores_at_start: Stores { kinetic: 2.0, thermal: 3.0 }, ..Books::default() };
         books.add(&ImpactEnergy { normal: 1.0, reaction: 4.0, heat: 7.0, ..ImpactEnergy::default() });
         let balance = books.balance(Stores { kinetic: 1.0, thermal: 10.0 }, 0.0);
         assert_eq!((balance.unbalanced, balance.drift), (2.0, 0.0));
-        assert!((balance.unbalanced_relative() - 2.0 / 11.0).abs() < 1e-15);
-        assert_eq!(Balance::default().unbalanced_relative(), 0.0);
+        assert_eq!(balance.false_heat(), Some(2.0));
+        assert_eq!(Balance { unbalanced: 1e-12, ..balance }.false_heat(), None);
+        assert_eq!(Balance::default().false_heat(), None);
     }
 
     /// The drift is relative to all energy that was there or came in, that from nothing included: 1.1 J of 11 J.

@@ -12,9 +12,6 @@ use crate::scenario::{Scenario, readable};
 use super::growth::Growth;
 use super::scales::Scales;
 
-/// Heat from nothing above this part of all energy is no rounding.
-const FALSE_HEAT: f64 = 1e-9;
-
 /// What a run of hard spheres came to; `summary.json` holds the same. Figures that cannot be had are null.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct HardSummary {
@@ -222,7 +219,7 @@ impl HardSummary {
             ("speed", format!("{} in the mean", readable(self.mean_speed_m_s, "m/s"))),
         ];
         rows.extend(self.scale_rows());
-        rows.extend(self.unbalanced_row());
+        rows.extend(self.false_heat_row());
         rows.extend([
             ("energy drift", format!("{:.3e} of all energy", self.energy.drift_relative)),
             ("momentum drift", format!("{:.3e} of all momentum", self.momentum_drift_relative)),
@@ -247,13 +244,11 @@ impl HardSummary {
     }
 
     /// What the drift of energy does not show: the ledger takes it as a flow of its own.
-    fn unbalanced_row(&self) -> Option<(&'static str, String)> {
-        let part = self.energy.unbalanced_relative();
-        let joule = readable(self.energy.unbalanced.abs(), "J");
-        let percent = 100.0 * part.abs();
-        let what = if part > 0.0 { "made of nothing by impacts" } else { "lost without a trace by impacts" };
-        let row = || ("false heat", format!("{joule} {what}, {percent:.3} % of all energy"));
-        (part.abs() > FALSE_HEAT).then(row)
+    fn false_heat_row(&self) -> Option<(&'static str, String)> {
+        let part = self.energy.false_heat()?;
+        let (joule, percent) = (readable(self.energy.unbalanced.abs(), "J"), 100.0 * part.abs());
+        let what = if part > 0.0 { "made of nothing" } else { "lost without a trace" };
+        Some(("false heat", format!("{joule} {what} at impacts, {percent:.1} % of the motion they took")))
     }
 
     fn mean_radius_row(&self) -> String {

@@ -66,3 +66,23 @@ fn a_run_resumed_at_any_moment_ends_in_the_same_state() {
         }
     }
 }
+
+/// Figures of the summary that are ratios of others, and false heat where the published sum makes some: without reaction the
+/// sound balance makes none.
+#[test]
+fn ratios_of_the_summary() {
+    let published = SCENARIO.replace("[impact.cooling]", "[impact.heat]\nbalance = \"published\"");
+    for (text, is_false) in [(SCENARIO, false), (published.as_str(), true)] {
+        let scenario = Scenario::from_toml(text).unwrap().resolved();
+        let grains = crate::packing::place(&scenario, Path::new("")).unwrap();
+        let mut job = Hard::start(&scenario, grains).unwrap();
+        advance_to(&mut job, scenario.time.end.si());
+        let Summary::Hard(found) = job.summary(&scenario, 0.0) else { panic!("of hard spheres") };
+        assert_eq!(found.events_per_impact, Some(found.steps as f64 / found.impacts as f64));
+        assert!((found.largest_radius_ratio - found.largest_radius_m / 0.4e-3).abs() < 1e-12);
+        assert!((found.radius_ratio - found.mean_radius_m / 0.4e-3).abs() < 1e-12);
+        assert_eq!(found.table().iter().any(|(label, _)| label == "false heat"), is_false);
+        // Sums over some hundred impacts.
+        assert!(found.energy.drift_relative.abs() < 1e-13);
+    }
+}

@@ -63,12 +63,12 @@ fn expectations(plan: &mut Plan, found: &Forecast) {
         row("impacts", format!("about {}", about(found.impacts)));
     }
     if found.steps > 0.0 {
-        row("steps", format!("about {}, as long as the grains allow", about(found.steps)));
+        row("steps", format!("about {}, as long as the distances allow", about(found.steps)));
     }
     let start = plan.grains as f64;
     let change = (found.grains / start).ln();
     if change < -0.01 {
-        row("grains at the end", format!("about {}, if they grow alike", about(found.grains)));
+        row("grains at the end", format!("about {}, reckoned as equal ones", about(found.grains.round())));
     } else if change > 0.01 {
         row("grains at the end", "more than at the start".to_owned());
     }
@@ -79,15 +79,21 @@ fn about(value: f64) -> String {
     digits(format!("{:.1e}", value.max(1.0)).parse().unwrap_or(value))
 }
 
-/// A step of the time-stepped engine [s].
+/// A mean step of the time-stepped engine [s].
 fn step(law: &TimeStepped, now: &Now) -> f64 {
     let relative_speed = 4.0 / std::f64::consts::PI.sqrt() * now.deviation;
-    let approach = match law.distance {
+    let step = match law.distance {
         // With all gaps in play the next impact of any pair is what a step must not pass.
-        Distance::Gap => 1.0 / now.rate,
-        Distance::Centers => 2.0 * now.radius / (FASTEST * relative_speed),
+        Distance::Gap => 1.0 / now.rate / steps_to_an_impact(law, 1.0 / now.rate),
+        Distance::Centers => law.fraction * 2.0 * now.radius / (FASTEST * relative_speed),
     };
-    (law.fraction * approach).clamp(law.shortest_step.si(), law.longest_step.si())
+    step.clamp(law.shortest_step.si(), law.longest_step.si())
+}
+
+/// Each step takes a part of the time that is left [s], until the shortest one is long enough.
+fn steps_to_an_impact(law: &TimeStepped, left: f64) -> f64 {
+    let steps = (left / law.shortest_step.si()).ln() / -(-law.fraction.min(0.99)).ln_1p();
+    steps.max(1.0)
 }
 
 fn describe(plan: &mut Plan, scenario: &Scenario, gas: &Gas, grains: f64) {

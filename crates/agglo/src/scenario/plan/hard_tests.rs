@@ -185,6 +185,13 @@ fn steps_stay_within_their_bounds() {
     assert!(plan.steps < 1e6 && plan.steps > 1000.0, "{plan}");
 }
 
+/// A run of set 1 step by step takes 9366 steps: gaps are halved until the shortest step is left.
+#[test]
+fn steps_over_gaps_halve_the_way_to_each_impact() {
+    let steps = plan_of(&SET_1.replace("engine.event_driven", "engine.time_stepped")).steps;
+    assert!((4700.0..18_800.0).contains(&steps), "{steps}");
+}
+
 #[test]
 fn keys_without_effect_are_noted() {
     let text = gas_of(
