@@ -25,3 +25,5 @@ pub mod record;
 
 pub mod run;
 pub mod scenario;
+
+pub mod plot;

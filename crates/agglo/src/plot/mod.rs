@@ -1,0 +1,32 @@
+//! Charts as SVG text: what is in them is given, nothing is computed but the layout.
+//!
+//! Colours are told apart by readers with any kind of colour vision: the map for values is perceptually uniform, the colours
+//! for names come with dashes. Each chart has a title and a text for readers who cannot see it. The same chart is the
+//! same text, byte by byte. Fonts are the reader's; room for text is estimated from the number of letters.
+
+mod axis;
+mod bars;
+mod colour;
+mod front;
+mod histogram;
+mod lines;
+mod pairs;
+mod panel;
+mod parallel;
+mod refinement;
+mod scale;
+mod scatter;
+mod svg;
+#[cfg(test)]
+mod tests;
+
+pub use axis::Axis;
+pub use bars::{Bars, Series};
+pub use colour::{Colour, viridis};
+pub use front::{Front, FrontPoint};
+pub use histogram::{Histogram, Histograms};
+pub use lines::{Line, LinePanel, Lines};
+pub use pairs::Pairs;
+pub use parallel::Parallel;
+pub use refinement::{Level, Settled, Staircase};
+pub use scatter::Scatter;
