@@ -27,3 +27,4 @@ pub mod run;
 pub mod scenario;
 
 pub mod plot;
+pub mod search;

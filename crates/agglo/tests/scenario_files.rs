@@ -9,13 +9,24 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use agglo::engine::Engine;
-use agglo::scenario::{Fault, Plan, Scenario};
+use agglo::scenario::{Fault, Faults, Plan, Scenario};
+use agglo::search::{Campaign, Problem};
 
 fn files(folder: &str) -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
     let mut files: Vec<PathBuf> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     files.sort();
     files
+}
+
+fn shipped_and_good() -> Vec<PathBuf> {
+    let folders = ["tests/scenario/good", "tests/scenario/good_campaign", "../../scenarios"];
+    let is_toml = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "toml");
+    folders.map(files).concat().into_iter().filter(is_toml).collect()
+}
+
+fn is_campaign(path: &Path) -> bool {
+    Campaign::is_meant_by(&fs::read_to_string(path).unwrap())
 }
 
 /// Line (0 where there is none) and text of the faults that a bad file announces.
@@ -42,15 +53,22 @@ fn found(fault: &Fault) -> (usize, String) {
 
 #[test]
 fn bad_files_are_refused_with_the_words_beside_their_faults() {
-    let files = files("tests/scenario/bad");
-    assert!(files.len() >= 110, "only {} bad files", files.len());
+    refused("tests/scenario/bad", 110, |text| Scenario::from_toml(text).err());
+}
+
+/// Files that they name are relative to the folder in which tests run, that of the crate.
+#[test]
+fn bad_searches_and_studies_are_refused_with_the_words_beside_their_faults() {
+    refused("tests/scenario/bad_campaign", 60, |text| Campaign::from_toml(text).err());
+}
+
+fn refused(folder: &str, least: usize, read: impl Fn(&str) -> Option<Faults>) {
+    let files = files(folder);
+    assert!(files.len() >= least, "only {} bad files", files.len());
     let mut wrong = Vec::new();
     for path in files {
         let text = fs::read_to_string(&path).unwrap();
-        let mut faults: Vec<(usize, String)> = match Scenario::from_toml(&text) {
-            Ok(_) => Vec::new(),
-            Err(faults) => faults.iter().map(found).collect(),
-        };
+        let mut faults: Vec<(usize, String)> = read(&text).iter().flatten().map(found).collect();
         faults.sort();
         let wanted = announced(&text);
         if faults != wanted || wanted.is_empty() {
@@ -62,15 +80,27 @@ fn bad_files_are_refused_with_the_words_beside_their_faults() {
 
 #[test]
 fn good_and_shipped_files_are_read_and_written_back_the_same() {
-    let is_scenario = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "toml");
-    for path in
-        [files("tests/scenario/good"), files("../../scenarios")].concat().into_iter().filter(is_scenario)
-    {
+    for path in shipped_and_good().into_iter().filter(|path| !is_campaign(path)) {
         let scenario = Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"));
         let written = scenario.to_toml().unwrap();
         let again = Scenario::from_toml(&written).unwrap_or_else(|error| panic!("{error}\n{written}"));
         assert_eq!(scenario, again, "{}", path.display());
     }
+}
+
+#[test]
+fn searches_and_studies_are_read_and_written_back_the_same() {
+    let mut count = 0;
+    for path in shipped_and_good().into_iter().filter(|path| is_campaign(path)) {
+        let campaign = Campaign::load(&path).unwrap_or_else(|error| panic!("{error}"));
+        let problem = Problem::new(&campaign, path.parent().unwrap()).unwrap();
+        assert_eq!(problem.refused_ends(), Vec::<String>::new(), "{}", path.display());
+        let written = campaign.to_toml().unwrap();
+        let again: Campaign = toml::from_str(&written).unwrap_or_else(|error| panic!("{error}\n{written}"));
+        assert_eq!(campaign, again, "{}", path.display());
+        count += 1;
+    }
+    assert!(count >= 5, "{count}");
 }
 
 #[test]
@@ -103,9 +133,8 @@ fn every_default_of_hard_spheres_is_written_out() {
 #[test]
 fn good_files_of_hard_spheres_can_be_placed() {
     let base = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scenario/good");
-    let shipped = [files("tests/scenario/good"), files("../../scenarios")].concat();
     let mut placed = 0;
-    for path in shipped.into_iter().filter(|path| path.extension().is_some_and(|e| e == "toml")) {
+    for path in shipped_and_good().into_iter().filter(|path| !is_campaign(path)) {
         let scenario = Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"));
         if scenario.engine.is_hard() {
             let grains = agglo::packing::place(&scenario, &base)
@@ -181,14 +210,35 @@ fn choices_left_to_the_program_are_made() {
     assert_eq!(resolved, again);
 }
 
+#[test]
+fn settings_replace_values_of_searches_too() {
+    let text = agglo::scenario::template("search").unwrap().text;
+    let read = |setting: &str| Campaign::with_overrides(text, &[setting]);
+    let campaign = read("parameters.1.range.linear.upper=0.7").unwrap();
+    assert!(campaign.to_toml().unwrap().contains("upper = 0.7"));
+    let refused = |setting: &str| read(setting).unwrap_err().to_string();
+    let message = refused("parameters.1.range.linear.upper=0.7 m");
+    assert!(message.starts_with("--set parameters.1.range.linear.upper=0.7 m: parameters.1"), "{message}");
+    assert!(refused("sed=3").contains("did you mean \"seed\"?"));
+}
+
 /// Spoiled files are refused or read, but never end the program.
 #[test]
 fn spoiled_files_do_no_harm() {
     spoil(include_str!("scenario/good/every_choice.toml"));
     spoil(include_str!("scenario/good/hard_every_choice.toml"));
+    spoil_with(agglo::scenario::template("study-rays").unwrap().text, &|text| {
+        if let Err(faults) = Campaign::from_toml(text) {
+            assert!(!faults.is_empty() && faults.iter().all(|fault| !fault.message.is_empty()));
+        }
+    });
 }
 
 fn spoil(text: &str) {
+    spoil_with(text, &survive);
+}
+
+fn spoil_with(text: &str, survive: &dyn Fn(&str)) {
     let lines: Vec<&str> = text.lines().collect();
     for left_out in 0..lines.len() {
         let rest = [&lines[..left_out], &lines[left_out + 1..]].concat().join("\n");

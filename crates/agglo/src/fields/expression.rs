@@ -104,7 +104,7 @@ impl<const KG: i8, const M: i8, const S: i8, const K: i8, const A: i8> Expressio
 ///
 /// The parser knows no `1e13`, and takes a sign before anything else, so that -x^2 would be (-x)^2. A sign at the
 /// start of a term becomes a subtraction from zero; one behind an operator is refused.
-fn as_mathematicians_read(text: &str) -> Result<String, String> {
+pub(crate) fn as_mathematicians_read(text: &str) -> Result<String, String> {
     let mut read = String::with_capacity(text.len() + 8);
     let mut rest = text;
     while let Some(next) = rest.chars().next() {
@@ -133,7 +133,7 @@ fn as_mathematicians_read(text: &str) -> Result<String, String> {
 }
 
 /// The number at the start of a text without an exponent, and its length in the text.
-fn leading_number(text: &str) -> (String, usize) {
+pub(crate) fn leading_number(text: &str) -> (String, usize) {
     let digits = |from: usize| {
         let stop = text[from..].find(|c: char| !(c.is_ascii_digit() || c == '.'));
         stop.map_or(text.len(), |at| from + at)

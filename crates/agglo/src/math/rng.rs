@@ -40,6 +40,10 @@ pub enum Purpose {
     Sampling = 5,
     /// Pieces of agglomerates that break.
     Fragment = 6,
+    /// Proposals of optimisers.
+    Search = 7,
+    /// Seeds of the random starts of an ensemble.
+    Start = 8,
 }
 
 /// An endless sequence of random numbers that belongs to (seed, purpose, part).

@@ -26,6 +26,9 @@ pub enum RunError {
     /// The start failed before anything was written.
     #[error(transparent)]
     Start(SimError),
+    /// A step of a run without a folder failed.
+    #[error(transparent)]
+    Quiet(SimError),
     /// A file could not be written or read.
     #[error(transparent)]
     Record(#[from] RecordError),
@@ -88,6 +91,7 @@ impl RunError {
             | Self::NoCheckpointYet { .. } => 2,
             Self::Step { .. }
             | Self::Start(_)
+            | Self::Quiet(_)
             | Self::Record(_)
             | Self::CutShort { .. }
             | Self::BadCheckpoint { .. } => 1,

@@ -77,6 +77,8 @@ pub trait Job: Sized {
     /// What happens now, in words.
     fn now(&self) -> String;
 
+    /// Drops what happened since the last call: nobody writes it down.
+    fn forget_events(&mut self);
     /// Writes down what happened since the last call.
     fn record_events(&mut self, tables: &mut Tables) -> Result<(), RecordError>;
     /// Writes a row in each table over time.

@@ -5,6 +5,7 @@ mod folder;
 mod frames;
 mod hard;
 mod job;
+mod quiet;
 mod recorder;
 mod session;
 mod soft;
@@ -18,6 +19,7 @@ use std::time::Instant;
 
 pub use error::RunError;
 pub use hard::{Growth, HardSummary};
+pub use quiet::quiet;
 pub use soft::{Clusters, EnergyFigures, PulseFigures, SoftSummary};
 pub use summary::Summary;
 

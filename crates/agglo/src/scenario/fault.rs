@@ -26,7 +26,7 @@ pub struct Fault {
 
 impl Fault {
     /// A fault of a key, not yet placed in a file.
-    pub(super) fn new(key: impl Into<String>, message: impl Into<String>) -> Self {
+    pub(crate) fn new(key: impl Into<String>, message: impl Into<String>) -> Self {
         Self {
             line: None,
             column: None,
@@ -39,7 +39,7 @@ impl Fault {
     }
 
     /// The same with an advice.
-    pub(super) fn with_help(mut self, help: impl Into<String>) -> Self {
+    pub(crate) fn with_help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self
     }
@@ -87,7 +87,7 @@ pub struct Faults(Vec<Fault>);
 
 impl Faults {
     /// Sorts faults by their place; those without one come last.
-    pub(super) fn new(mut faults: Vec<Fault>) -> Self {
+    pub(crate) fn new(mut faults: Vec<Fault>) -> Self {
         faults.sort_by_key(|fault| {
             (fault.setting.is_some(), fault.line.is_none(), fault.line, fault.column, fault.key.clone())
         });
@@ -152,7 +152,7 @@ pub(super) fn line_and_column(text: &str, byte: usize) -> (usize, usize) {
 }
 
 /// The word of `words` that `word` most probably stands for.
-pub(super) fn nearest<'a>(word: &str, words: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub(crate) fn nearest<'a>(word: &str, words: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let lower = word.to_lowercase().replace('-', "_");
     let close = |known: &str| {
         let edits = strsim::normalized_damerau_levenshtein(&lower, known);

@@ -1,7 +1,8 @@
-//! From a text to a typed scenario: syntax, form, then the rules between keys; all faults of a stage at once.
+//! From a text to a typed document: syntax, form, then the rules between keys; all faults of a stage at once.
 
 use std::path::Path;
 
+use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
 use toml::de::DeTable;
 
@@ -12,7 +13,28 @@ use super::walk::Walk;
 use super::{check, settings};
 use crate::units::Quantity;
 
-/// Why a scenario file could not be loaded.
+/// What a file is read as: a scenario, a search or a study.
+pub(crate) trait Document: DeserializeOwned {
+    /// The JSON schema that its form is held to.
+    fn schema() -> Json;
+
+    /// Everything that is wrong with it though its form is right; the keys are paths in it.
+    ///
+    /// With `base`, the folder that other files are relative to, those must be there too.
+    fn faults(&self, base: Option<&Path>) -> Vec<Fault>;
+}
+
+impl Document for Scenario {
+    fn schema() -> Json {
+        schema()
+    }
+
+    fn faults(&self, base: Option<&Path>) -> Vec<Fault> {
+        check::faults(self, base)
+    }
+}
+
+/// Why a file could not be loaded.
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
     /// The file could not be read.
@@ -73,12 +95,8 @@ impl Scenario {
     /// # Errors
     /// [`LoadError`] where the file cannot be read, or it or a setting has faults.
     pub fn load_with_overrides<S: AsRef<str>>(path: &Path, overrides: &[S]) -> Result<Self, LoadError> {
-        let shown = path.display().to_string();
-        let text = std::fs::read_to_string(path)
-            .map_err(|cause| LoadError::Unreadable { path: shown.clone(), cause })?;
         let overrides: Vec<&str> = overrides.iter().map(AsRef::as_ref).collect();
-        let base = path.parent().unwrap_or(Path::new(""));
-        read(&text, &overrides, Some(base)).map_err(|faults| LoadError::Faulty { path: shown, faults, text })
+        load(path, &overrides)
     }
 
     /// Holds a scenario that was not read from a text to the rules between keys.
@@ -111,8 +129,17 @@ impl Scenario {
     }
 }
 
-/// Reads a text with its settings; with `base`, the folder that tables are relative to, tables must be there.
-fn read(text: &str, overrides: &[&str], base: Option<&Path>) -> Result<Scenario, Faults> {
+/// Reads a file with its settings; other files that it names must be there.
+pub(crate) fn load<D: Document>(path: &Path, overrides: &[&str]) -> Result<D, LoadError> {
+    let shown = path.display().to_string();
+    let text = std::fs::read_to_string(path)
+        .map_err(|cause| LoadError::Unreadable { path: shown.clone(), cause })?;
+    let base = path.parent().unwrap_or(Path::new(""));
+    read(&text, overrides, Some(base)).map_err(|faults| LoadError::Faulty { path: shown, faults, text })
+}
+
+/// Reads a text with its settings; with `base`, the folder that other files are relative to, those must be there.
+pub(crate) fn read<D: Document>(text: &str, overrides: &[&str], base: Option<&Path>) -> Result<D, Faults> {
     let placed = |faults: Vec<(Place, Fault)>| {
         Faults::new(faults.into_iter().map(|(place, fault)| put_in(place, fault, text, overrides)).collect())
     };
@@ -121,16 +148,16 @@ fn read(text: &str, overrides: &[&str], base: Option<&Path>) -> Result<Scenario,
     for (number, setting) in overrides.iter().enumerate() {
         faults.extend(settings::apply(&mut root, setting, number + 1));
     }
-    faults.extend(Walk::faults(&schema(), &root));
+    faults.extend(Walk::faults(&D::schema(), &root));
     if !faults.is_empty() {
         return Err(placed(faults));
     }
-    let scenario: Scenario = root.to_value().try_into().map_err(|error: toml::de::Error| {
+    let document: D = root.to_value().try_into().map_err(|error: toml::de::Error| {
         Faults::new(vec![Fault::new("", error.message().trim().to_owned())])
     })?;
-    let broken = check::faults(&scenario, base);
+    let broken = document.faults(base);
     if broken.is_empty() {
-        return Ok(scenario);
+        return Ok(document);
     }
     Err(Faults::new(broken.into_iter().map(|fault| locate(fault, &root, text, overrides)).collect()))
 }

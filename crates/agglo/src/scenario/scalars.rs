@@ -51,7 +51,7 @@ fn check_formula(text: &str, dimension: Dimension) -> Result<(), String> {
     }
 }
 
-fn dimension_of(schema: &Json) -> Option<Dimension> {
+pub(super) fn dimension_of(schema: &Json) -> Option<Dimension> {
     let powers = schema["x-dimension"].as_array()?;
     let mut dimension = Dimension::default();
     for (slot, power) in dimension.0.iter_mut().zip(powers) {
@@ -64,7 +64,7 @@ fn dimension_of(schema: &Json) -> Option<Dimension> {
 pub(super) fn walk_integer(walk: &mut Walk<'_>, node: &Node, schema: &Json, path: &str) {
     let (least, most) = match schema["format"].as_str() {
         Some("uint32") => (0, i128::from(u32::MAX)),
-        Some("uint64") => (0, i128::from(i64::MAX)),
+        Some("uint64" | "uint") => (0, i128::from(i64::MAX)),
         _ => (i128::from(i64::MIN), i128::from(i64::MAX)),
     };
     match &node.value {
@@ -93,5 +93,17 @@ pub(super) fn walk_number(walk: &mut Walk<'_>, node: &Node, path: &str) {
         }
         Value::Float(_) => walk.wrong_kind(node, path, "a finite number"),
         _ => walk.wrong_kind(node, path, "a number without unit"),
+    }
+}
+
+/// A value whose kind depends on the key that it is for: a finite number, true or false, or a text.
+pub(super) fn walk_scalar(walk: &mut Walk<'_>, node: &Node, schema: &Json, path: &str) {
+    match &node.value {
+        Value::Text(_) | Value::Flag(_) | Value::Integer(_) => {}
+        Value::Float(number) if number.is_finite() => {}
+        _ => {
+            let wanted = walk.wanted(schema);
+            walk.wrong_kind(node, path, &wanted);
+        }
     }
 }

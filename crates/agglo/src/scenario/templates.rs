@@ -1,6 +1,6 @@
-//! Commented scenarios to start from: the files that ship with the program.
+//! Commented scenarios, searches and studies to start from: the files that ship with the program.
 
-/// A scenario to start from.
+/// A scenario, a search or a study to start from.
 #[derive(Clone, Copy, Debug)]
 pub struct Template {
     /// The word it is asked for with.
@@ -9,6 +9,8 @@ pub struct Template {
     pub title: &'static str,
     /// The file.
     pub text: &'static str,
+    /// Whether it is a search or a study, and not a scenario.
+    pub is_campaign: bool,
 }
 
 /// All templates.
@@ -17,28 +19,62 @@ pub const TEMPLATES: &[Template] = &[
         name: "acoustic",
         title: "an acoustic pulse on an agglomerate, with the laws of the paper as printed",
         text: include_str!("../../../../scenarios/acoustic-dispersal.toml"),
+        is_campaign: false,
     },
     Template {
         name: "acoustic-sound",
         title: "the same agglomerate with laws that converge and bonds that hold and break",
         text: include_str!("../../../../scenarios/acoustic-dispersal-sound.toml"),
+        is_campaign: false,
     },
     Template {
         name: "microscale",
         title: "pigment grains of some 10 um in water under four short pulses",
         text: include_str!("../../../../scenarios/ink-agglomerate.toml"),
+        is_campaign: false,
     },
     Template {
         name: "reacting",
         title: "hard grains that collide, react, stick and grow, with laws that converge",
         text: include_str!("../../../../scenarios/reacting-agglomeration.toml"),
+        is_campaign: false,
     },
     Template {
         name: "reacting-published",
         title: "the same grains with the model of the paper as printed",
         text: include_str!("../../../../scenarios/reacting-agglomeration-published.toml"),
+        is_campaign: false,
+    },
+    Template {
+        name: "search",
+        title: "a search for the grains that grow most: ten parameters, the paper's genetic algorithm",
+        text: include_str!("../../../../scenarios/search-agglomeration.toml"),
+        is_campaign: true,
+    },
+    Template {
+        name: "search-pulse",
+        title: "a search for the pulses that disperse an agglomerate with the least energy",
+        text: include_str!("../../../../scenarios/search-pulse.toml"),
+        is_campaign: true,
+    },
+    Template {
+        name: "study",
+        title: "a study of growth against crowding: a grid of values, each a mean over random starts",
+        text: include_str!("../../../../scenarios/study-length-ratio.toml"),
+        is_campaign: true,
+    },
+    Template {
+        name: "study-rays",
+        title: "a study of convergence: how many rays are enough",
+        text: include_str!("../../../../scenarios/study-rays.toml"),
+        is_campaign: true,
     },
 ];
+
+/// All templates that are scenarios.
+pub fn scenario_templates() -> impl Iterator<Item = &'static Template> {
+    TEMPLATES.iter().filter(|template| !template.is_campaign)
+}
 
 /// The template with this name.
 pub fn template(name: &str) -> Option<&'static Template> {

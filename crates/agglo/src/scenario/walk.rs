@@ -7,7 +7,7 @@ use serde_json::Value as Json;
 
 use super::enums::walk_enum;
 use super::fault::{Fault, nearest};
-use super::scalars::{walk_integer, walk_number, walk_text};
+use super::scalars::{walk_integer, walk_number, walk_scalar, walk_text};
 use super::tree::{Entry, Node, Place, Value};
 
 /// The walk: the schema's definitions, and what was found so far.
@@ -35,23 +35,14 @@ impl<'a> Walk<'a> {
         self.push(&node.place, Fault::new(path, format!("found {found}; {wanted} is wanted")));
     }
 
-    /// Follows references and drops the `null` of what may be left out.
-    pub fn resolve(&self, schema: &'a Json) -> &'a Json {
-        if let Some(name) = schema["$ref"].as_str().and_then(|path| path.strip_prefix("#/$defs/")) {
-            return self.resolve(&self.definitions[name]);
-        }
-        let real = |choice: &&Json| choice["type"] != "null";
-        schema["anyOf"]
-            .as_array()
-            .and_then(|any| any.iter().find(real))
-            .map_or(schema, |one| self.resolve(one))
-    }
-
     /// Holds one value to its schema.
     pub fn node(&mut self, node: &Node, schema: &'a Json, path: &str) {
-        let schema = self.resolve(schema);
+        let schema = resolve(self.definitions, schema);
         if schema["oneOf"].is_array() || schema["enum"].is_array() {
             return walk_enum(self, node, schema, path);
+        }
+        if schema["x-scalar"] == true {
+            return walk_scalar(self, node, schema, path);
         }
         match kind_of(schema) {
             "object" => self.object(node, schema, path),
@@ -144,7 +135,7 @@ impl<'a> Walk<'a> {
 
     /// "a length, such as \"40 um\"", as it stands in a message.
     pub fn wanted(&self, schema: &'a Json) -> String {
-        let schema = self.resolve(schema);
+        let schema = resolve(self.definitions, schema);
         if let Some(kind) = schema["x-kind"].as_str() {
             let example = schema["examples"][0].as_str().unwrap_or("");
             return format!("{kind}, such as \"{example}\",");
@@ -165,8 +156,20 @@ impl<'a> Walk<'a> {
     }
 }
 
+/// Follows references and drops the `null` of what may be left out.
+pub(super) fn resolve<'a>(definitions: &'a Json, schema: &'a Json) -> &'a Json {
+    if let Some(name) = schema["$ref"].as_str().and_then(|path| path.strip_prefix("#/$defs/")) {
+        return resolve(definitions, &definitions[name]);
+    }
+    let real = |choice: &&Json| choice["type"] != "null";
+    schema["anyOf"]
+        .as_array()
+        .and_then(|any| any.iter().find(real))
+        .map_or(schema, |one| resolve(definitions, one))
+}
+
 /// The type of a schema, where it may also be `null`.
-fn kind_of(schema: &Json) -> &str {
+pub(super) fn kind_of(schema: &Json) -> &str {
     match &schema["type"] {
         Json::String(kind) => kind,
         Json::Array(kinds) => {

@@ -8,12 +8,14 @@ mod dimension;
 mod parse;
 
 pub use dimension::{Dimension, KINDS, Kind, kind_of};
-pub use parse::{UnitError, parse_quantity};
+pub use parse::{UnitError, parse_any, parse_quantity};
 
 use std::borrow::Cow;
+use std::fmt;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
+use serde::de::{Error, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// A value in SI units whose dimension kg^KG m^M s^S K^K A^A is part of its type.
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
@@ -93,8 +95,43 @@ impl<'de, const KG: i8, const M: i8, const S: i8, const K: i8, const A: i8> Dese
     for Quantity<KG, M, S, K, A>
 {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let text = Cow::<str>::deserialize(deserializer)?;
-        parse_quantity(&text, Self::DIMENSION).map(Self).map_err(D::Error::custom)
+        if deserializer.is_human_readable() {
+            return deserializer.deserialize_any(Reader);
+        }
+        deserializer.deserialize_str(Reader)
+    }
+}
+
+/// Reads a text with its unit, or a bare number in SI units.
+///
+/// No file gets so far with a bare number, since its form is checked before it is deserialized; the program itself
+/// puts numbers where it makes many scenarios of one.
+struct Reader<const KG: i8, const M: i8, const S: i8, const K: i8, const A: i8>;
+
+impl<const KG: i8, const M: i8, const S: i8, const K: i8, const A: i8> Visitor<'_>
+    for Reader<KG, M, S, K, A>
+{
+    type Value = Quantity<KG, M, S, K, A>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let kind = kind_of(Self::Value::DIMENSION);
+        write!(f, "{}, such as \"{}\"", kind.name, kind.example)
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<Self::Value, E> {
+        parse_quantity(text, Self::Value::DIMENSION).map(Quantity).map_err(E::custom)
+    }
+
+    fn visit_f64<E: Error>(self, si: f64) -> Result<Self::Value, E> {
+        Ok(Quantity(si))
+    }
+
+    fn visit_u64<E: Error>(self, si: u64) -> Result<Self::Value, E> {
+        Ok(Quantity(si as f64))
+    }
+
+    fn visit_i64<E: Error>(self, si: i64) -> Result<Self::Value, E> {
+        Ok(Quantity(si as f64))
     }
 }
 

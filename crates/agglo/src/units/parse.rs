@@ -8,7 +8,7 @@
 
 use thiserror::Error;
 
-use super::{Dimension, kind_of};
+use super::{Dimension, Kind, kind_of};
 
 /// Why a text is not the quantity that was asked for.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -159,32 +159,42 @@ fn find_unit(word: &str) -> Option<(&'static Unit, i32)> {
 /// [`UnitError`] where the number or unit is missing or unknown, the dimension is not `wanted`, or the value
 /// is not finite.
 pub fn parse_quantity(text: &str, wanted: Dimension) -> Result<f64, UnitError> {
-    let kind = kind_of(wanted);
-    let trimmed = text.trim();
-    let (expected, example) = (kind.name, kind.example);
+    let Kind { name: expected, example, .. } = kind_of(wanted);
+    let bare = || split_number(text.trim()).is_some_and(|(_, _, rest)| rest.trim().is_empty());
+    if wanted != Dimension::default() && bare() {
+        return Err(UnitError::NoUnit { text: text.to_owned(), expected, example });
+    }
+    let (value, dimension) = read(text, expected, example)?;
+    if dimension == wanted {
+        return Ok(value);
+    }
+    let found = kind_of(dimension).name;
+    Err(UnitError::WrongDimension { text: text.to_owned(), found, dimension, expected, example })
+}
+
+/// The value of `text` in SI units, and its dimension.
+///
+/// # Errors
+/// [`UnitError`] where the number is missing, the unit is unknown, or the value is not finite.
+pub fn parse_any(text: &str) -> Result<(f64, Dimension), UnitError> {
+    read(text, "a number or a quantity", "40 um")
+}
+
+fn read(text: &str, expected: &'static str, example: &'static str) -> Result<(f64, Dimension), UnitError> {
     let owned = || text.to_owned();
     let (mantissa, exponent, rest) =
-        split_number(trimmed).ok_or_else(|| UnitError::NoNumber { text: owned(), expected, example })?;
-    if rest.trim().is_empty() && wanted != Dimension::default() {
-        return Err(UnitError::NoUnit { text: owned(), expected, example });
-    }
+        split_number(text.trim()).ok_or_else(|| UnitError::NoNumber { text: owned(), expected, example })?;
     let product = read_units(rest).map_err(|word| match word.as_str() {
         "(" | ")" => UnitError::Parentheses { text: owned(), expected, example },
         _ => UnitError::UnknownUnit { text: owned(), unit: word, expected, example },
     })?;
-    if product.dimension != wanted {
-        let found = kind_of(product.dimension).name;
-        return Err(UnitError::WrongDimension {
-            text: owned(),
-            found,
-            dimension: product.dimension,
-            expected,
-            example,
-        });
-    }
     let shifted = format!("{mantissa}e{}", exponent.saturating_add(product.decimal));
     let value = shifted.parse::<f64>().unwrap_or(f64::NAN) * product.factor;
-    if value.is_finite() { Ok(value) } else { Err(UnitError::NotFinite { text: owned() }) }
+    if value.is_finite() {
+        Ok((value, product.dimension))
+    } else {
+        Err(UnitError::NotFinite { text: owned() })
+    }
 }
 
 /// Splits "1.5e3 kg/m3" into ("1.5", 3, " kg/m3").

@@ -211,6 +211,12 @@ impl Pulses {
         self.state.flight.pulses()
     }
 
+    /// Acoustic energy [J] of all pulses so far: their powers times how long a hit presses.
+    pub fn energy(&self) -> f64 {
+        let duration = self.setup.as_ref().map_or(0.0, |setup| setup.duration);
+        self.counts().iter().map(|pulse| pulse.power_in).sum::<f64>() * duration
+    }
+
     /// The rays in flight.
     pub fn flight(&self) -> &Flight {
         &self.state.flight

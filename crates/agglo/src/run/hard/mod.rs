@@ -104,6 +104,13 @@ impl Job for Hard {
         format!("{grains} of {start} grains, {impacts} impacts")
     }
 
+    fn forget_events(&mut self) {
+        let cloud = self.simulation.cloud_mut();
+        cloud.keeps_events = false;
+        cloud.events.clear();
+        cloud.descents.clear();
+    }
+
     fn record_events(&mut self, tables: &mut Tables) -> Result<(), RecordError> {
         let cloud = self.simulation.cloud_mut();
         for event in cloud.events.drain(..) {

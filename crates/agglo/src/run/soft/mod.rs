@@ -85,6 +85,10 @@ impl Job for Soft {
         what_happens(&self.simulation)
     }
 
+    fn forget_events(&mut self) {
+        self.simulation.events.clear();
+    }
+
     fn record_events(&mut self, tables: &mut Tables) -> Result<(), RecordError> {
         self.simulation.events.drain(..).try_for_each(|event| write_event(tables, &event))
     }

@@ -8,6 +8,7 @@ use crate::acoustics::PulseCount;
 use crate::engine::soft::Simulation;
 use crate::measure::{Balance, ClusterSummary};
 use crate::run::summary::{time_row, wall_row, warnings_row};
+use crate::scenario::readable;
 
 /// What a run of soft spheres came to; `summary.json` holds the same.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -34,6 +35,9 @@ pub struct SoftSummary {
     pub seed: u64,
     /// Figures of each pulse.
     pub pulses: Vec<PulseFigures>,
+    /// Acoustic energy launched [J]: the powers of all pulses times how long their hits press.
+    #[serde(rename = "acoustic_energy_J")]
+    pub acoustic_energy: f64,
     /// Clusters at the end.
     pub clusters: Clusters,
     /// 1 - mass of the largest cluster over the total, at the end.
@@ -42,6 +46,8 @@ pub struct SoftSummary {
     pub bonds_start: usize,
     /// Bonds at the end.
     pub bonds_end: usize,
+    /// Part of the bonds at the start that are fewer at the end; null without bonds at the start.
+    pub bonds_broken_fraction: Option<f64>,
     /// The ledger of energy.
     pub energy: EnergyFigures,
     /// Momentum that impulses do not explain, over the grains' momenta.
@@ -126,6 +132,8 @@ impl SoftSummary {
         wall_s: f64,
     ) -> Self {
         let clock = simulation.clock();
+        let network = &simulation.system.network;
+        let (bonds_start, bonds_end) = (network.made_at_start(), network.bonds().len());
         Self {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             title: title.to_owned(),
@@ -138,10 +146,12 @@ impl SoftSummary {
             threads: rayon::current_num_threads(),
             seed,
             pulses: simulation.pulses.counts().iter().map(PulseFigures::from).collect(),
+            acoustic_energy: simulation.pulses.energy(),
             clusters: Clusters { count: clusters.count, largest_fraction: clusters.largest_mass_fraction },
             dispersion_degree: clusters.dispersion_degree,
-            bonds_start: simulation.system.network.made_at_start(),
-            bonds_end: simulation.system.network.bonds().len(),
+            bonds_start,
+            bonds_end,
+            bonds_broken_fraction: (bonds_start > 0).then(|| 1.0 - bonds_end as f64 / bonds_start as f64),
             energy: EnergyFigures { balance: simulation.balance() },
             momentum_drift_relative: simulation.momentum_drift_relative(),
             warnings: simulation.warnings.counts().clone(),
@@ -165,6 +175,9 @@ impl SoftSummary {
                 ),
             );
         }
+        if self.acoustic_energy > 0.0 {
+            row("acoustic energy", format!("{} launched", readable(self.acoustic_energy, "J")));
+        }
         if self.bonds_start > 0 {
             row("bonds", format!("{} of {} left", self.bonds_end, self.bonds_start));
         }
@@ -182,5 +195,51 @@ impl SoftSummary {
         row("momentum drift", format!("{:.3e} of all momentum", self.momentum_drift_relative));
         row("warnings", warnings_row(&self.warnings));
         rows
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+    use std::sync::atomic::AtomicBool;
+
+    use crate::run::{Ending, Summary, quiet};
+    use crate::scenario::Scenario;
+
+    /// Three pulses of p = 1 MPa through a disc of radius 1 mm in water, each pressing for 2 us:
+    /// E = 3 · (1e6 Pa)² · pi (1e-3 m)²/(1.5e6 Pa s/m) · 2e-6 s = 12.57 uJ. The fourth is due after the end. Rays
+    /// share the power, so their sum is rounded 50 times a pulse.
+    #[test]
+    fn acoustic_energy_is_power_times_duration() {
+        let text = r#"
+            version = 1
+            time.end = "0.35 ms"
+            [engine.verlet]
+            [materials.glass]
+            density = "2500 kg/m3"
+            sound_speed = "5000 m/s"
+            youngs_modulus = "1 MPa"
+            poisson_ratio = 0.2
+            [[grains]]
+            material = "glass"
+            size.constant.radius = "0.1 mm"
+            placement.list.positions = [["0 m", "0 m", "0 m"]]
+            [contact.normal.hertz]
+            [acoustics.force.impulse]
+            duration = "2 us"
+            [[acoustics.beams]]
+            start = ["-5 mm", "0 m", "0 m"]
+            direction = [1.0, 0.0, 0.0]
+            radius = "1 mm"
+            rays = 50
+            strength.pressure = "1 MPa"
+            pulses = { first = "0.05 ms", period = "0.1 ms", count = 4 }
+        "#;
+        let scenario = Scenario::from_toml(text).unwrap_or_else(|faults| panic!("{faults}"));
+        let ending = quiet(&scenario, Path::new(""), &AtomicBool::new(false)).unwrap();
+        let Ending::Finished(Summary::Soft(summary)) = ending else { panic!("{ending:?}") };
+        let by_hand = 3.0 * 1e12 * std::f64::consts::PI * 1e-6 / 1.5e6 * 2e-6;
+        assert!((summary.acoustic_energy / by_hand - 1.0).abs() < 1e-13, "{}", summary.acoustic_energy);
+        assert_eq!(summary.bonds_broken_fraction, None);
     }
 }

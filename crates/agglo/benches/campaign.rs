@@ -1,0 +1,86 @@
+//! What a campaign costs for each candidate outside the model: 20,000 candidates of a model that takes no time, through
+//! workers, journal and tables into a folder.
+
+use std::ops::ControlFlow;
+use std::sync::atomic::AtomicBool;
+
+use agglo::search::analysis::Moments;
+use agglo::search::campaign::{CampaignEnding, Course, Folder, Goal, conduct};
+use agglo::search::functions::TestFunction;
+use agglo::search::optimiser::{Method, PublishedGenetic};
+use agglo::search::{Axis, Candidate, Confirm, Ensemble, Fitness, Model, Scale, Trouble};
+use divan::Bencher;
+use divan::counter::ItemsCount;
+
+fn main() {
+    divan::main();
+}
+
+/// A function of ten parameters.
+struct Bowl(Vec<String>);
+
+impl Model for Bowl {
+    type Prepared = Vec<f64>;
+
+    fn columns(&self) -> &[String] {
+        &self.0
+    }
+
+    fn candidate(&self, point: &[f64]) -> Candidate {
+        Candidate { point: point.to_vec(), values: point.to_vec(), violation: 0.0 }
+    }
+
+    fn prepare(&self, candidate: &Candidate) -> Result<Vec<f64>, String> {
+        Ok(candidate.values.clone())
+    }
+
+    fn run(&self, values: &Vec<f64>, _: u64, _: &AtomicBool) -> Result<Vec<f64>, Trouble> {
+        Ok(vec![TestFunction::Rosenbrock.at(values)])
+    }
+
+    fn costs(&self, _: &Candidate, figures: &[f64]) -> Vec<f64> {
+        figures.to_vec()
+    }
+
+    fn fitness(&self, _: &Candidate, starts: &[Vec<f64>]) -> Fitness {
+        Fitness::new(vec![Moments::of(&starts.concat()).mean])
+    }
+}
+
+fn campaign(threads: usize, starts: u32) {
+    let model = Bowl(vec!["value".to_owned()]);
+    let dir = tempfile::tempdir().expect("a folder for temporary files");
+    let folder = Folder::create(&dir.path().join("out"), "", "").expect("an empty folder");
+    let axis =
+        |k: usize| Axis { name: format!("x{k}"), unit: String::new(), scale: Scale::Linear([0.0, 1.0]) };
+    let method =
+        Method::PublishedGenetic(PublishedGenetic { generations: 1427, ..PublishedGenetic::default() });
+    let course = Course {
+        title: "bowl",
+        seed: 1,
+        threads,
+        parameters: (0..10).map(axis).collect(),
+        objectives: vec![Goal { formula: "value".to_owned(), is_to_be_large: false }],
+        ensemble: Ensemble::fixed(starts),
+        optimiser: method.start(10, 1, 1),
+        evaluations_at_most: None,
+        polish: None,
+        confirm: Confirm { candidates: 0, starts: 0 },
+        settings: &|_| Vec::new(),
+        closing: &mut |_, _| Ok(ControlFlow::Continue(())),
+    };
+    let ended = conduct(&model, course, (&folder, ""), &mut |_| ControlFlow::Continue(()));
+    assert!(matches!(ended, Ok(CampaignEnding::Finished(summary)) if summary.evaluations == 19_998));
+}
+
+/// Candidates per second with one start each.
+#[divan::bench(args = [1, 2], sample_count = 5, sample_size = 1)]
+fn campaign_overhead(bencher: Bencher, threads: usize) {
+    bencher.counter(ItemsCount::new(19_998_u32)).bench(|| campaign(threads, 1));
+}
+
+/// Starts per second with ten for each candidate.
+#[divan::bench(args = [1, 2], sample_count = 5, sample_size = 1)]
+fn start_overhead(bencher: Bencher, threads: usize) {
+    bencher.counter(ItemsCount::new(199_980_u32)).bench(|| campaign(threads, 10));
+}

@@ -1,0 +1,97 @@
+//! A run without a folder: only what it came to.
+
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+use crate::particles::Particles;
+use crate::scenario::Scenario;
+
+use super::hard::Hard;
+use super::job::Job;
+use super::soft::Soft;
+use super::{Ending, RunError};
+
+/// A run looks at its flag at least this often in its simulated time.
+const LOOKS: f64 = 200.0;
+
+/// Runs a scenario without writing anything, until its end or until `stop` is set; `base` is the folder that its
+/// tables are relative to. The summary's figures are those of [`super::run`], to the last bit.
+///
+/// Loops inside the run use the rayon pool of the calling thread.
+///
+/// # Errors
+/// [`RunError`] where the start cannot be built or a step fails.
+pub fn quiet(scenario: &Scenario, base: &Path, stop: &AtomicBool) -> Result<Ending, RunError> {
+    let sat_down = Instant::now();
+    let scenario = scenario.resolved();
+    let grains = crate::packing::place(&scenario, base)?;
+    let go = if scenario.engine.is_hard() { sit::<Hard> } else { sit::<Soft> };
+    go(&scenario, grains, sat_down, stop)
+}
+
+fn sit<J: Job>(
+    scenario: &Scenario,
+    grains: Particles,
+    sat_down: Instant,
+    stop: &AtomicBool,
+) -> Result<Ending, RunError> {
+    let end = scenario.time.end.si();
+    let mut job = J::start(scenario, grains).map_err(RunError::Start)?;
+    while !job.is_finished() {
+        if stop.load(Ordering::Relaxed) {
+            return Ok(Ending::Interrupted(job.time()));
+        }
+        job.advance(job.time() + end / LOOKS).map_err(RunError::Quiet)?;
+        job.forget_events();
+    }
+    Ok(Ending::Finished(job.summary(scenario, sat_down.elapsed().as_secs_f64())))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::ops::ControlFlow;
+
+    use super::*;
+    use crate::run::run;
+    use crate::scenario::template;
+
+    /// The lines of a summary but for wall time.
+    fn figures(ending: &Ending) -> Vec<String> {
+        let Ending::Finished(summary) = ending else { panic!("it was not asked to stop: {ending:?}") };
+        let lines = summary.to_json();
+        lines.lines().filter(|line| !line.contains("\"wall_s\"")).map(str::to_owned).collect()
+    }
+
+    fn small(name: &str, settings: &[&str]) -> Scenario {
+        Scenario::with_overrides(template(name).unwrap().text, settings).unwrap()
+    }
+
+    fn assert_same_as_a_run(scenario: &Scenario) {
+        let folder = tempfile::tempdir().unwrap();
+        let dir = folder.path().join("run");
+        let loud = run(scenario, Path::new(""), &dir, &mut |_| ControlFlow::Continue(())).unwrap();
+        let quiet = quiet(scenario, Path::new(""), &AtomicBool::new(false)).unwrap();
+        assert_eq!(figures(&quiet), figures(&loud));
+        let written = std::fs::read_to_string(dir.join("summary.json")).unwrap();
+        let written: Vec<&str> = written.lines().filter(|line| !line.contains("\"wall_s\"")).collect();
+        assert_eq!(figures(&quiet), written);
+    }
+
+    #[test]
+    fn hard_spheres_come_to_the_same_as_in_a_folder() {
+        assert_same_as_a_run(&small("reacting", &["time.end=2 ms"]));
+        assert_same_as_a_run(&small("reacting-published", &["time.end=0.1 ms"]));
+    }
+
+    #[test]
+    fn soft_spheres_come_to_the_same_as_in_a_folder() {
+        assert_same_as_a_run(&small("acoustic", &["time.end=0.2 s", "acoustics.beams.0.rays=200"]));
+    }
+
+    #[test]
+    fn it_stops_when_it_is_told_to() {
+        let ending = quiet(&small("reacting", &[]), Path::new(""), &AtomicBool::new(true)).unwrap();
+        assert!(matches!(ending, Ending::Interrupted(time) if time == 0.0), "{ending:?}");
+    }
+}

@@ -1,0 +1,169 @@
+//! The evaluations of a search or study as plain data.
+
+use super::{Axis, Moments};
+
+/// All evaluations of a search or study, in their order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Evaluations {
+    /// One line that says what it is.
+    pub title: String,
+    /// What was varied. Choices between numbers are quantities; `labels` are for choices between words.
+    pub parameters: Vec<Axis>,
+    /// What was to be small: none, one or two.
+    pub objectives: Vec<Axis>,
+    /// Figures of each start that the tables show.
+    pub measures: Vec<Axis>,
+    /// The evaluations.
+    pub rows: Vec<EvaluationRow>,
+}
+
+/// One candidate and what came of it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct EvaluationRow {
+    /// Its point of the unit cube.
+    pub point: Vec<f64>,
+    /// Values of the parameters: numbers in SI units; of words the number in the list.
+    pub values: Vec<f64>,
+    /// Mean costs, one for each objective; none if it failed.
+    pub costs: Vec<f64>,
+    /// Their standard errors; 0 where they are not known.
+    pub standard_errors: Vec<f64>,
+    /// What came of it.
+    pub status: Status,
+    /// In which batch of proposals it was, from 0.
+    pub generation: u32,
+    /// Measures of each start: `starts[start][measure]`; may be left empty in a search.
+    pub starts: Vec<Vec<f64>>,
+}
+
+/// What came of a candidate.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Status {
+    /// It keeps all limits.
+    #[default]
+    Feasible,
+    /// It misses a limit of the outcome.
+    Infeasible,
+    /// A start of it failed.
+    Failed,
+    /// It misses a constraint between parameters and was not run.
+    Excluded,
+}
+
+/// Costs up to the end of a generation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Generation {
+    /// Its number, from 0.
+    pub number: u32,
+    /// Row of the best candidate so far; none while there is none that keeps the limits.
+    pub best: Option<usize>,
+    /// Least, median and largest first cost of the generation's feasible candidates; not numbers if there are none.
+    pub costs: [f64; 3],
+    /// Their mean.
+    pub mean: f64,
+}
+
+impl EvaluationRow {
+    /// First cost of a candidate that keeps all limits.
+    pub fn feasible_cost(&self) -> Option<f64> {
+        self.costs.first().copied().filter(|cost| self.status == Status::Feasible && cost.is_finite())
+    }
+
+    /// Moments over the starts of the measure with this number.
+    pub fn measure(&self, number: usize) -> Moments {
+        let values: Vec<f64> = self.starts.iter().filter_map(|start| start.get(number).copied()).collect();
+        Moments::of(&values)
+    }
+
+    /// Mean and standard error of a target: the objectives first, then the measures. None if the candidate failed.
+    pub(super) fn target(&self, number: usize) -> Option<[f64; 2]> {
+        let objectives = self.costs.len();
+        if self.status == Status::Failed || self.status == Status::Excluded {
+            return None;
+        }
+        let pair = if number < objectives {
+            [self.costs[number], self.standard_errors.get(number).copied().unwrap_or(0.0)]
+        } else {
+            let moments = self.measure(number - objectives);
+            [moments.mean, moments.standard_error()]
+        };
+        pair[0].is_finite().then_some(pair)
+    }
+}
+
+impl Evaluations {
+    /// Objectives, then measures.
+    pub(super) fn targets(&self) -> Vec<&Axis> {
+        self.objectives.iter().chain(&self.measures).collect()
+    }
+
+    /// Mean and standard error of a target for all rows; none for those that failed.
+    pub(super) fn target(&self, number: usize) -> Vec<Option<[f64; 2]>> {
+        self.rows.iter().map(|row| row.target(number)).collect()
+    }
+
+    /// Rows that keep all limits, with their first costs, from the best to the worst; equal ones in the order of evaluation.
+    pub fn ranked(&self) -> Vec<(usize, f64)> {
+        let costs = self.rows.iter().enumerate().map(|(row, one)| (row, one.feasible_cost()));
+        let mut ranked: Vec<(usize, f64)> = costs.filter_map(|(row, cost)| Some((row, cost?))).collect();
+        ranked.sort_by(|a, b| a.1.total_cmp(&b.1));
+        ranked
+    }
+
+    /// How costs went from generation to generation.
+    pub fn generations(&self) -> Vec<Generation> {
+        let last = self.rows.iter().map(|row| row.generation).max();
+        let mut batches: Vec<Vec<usize>> = vec![Vec::new(); last.map_or(0, |last| last as usize + 1)];
+        for (number, row) in self.rows.iter().enumerate() {
+            batches[row.generation as usize].push(number);
+        }
+        let mut best: Option<(usize, f64)> = None;
+        let of = |(number, batch): (usize, &Vec<usize>)| {
+            let costs = batch.iter().filter_map(|&row| Some((row, self.rows[row].feasible_cost()?)));
+            let mut sorted: Vec<(usize, f64)> = costs.collect();
+            sorted.sort_by(|a, b| a.1.total_cmp(&b.1));
+            if let Some(&first) = sorted.first()
+                && best.is_none_or(|(_, cost)| first.1 < cost)
+            {
+                best = Some(first);
+            }
+            let costs: Vec<f64> = sorted.into_iter().map(|(_, cost)| cost).collect();
+            Generation {
+                number: number as u32,
+                best: best.map(|(row, _)| row),
+                costs: [
+                    costs.first().copied().unwrap_or(f64::NAN),
+                    median(&costs),
+                    costs.last().copied().unwrap_or(f64::NAN),
+                ],
+                mean: costs.iter().sum::<f64>() / costs.len() as f64,
+            }
+        };
+        batches.iter().enumerate().map(of).collect()
+    }
+
+    /// Rows that no other feasible row beats in both costs, in the order of the first cost.
+    pub fn front(&self) -> Vec<usize> {
+        let feasible = |row: &EvaluationRow| row.feasible_cost().is_some() && row.costs.len() == 2;
+        let mut rows: Vec<usize> = (0..self.rows.len()).filter(|&row| feasible(&self.rows[row])).collect();
+        let cost = |row: usize, number: usize| self.rows[row].costs[number];
+        rows.sort_by(|&a, &b| cost(a, 0).total_cmp(&cost(b, 0)).then(cost(a, 1).total_cmp(&cost(b, 1))));
+        let mut least = f64::INFINITY;
+        rows.retain(|&row| {
+            let is_better = cost(row, 1) < least;
+            least = least.min(cost(row, 1));
+            is_better
+        });
+        rows
+    }
+}
+
+/// Median of sorted numbers; not a number if there are none.
+fn median(sorted: &[f64]) -> f64 {
+    let middle = sorted.len() / 2;
+    match sorted.len() {
+        0 => f64::NAN,
+        count if count % 2 == 1 => sorted[middle],
+        _ => 0.5 * (sorted[middle - 1] + sorted[middle]),
+    }
+}

@@ -1,0 +1,22 @@
+//! What the evaluations of a search or study say: statistics, convergence, sensitivity, and pictures of all that.
+
+mod axes;
+mod evaluations;
+mod moments;
+mod morris;
+mod pictures;
+mod refinement;
+mod sobol_indices;
+mod tables;
+#[cfg(test)]
+mod tests;
+
+pub use crate::plot::Axis;
+pub use axes::{parameter_axis, parameter_value};
+pub use evaluations::{EvaluationRow, Evaluations, Generation, Status};
+pub use moments::Moments;
+pub use morris::{ElementaryEffects, elementary_effects};
+pub use pictures::{search_pictures, study_pictures};
+pub use refinement::{Convergence, Level, Order, observed_order, settled};
+pub use sobol_indices::{Share, VarianceShares, variance_shares};
+pub use tables::{measures_table, study_table};

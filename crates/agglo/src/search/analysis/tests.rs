@@ -1,0 +1,357 @@
+//! Against closed forms: sequences of known order, functions of known variance, and tables of known contents.
+
+use std::f64::consts::{PI, TAU};
+
+use super::*;
+use crate::math::rng::{Purpose, Stream};
+use crate::search::plan::{Morris, Plan, Refinement, SobolIndices};
+
+fn exact(levels: &[(f64, f64)]) -> Vec<Level> {
+    levels.iter().map(|&(size, mean)| Level { size, mean, standard_error: 0.0 }).collect()
+}
+
+/// f = 3 - 2 h^p gives p and 3 for any order and any ratios. Round-off in the differences of f is 1e-15/(h^p) at the
+/// finest level, which is 1e-12 in the order at worst.
+#[test]
+fn power_laws_give_their_order_and_limit() {
+    for order in [0.5, 1.0, 1.7, 2.0, 4.0] {
+        for sizes in [[0.8, 0.4, 0.2, 0.1], [0.8, 0.5, 0.3, 0.2], [0.81, 0.27, 0.2, 0.15]] {
+            let levels = exact(&sizes.map(|h: f64| (h, 3.0 - 2.0 * h.powf(order))));
+            let Convergence::Converging(found) = observed_order(&levels) else {
+                panic!("{order}: {levels:?}")
+            };
+            assert!((found.order - order).abs() < 1e-11, "{found:?}");
+            assert!((found.limit - 3.0).abs() < 1e-11, "{found:?}");
+            assert_eq!(found.is_asymptotic, Some(true));
+            // The index is 1.25 times the error that is left.
+            assert!((found.uncertainty - 1.25 * 2.0 * sizes[3].powf(order)).abs() < 1e-10, "{found:?}");
+        }
+    }
+}
+
+#[test]
+fn other_sequences_are_named() {
+    let of = |means: &[f64]| {
+        let levels: Vec<_> =
+            means.iter().enumerate().map(|(k, &mean)| (0.5_f64.powf(k as f64), mean)).collect();
+        observed_order(&exact(&levels))
+    };
+    assert_eq!(of(&[1.0, 2.0]), Convergence::TooFewLevels);
+    assert_eq!(of(&[1.0, 2.0, 1.5]), Convergence::Oscillating);
+    assert_eq!(of(&[1.0, 2.0, 4.0]), Convergence::Diverging);
+    assert_eq!(of(&[1.0, 2.0, 2.0]), Convergence::WithinNoise);
+    // Differences 4, 2, 0.5: order 1, then 2.
+    let Convergence::Converging(found) = of(&[0.0, 4.0, 6.0, 6.5]) else { panic!("it converges") };
+    assert!((found.order - 2.0).abs() < 1e-12 && found.is_asymptotic == Some(false), "{found:?}");
+    // Sizes that do not fall have no ratio.
+    assert_eq!(observed_order(&exact(&[(1.0, 1.0), (1.0, 0.5), (1.0, 0.2)])), Convergence::TooFewLevels);
+}
+
+/// Order and limit of noisy levels scatter as their standard errors say: first-order propagation holds for small noise.
+/// 4000 draws know a standard deviation to 1.1 %; the bound is four times that.
+#[test]
+fn noise_spreads_as_stated() {
+    let error = 1e-3;
+    let mut stream = Stream::new(11, Purpose::Sampling, 0);
+    let (mut orders, mut limits) = (Vec::new(), Vec::new());
+    let mean = |h: f64| 1.0 + h.powi(2);
+    let clean = [0.5, 0.3, 0.2].map(|size| Level { size, mean: mean(size), standard_error: error });
+    let Convergence::Converging(stated) = observed_order(&clean) else { panic!("it converges") };
+    for _ in 0..4000 {
+        let noisy = clean.map(|level| Level { mean: level.mean + error * stream.normal(), ..level });
+        let Convergence::Converging(found) = observed_order(&noisy) else { panic!("{noisy:?}") };
+        orders.push(found.order);
+        limits.push(found.limit);
+    }
+    let ratio = |found: &[f64], stated: f64| Moments::of(found).standard_deviation / stated;
+    assert!((ratio(&orders, stated.order_standard_error) - 1.0).abs() < 0.045, "{stated:?}");
+    assert!((ratio(&limits, stated.limit_standard_error) - 1.0).abs() < 0.045, "{stated:?}");
+}
+
+#[test]
+fn differences_within_the_noise_have_no_order() {
+    let levels =
+        [0.4_f64, 0.2, 0.1].map(|size| Level { size, mean: 1.0 + size * size, standard_error: 0.011 });
+    // The last difference is 0.03; two standard errors of it are 2*0.011*sqrt(2) = 0.0311.
+    assert_eq!(observed_order(&levels), Convergence::WithinNoise);
+    // ... and so the coarser levels are as good as the last one, but for the first: 0.15 off.
+    assert_eq!(settled(&levels, 1e-9), Some(1));
+}
+
+fn ishigami(u: &[f64]) -> f64 {
+    let x: Vec<f64> = u.iter().map(|u| PI * (2.0 * u - 1.0)).collect();
+    x[0].sin() + 7.0 * x[1].sin().powi(2) + 0.1 * x[2].powi(4) * x[0].sin()
+}
+
+/// Closed form of T. Ishigami and T. Homma (1990), a = 7, b = 0.1: S = 0.3139, 0.4424, 0; ST = 0.5576, 0.4424, 0.2437.
+#[test]
+fn val_ishigami_homma_1990() {
+    let plan = SobolIndices { samples: 1 << 16, bootstraps: 100, level: 0.95 };
+    let outcomes: Vec<_> =
+        Plan::SobolIndices(plan).points(&[None; 3], 5).iter().map(|u| Some([ishigami(u), 0.0])).collect();
+    let shares = variance_shares(3, &outcomes, plan.bootstraps, plan.level, 5);
+    let expected = [[0.3139, 0.5576], [0.4424, 0.4424], [0.0, 0.2437]];
+    for (share, [first, total]) in shares.parameters.iter().zip(expected) {
+        // Random points would leave standard errors of 0.004; a Sobol' sequence does better, so that one of them is wide.
+        assert!((share.first - first).abs() < 0.004, "{share:?}");
+        assert!((share.total - total).abs() < 0.004, "{share:?}");
+    }
+    // Variance: a²/8 + b π⁴/5 + b² π⁸/18 + 1/2 = 13.8446.
+    assert!(
+        (shares.variance / 13.8446 - 1.0).abs() < 0.002 && shares.blocks == 1 << 16,
+        "{}",
+        shares.variance
+    );
+}
+
+/// g-function of I. M. Sobol: variances 1/(3 (1 + a)²) of each factor multiply.
+#[test]
+fn g_function_has_its_closed_form() {
+    let a = [0.0, 1.0, 4.5, 9.0, 99.0];
+    let g = |u: &[f64]| -> f64 {
+        u.iter().zip(a).map(|(u, a)| ((4.0 * u - 2.0).abs() + a) / (1.0 + a)).product()
+    };
+    let plan = SobolIndices { samples: 1 << 16, bootstraps: 100, level: 0.95 };
+    let points = Plan::SobolIndices(plan).points(&[None; 5], 6);
+    let outcomes: Vec<_> = points.iter().map(|u| Some([g(u), 0.0])).collect();
+    let shares = variance_shares(5, &outcomes, plan.bootstraps, plan.level, 6);
+    let parts = a.map(|a: f64| 1.0 / (3.0 * (1.0 + a) * (1.0 + a)));
+    let variance = parts.iter().map(|part| 1.0 + part).product::<f64>() - 1.0;
+    for (share, part) in shares.parameters.iter().zip(parts) {
+        // 65,536 blocks: standard errors are 0.004 at most, as the bootstrap shows; four of them.
+        assert!((share.first - part / variance).abs() < 0.016, "{share:?}");
+        assert!((share.total - part * (1.0 + variance) / (1.0 + part) / variance).abs() < 0.016, "{share:?}");
+    }
+}
+
+/// The 95 % interval covers the truth in 95 % of all cases: of 60, with binomial standard deviation 1.7, at least 50.
+#[test]
+fn intervals_cover_the_truth() {
+    let plan = SobolIndices { samples: 256, bootstraps: 200, level: 0.95 };
+    let covered = (0..60).filter(|&seed| {
+        let points = Plan::SobolIndices(plan).points(&[None; 3], seed);
+        let outcomes: Vec<_> = points.iter().map(|u| Some([ishigami(u), 0.0])).collect();
+        let [low, high] = variance_shares(3, &outcomes, 200, 0.95, seed).parameters[2].total_interval;
+        (low..=high).contains(&0.2437)
+    });
+    let covered = covered.count();
+    assert!(covered >= 50, "{covered}");
+}
+
+#[test]
+fn failures_drop_their_block() {
+    let outcomes: Vec<_> = (0..16).map(|k| (k != 5).then_some([f64::from(k), 0.1])).collect();
+    let shares = variance_shares(2, &outcomes, 100, 0.9, 1);
+    assert_eq!(shares.blocks, 3);
+}
+
+/// A linear function's effects are its coefficients, to round-off, and do not scatter.
+#[test]
+fn linear_functions_have_their_coefficients() {
+    let coefficients = [3.0, -2.0, 0.0, 10.0];
+    let points = Plan::Morris(Morris { trajectories: 10, levels: 6 }).points(&[None; 4], 3);
+    let value = |u: &Vec<f64>| u.iter().zip(coefficients).map(|(u, c)| u * c).sum::<f64>();
+    let outcomes: Vec<_> = points.iter().map(|u| Some([value(u), 0.3])).collect();
+    for (effects, coefficient) in elementary_effects(&points, &outcomes).iter().zip(coefficients) {
+        assert!(
+            (effects.mean - coefficient).abs() < 1e-13
+                && (effects.mean_size - coefficient.abs()).abs() < 1e-13
+        );
+        assert!(effects.standard_deviation < 1e-13 && effects.count == 10);
+        // Two errors of 0.3 over a step of 0.6.
+        assert!((effects.noise - 0.5 * 2.0_f64.sqrt()).abs() < 1e-13);
+    }
+}
+
+/// A parameter that acts up and down has no mean effect, but a size: sin² over two periods, with levels at its quarters.
+#[test]
+fn signs_cancel_in_the_mean_only() {
+    let points = Plan::Morris(Morris { trajectories: 200, levels: 4 }).points(&[None; 2], 4);
+    let outcomes: Vec<_> = points.iter().map(|u| Some([(u[0] - 0.5) * (u[1] - 0.5), 0.0])).collect();
+    let effects = elementary_effects(&points, &outcomes)[0];
+    // The effect is u1 - 1/2: sizes 1/2 and 1/6 equally often: mean 1/3, standard deviation 1/6, over 200 effects: 0.012.
+    assert!((effects.mean_size - 1.0 / 3.0).abs() < 4.0 * 0.012, "{effects:?}");
+    // Standard deviation of the effect: sqrt((1/4 + 1/36)/2) = 0.373, over 200: 0.026.
+    assert!(
+        effects.mean.abs() < 4.0 * 0.026 && (effects.standard_deviation - 0.373).abs() < 0.04,
+        "{effects:?}"
+    );
+}
+
+/// A search in three parameters, among them a choice of words; every fifth candidate fails or misses a limit.
+fn searched(objectives: usize) -> Evaluations {
+    let mut stream = Stream::new(8, Purpose::Sampling, 0);
+    let row = |number: u32| {
+        let spread = 1.0 / (1.0 + f64::from(number) / 40.0);
+        let point: Vec<f64> = (0..3).map(|_| 0.3 + spread * 0.7 * (stream.uniform() - 0.4)).collect();
+        let cost = 0.65 + point.iter().map(|u| (u - 0.3).powi(2)).sum::<f64>();
+        let status = match number % 10 {
+            3 => Status::Failed,
+            7 => Status::Infeasible,
+            _ => Status::Feasible,
+        };
+        let costs = if status == Status::Failed {
+            Vec::new()
+        } else {
+            vec![cost, point[0] + 0.1][..objectives].to_vec()
+        };
+        EvaluationRow {
+            values: vec![20.0 + 180.0 * point[0], 10.0_f64.powf(5.0 + point[1]), (2.0 * point[2]).floor()],
+            standard_errors: vec![0.01; costs.len()],
+            starts: (0..10).map(|_| vec![1.0 / (1.0 - cost.min(0.9)) + 0.1 * stream.normal()]).collect(),
+            point,
+            costs,
+            status,
+            generation: number / 20,
+        }
+    };
+    Evaluations {
+        title: "Agglomeration".to_owned(),
+        parameters: vec![
+            Axis::new("speed", "m/s"),
+            Axis::new("hardness", "Pa").log(),
+            Axis::choice("law", &["published", "sound"]),
+        ],
+        objectives: [Axis::new("pi", ""), Axis::new("energy", "J")][..objectives].to_vec(),
+        measures: vec![Axis::new("radius_ratio", "")],
+        rows: (0..300).map(row).collect(),
+    }
+}
+
+#[test]
+fn generations_keep_the_best() {
+    let mut evaluations = searched(1);
+    evaluations.rows.truncate(40);
+    let generations = evaluations.generations();
+    assert_eq!(generations.len(), 2);
+    let feasible: Vec<f64> = evaluations.rows.iter().filter_map(EvaluationRow::feasible_cost).collect();
+    let least = feasible.iter().copied().fold(f64::INFINITY, f64::min);
+    assert_eq!(evaluations.rows[generations[1].best.unwrap()].costs[0], least);
+    // Two in twenty fail and two miss a limit.
+    assert_eq!(feasible.len(), 32);
+    let mut first: Vec<f64> = feasible[..16].to_vec();
+    first.sort_by(f64::total_cmp);
+    assert_eq!(generations[0].costs, [first[0], 0.5 * (first[7] + first[8]), first[15]]);
+}
+
+#[test]
+fn front_is_beaten_by_none() {
+    let evaluations = searched(2);
+    let front = evaluations.front();
+    let costs = |row: usize| &evaluations.rows[row].costs;
+    let beats = |a: usize, b: usize| costs(a)[0] < costs(b)[0] && costs(a)[1] < costs(b)[1];
+    let feasible = |row: &usize| evaluations.rows[*row].feasible_cost().is_some();
+    for row in (0..300).filter(feasible) {
+        assert_eq!(front.contains(&row), !(0..300).filter(feasible).any(|other| beats(other, row)));
+    }
+}
+
+/// With `AGGLO_PICTURES` set to a folder, the pictures are left there to be looked at.
+fn with_folder(check: impl FnOnce(&std::path::Path)) {
+    let temporary = tempfile::tempdir().unwrap();
+    let kept = std::env::var_os("AGGLO_PICTURES").map(std::path::PathBuf::from);
+    check(kept.as_deref().unwrap_or(temporary.path()));
+}
+
+fn file_names(files: &[std::path::PathBuf]) -> Vec<&str> {
+    files.iter().map(|file| file.file_name().unwrap().to_str().unwrap()).collect()
+}
+
+#[test]
+fn searches_have_their_pictures() {
+    with_folder(|folder| {
+        let files = search_pictures(folder, &searched(2)).unwrap();
+        assert_eq!(file_names(&files), ["cost.svg", "parallel.svg", "pairs.svg", "front.svg"]);
+        assert!(search_pictures(folder, &Evaluations::default()).unwrap().is_empty());
+    });
+}
+
+/// Absorbed power against the number of rays, with an error of 40/rays and a little noise.
+fn refined() -> Evaluations {
+    let mut stream = Stream::new(2, Purpose::Sampling, 0);
+    let row = |(number, rays): (usize, f64)| EvaluationRow {
+        point: vec![(number as f64 + 0.5) / 5.0],
+        values: vec![rays],
+        starts: (0..16).map(|_| vec![2.0 + 80.0 / rays + 1e-3 * stream.normal()]).collect(),
+        ..EvaluationRow::default()
+    };
+    Evaluations {
+        title: "Rays".to_owned(),
+        parameters: vec![Axis::new("rays", "")],
+        measures: vec![Axis::new("power", "W")],
+        rows: [1e3, 2e3, 4e3, 8e3, 16e3].into_iter().enumerate().map(row).collect(),
+        ..Evaluations::default()
+    }
+}
+
+#[test]
+fn refinement_says_where_it_settled() {
+    let (plan, evaluations) = (Plan::Refinement(Refinement { tolerance: 0.01 }), refined());
+    let (name, table) = study_table(&plan, &evaluations, 1).unwrap();
+    assert_eq!(name, "refinement.csv");
+    // 2.005 at the end; 2.08, 2.04 and 2.02 before: 2.02 is the first within 0.02.
+    assert!(table.lines().nth(1).unwrap().starts_with("power_W,4000,converging,"), "{table}");
+    let order: f64 = table.lines().nth(1).unwrap().split(',').nth(3).unwrap().parse().unwrap();
+    // Differences of 0.01 and 0.005 with noise of 3.5e-4: the order is known to 0.11; three of these.
+    assert!((order - 1.0).abs() < 0.33, "{order}");
+    with_folder(|folder| {
+        let files = study_pictures(folder, &plan, &evaluations, 1).unwrap();
+        assert_eq!(file_names(&files), ["refinement.svg", "histograms.svg"]);
+    });
+}
+
+fn studied(plan: &Plan) -> Evaluations {
+    let points = plan.points(&[None; 3], 1);
+    let row = |point: Vec<f64>| EvaluationRow {
+        values: point.iter().map(|u| TAU * u - PI).collect(),
+        costs: vec![ishigami(&point)],
+        standard_errors: vec![0.1],
+        point,
+        ..EvaluationRow::default()
+    };
+    Evaluations {
+        title: "Ishigami".to_owned(),
+        parameters: ["x", "y", "z"].map(|name| Axis::new(name, "rad")).to_vec(),
+        objectives: vec![Axis::new("height", "m")],
+        rows: points.into_iter().map(row).collect(),
+        ..Evaluations::default()
+    }
+}
+
+#[test]
+fn sensitivity_has_its_table_and_picture() {
+    for (plan, second) in [
+        (Plan::Morris(Morris::default()), "target,parameter,mean_effect,"),
+        (Plan::SobolIndices(SobolIndices::default()), "target,parameter,first,"),
+    ] {
+        let evaluations = studied(&plan);
+        let (name, table) = study_table(&plan, &evaluations, 1).unwrap();
+        assert!(
+            name == "sensitivity.csv" && table.starts_with(second) && table.lines().count() == 4,
+            "{table}"
+        );
+        let columns = |line: &str| line.split(',').count();
+        assert!(table.lines().all(|line| columns(line) == columns(table.lines().next().unwrap())), "{table}");
+        with_folder(|folder| {
+            assert_eq!(
+                file_names(&study_pictures(folder, &plan, &evaluations, 1).unwrap()),
+                ["sensitivity.svg"]
+            );
+        });
+    }
+}
+
+#[test]
+fn measures_stand_in_a_table() {
+    let mut evaluations = searched(1);
+    evaluations.rows.truncate(1);
+    evaluations.rows[0].starts = vec![vec![1.0], vec![2.0], vec![6.0]];
+    evaluations.rows[0].values = vec![30.0, 2e5, 1.0];
+    let expected = format!(
+        "evaluation,speed_m_s,hardness_Pa,law,starts,radius_ratio,radius_ratio_standard_error,radius_ratio_standard_deviation\n\
+         0,30,200000,sound,3,3,{},{}\n",
+        (7.0_f64 / 3.0).sqrt(),
+        7.0_f64.sqrt()
+    );
+    assert_eq!(measures_table(&evaluations), expected);
+}

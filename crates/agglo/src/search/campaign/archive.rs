@@ -1,0 +1,254 @@
+//! All that was evaluated.
+
+use crate::search::analysis::Moments;
+use crate::search::student::quantile;
+use crate::search::{Candidate, Fitness};
+
+use super::summary::Noise;
+
+/// What an evaluation was for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// The search itself, or the plan of a study.
+    Search,
+    /// Improving the best of the search.
+    Polish,
+    /// Fresh starts for the best.
+    Confirm,
+    /// The run of the best and what is made of all that is known.
+    Close,
+}
+
+impl Stage {
+    /// Its word in tables.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Search => "search",
+            Self::Polish => "polish",
+            Self::Confirm => "confirm",
+            Self::Close => "close",
+        }
+    }
+}
+
+/// How an evaluation ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// It keeps all limits.
+    Ok,
+    /// It misses a limit.
+    Infeasible,
+    /// It misses a constraint between parameters and was not run.
+    Excluded,
+    /// A start failed.
+    Failed,
+}
+
+impl Status {
+    /// Its word in tables.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Ok => "ok",
+            Self::Infeasible => "infeasible",
+            Self::Excluded => "excluded",
+            Self::Failed => "failed",
+        }
+    }
+}
+
+/// A candidate and how good it is.
+#[derive(Clone, Debug)]
+pub struct Evaluation {
+    /// Its number, from 0.
+    pub number: u64,
+    /// What it was for.
+    pub stage: Stage,
+    /// Number of its batch, from 0.
+    pub generation: u64,
+    /// What was evaluated.
+    pub candidate: Candidate,
+    /// How it ended.
+    pub status: Status,
+    /// Random starts that count.
+    pub starts: u32,
+    /// How good it is.
+    pub fitness: Fitness,
+    /// Figures of its starts that count, one for each column of the model: `[starts][columns]`.
+    pub figures: Vec<Vec<f64>>,
+}
+
+impl Evaluation {
+    /// Whether it has figures.
+    pub fn has_figures(&self) -> bool {
+        matches!(self.status, Status::Ok | Status::Infeasible)
+    }
+
+    /// Means of its figures over its starts, one for each column of the model; empty if it failed.
+    pub fn mean_figures(&self) -> Vec<f64> {
+        let starts = if self.has_figures() { self.figures.as_slice() } else { &[] };
+        let columns = starts.first().map_or(0, Vec::len);
+        let mean = |k: usize| starts.iter().map(|figures| figures[k]).sum::<f64>() / starts.len() as f64;
+        (0..columns).map(mean).collect()
+    }
+}
+
+/// All that was evaluated, and counts of it.
+#[derive(Debug, Default)]
+pub struct Archive {
+    /// In the order of their numbers.
+    pub evaluations: Vec<Evaluation>,
+    /// Starts that count.
+    pub runs: u64,
+    /// Candidates that failed.
+    pub failures: u64,
+    /// Candidates that were not run.
+    pub excluded: u64,
+    /// The best of search and polish.
+    best: Option<usize>,
+    scatter: Scatter,
+}
+
+/// Costs of the starts of all candidates about their means.
+#[derive(Clone, Copy, Debug, Default)]
+struct Scatter {
+    squares: f64,
+    freedom: u64,
+    starts: u64,
+    candidates: u64,
+}
+
+impl Archive {
+    /// Adds an evaluation; `costs` are the first costs of its starts.
+    pub fn add(&mut self, evaluation: Evaluation, costs: &[f64]) {
+        self.runs += u64::from(evaluation.starts);
+        self.failures += u64::from(evaluation.status == Status::Failed);
+        self.excluded += u64::from(evaluation.status == Status::Excluded);
+        if evaluation.has_figures() && !costs.is_empty() {
+            let moments = Moments::of(costs);
+            let (starts, deviation) = (moments.count as u64, moments.standard_deviation);
+            self.scatter.squares += deviation * deviation * (starts - 1) as f64;
+            self.scatter.freedom += starts - 1;
+            self.scatter.starts += starts;
+            self.scatter.candidates += 1;
+        }
+        let is_better = |best: usize| evaluation.fitness.compare(&self.evaluations[best].fitness).is_lt();
+        let counts = evaluation.stage != Stage::Confirm && !evaluation.fitness.is_failure();
+        if counts && self.best.is_none_or(is_better) {
+            self.best = Some(self.evaluations.len());
+        }
+        self.evaluations.push(evaluation);
+    }
+
+    /// The best of search and polish.
+    pub fn best(&self) -> Option<&Evaluation> {
+        self.best.map(|best| &self.evaluations[best])
+    }
+
+    /// The best of search and polish, best first, each set of values once.
+    pub fn ranked(&self, most: usize) -> Vec<&Evaluation> {
+        let mut all = self.with_costs();
+        // The sort is stable: of equals the first one evaluated comes first.
+        all.sort_by(|a, b| a.fitness.compare(&b.fitness));
+        let mut ranked: Vec<&Evaluation> = Vec::with_capacity(most.min(all.len()));
+        for evaluation in all {
+            if ranked.len() >= most {
+                break;
+            }
+            if ranked.iter().all(|better| better.candidate.values != evaluation.candidate.values) {
+                ranked.push(evaluation);
+            }
+        }
+        ranked
+    }
+
+    fn with_costs(&self) -> Vec<&Evaluation> {
+        let all = self.evaluations.iter();
+        all.filter(|one| one.stage != Stage::Confirm && !one.fitness.is_failure()).collect()
+    }
+
+    /// Those that no other dominates, in the order of their first cost, each set of values once.
+    pub fn front(&self) -> Vec<&Evaluation> {
+        let mut front: Vec<&Evaluation> = Vec::new();
+        for evaluation in self.with_costs() {
+            let is_beaten = |other: &&Evaluation| {
+                other.fitness.dominates(&evaluation.fitness)
+                    || other.candidate.values == evaluation.candidate.values
+            };
+            if !front.iter().any(is_beaten) {
+                front.retain(|other| !evaluation.fitness.dominates(&other.fitness));
+                front.push(evaluation);
+            }
+        }
+        front.sort_by(|a, b| a.fitness.cost().total_cmp(&b.fitness.cost()));
+        front
+    }
+
+    /// How much of the differences between candidates may be chance.
+    pub fn noise(&self) -> Noise {
+        let Scatter { squares, freedom, starts, candidates } = self.scatter;
+        let starts_mean = (candidates > 0).then(|| starts as f64 / candidates as f64);
+        let deviation = (freedom > 0).then(|| (squares / freedom as f64).sqrt());
+        let difference = deviation
+            .zip(starts_mean)
+            .map(|(deviation, starts)| quantile(0.95, freedom) * deviation * (2.0 / starts).sqrt());
+        Noise { start_deviation: deviation, starts_mean, significant_difference: difference }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn evaluation(number: u64, costs: &[f64]) -> Evaluation {
+        let candidate = Candidate { point: vec![0.5], values: vec![number as f64], violation: 0.0 };
+        let fitness = if costs.is_empty() { Fitness::failed() } else { Fitness::new(costs.to_vec()) };
+        let status = if costs.is_empty() { Status::Failed } else { Status::Ok };
+        let (stage, generation, starts, figures) = (Stage::Search, 0, 3, Vec::new());
+        Evaluation { number, stage, generation, candidate, status, starts, fitness, figures }
+    }
+
+    fn archive(costs: &[&[f64]]) -> Archive {
+        let mut archive = Archive::default();
+        for (number, costs) in (0..).zip(costs) {
+            archive.add(evaluation(number, costs), &[]);
+        }
+        archive
+    }
+
+    fn numbers(evaluations: &[&Evaluation]) -> Vec<u64> {
+        evaluations.iter().map(|evaluation| evaluation.number).collect()
+    }
+
+    #[test]
+    fn best_first_without_failures() {
+        let archive = archive(&[&[3.0], &[], &[1.0], &[2.0], &[1.0]]);
+        assert_eq!(archive.best().map(|best| best.number), Some(2));
+        assert_eq!(numbers(&archive.ranked(3)), [2, 4, 3]);
+        assert_eq!((archive.runs, archive.failures), (15, 1));
+    }
+
+    #[test]
+    fn the_front_is_what_nothing_beats() {
+        let archive = archive(&[&[3.0, 1.0], &[3.0, 2.0], &[1.0, 4.0], &[], &[2.0, 2.0], &[2.5, 2.0]]);
+        assert_eq!(numbers(&archive.front()), [2, 4, 0]);
+    }
+
+    /// Two candidates with 3 and 2 starts: squares 2 and 0.5 on 2 + 1 degrees of freedom: s = √(2.5/3); 2.5 starts in
+    /// the mean; t(95 %, 3) = 3.182446: the difference is 3.182446 s √(2/2.5).
+    #[test]
+    fn the_noise_floor_by_hand() {
+        let mut archive = Archive::default();
+        archive.add(evaluation(0, &[2.0]), &[1.0, 2.0, 3.0]);
+        archive.add(evaluation(1, &[0.5]), &[0.0, 1.0]);
+        archive.add(evaluation(2, &[]), &[]);
+        let noise = archive.noise();
+        let deviation = (2.5_f64 / 3.0).sqrt();
+        assert_eq!(noise.starts_mean, Some(2.5));
+        // Round-off of a root and its square.
+        assert!((noise.start_deviation.unwrap() - deviation).abs() < 1e-15);
+        let difference = noise.significant_difference.unwrap();
+        // The table's t has seven digits.
+        assert!((difference / (3.182_446 * deviation * 0.8_f64.sqrt()) - 1.0).abs() < 1e-6, "{difference}");
+        assert_eq!(Archive::default().noise(), Noise::default());
+    }
+}

@@ -1,0 +1,238 @@
+//! Starts that ended, one a line in the order in which they ended: what a campaign goes on from.
+//!
+//! ```text
+//! agglo 0.1.0,5a1f03c2                          version of the program and checksum of the campaign
+//! 17,0,5403271183612,12.3,ok,0.61,311.5,9e21ab04    evaluation, start, seed, wall time [s], figures, checksum
+//! 18,0,5403271183612,12.4,failed,"reason",11ce0792
+//! ```
+//! Each line is handed to the operating system at once. A line that a kill or a loss of power cut short, or that was
+//! damaged, does not fit its checksum and is as if it had never been: its start is run again. Once the campaign has
+//! ended, its tables hold the same and the journal is removed.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::fs::{File, OpenOptions};
+use std::io::{Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+use crate::record::RecordError;
+use crate::search::pool::Finished;
+
+/// What a start came to in an earlier sitting.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// Its seed.
+    pub seed: u64,
+    /// Figures, or the reason of its failure.
+    pub outcome: Result<Vec<f64>, String>,
+}
+
+/// The starts of earlier sittings.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Past {
+    /// By evaluation and start.
+    pub starts: BTreeMap<(u64, u32), Entry>,
+    /// Wall time of all earlier sittings [s].
+    pub wall_s: f64,
+}
+
+impl Past {
+    /// Starts of this evaluation.
+    pub fn of(&self, evaluation: u64) -> impl Iterator<Item = (u32, &Entry)> {
+        let starts = self.starts.range((evaluation, 0)..=(evaluation, u32::MAX));
+        starts.map(|((_, start), entry)| (*start, entry))
+    }
+}
+
+/// The file that grows by a line with each start that ends.
+#[derive(Debug)]
+pub struct Journal {
+    path: PathBuf,
+    open: Mutex<(File, String)>,
+}
+
+impl Journal {
+    /// Goes on with the journal at `path`, or begins one; `campaign` is the text that its starts belong to.
+    ///
+    /// # Errors
+    /// [`RecordError::File`]; or the reason why the journal does not belong to this campaign and program.
+    pub fn open(path: &Path, campaign: &str) -> Result<Result<(Self, Past), String>, RecordError> {
+        let heading =
+            format!("agglo {},{:08x}\n", env!("CARGO_PKG_VERSION"), crc32fast::hash(campaign.as_bytes()));
+        let found = if path.exists() {
+            std::fs::read(path).map_err(RecordError::file("read", path))?
+        } else {
+            Vec::new()
+        };
+        let whole = found.iter().rposition(|byte| *byte == b'\n').map_or(0, |last| last + 1);
+        let text = String::from_utf8_lossy(&found[..whole]);
+        if !(whole == 0 || text.starts_with(&heading)) {
+            let other = text.lines().next().unwrap_or_default().to_owned();
+            let wanted = heading.trim_end();
+            return Ok(Err(format!(
+                "its journal is of \"{other}\" (version, campaign), this is \"{wanted}\""
+            )));
+        }
+        let mut past = Past::default();
+        for (key, wall_s, entry) in text.lines().skip(1).filter_map(parse) {
+            past.wall_s = past.wall_s.max(wall_s);
+            past.starts.entry(key).or_insert(entry);
+        }
+        let journal = Self::at(path, whole as u64, &heading)?;
+        Ok(Ok((journal, past)))
+    }
+
+    /// Cuts the file to its whole lines; an empty one gets its heading.
+    fn at(path: &Path, whole: u64, heading: &str) -> Result<Self, RecordError> {
+        let mut open = OpenOptions::new();
+        let opened = open.read(true).write(true).create(true).truncate(false).open(path);
+        let mut file = opened.map_err(RecordError::file("open", path))?;
+        let mut cut = || {
+            file.set_len(whole)?;
+            file.seek(SeekFrom::Start(whole))?;
+            if whole == 0 { file.write_all(heading.as_bytes()) } else { Ok(()) }
+        };
+        cut().map_err(RecordError::file("write", path))?;
+        Ok(Self { path: path.to_owned(), open: Mutex::new((file, String::new())) })
+    }
+
+    /// Writes a start down; `wall_s` is the wall time of all sittings so far [s].
+    ///
+    /// # Errors
+    /// [`RecordError::File`].
+    pub fn note(&self, finished: &Finished<'_>, wall_s: f64) -> Result<(), RecordError> {
+        let mut open = self.open.lock().unwrap_or_else(PoisonError::into_inner);
+        let (file, line) = &mut *open;
+        line.clear();
+        let Finished { evaluation, start, seed, outcome } = finished;
+        // Writing to a string cannot fail.
+        let _ = write!(line, "{evaluation},{start},{seed},{wall_s:.3},");
+        match outcome {
+            Ok(figures) => {
+                line.push_str("ok");
+                figures.iter().for_each(|figure| {
+                    let _ = write!(line, ",{figure:?}");
+                });
+            }
+            Err(reason) => {
+                let reason = serde_json::Value::from(*reason);
+                let _ = write!(line, "failed,{reason}");
+            }
+        }
+        let checksum = crc32fast::hash(line.as_bytes());
+        let _ = writeln!(line, ",{checksum:08x}");
+        file.write_all(line.as_bytes()).map_err(RecordError::file("write", &self.path))
+    }
+}
+
+type Line = ((u64, u32), f64, Entry);
+
+/// Nothing for a line that does not fit its checksum.
+fn parse(line: &str) -> Option<Line> {
+    let (content, checksum) = line.rsplit_once(',')?;
+    if u32::from_str_radix(checksum, 16).ok()? != crc32fast::hash(content.as_bytes()) {
+        return None;
+    }
+    let mut words = content.splitn(6, ',');
+    let key = (words.next()?.parse().ok()?, words.next()?.parse().ok()?);
+    let seed = words.next()?.parse().ok()?;
+    let wall_s = words.next()?.parse().ok()?;
+    let is_ok = words.next()? == "ok";
+    let rest = words.next();
+    let outcome = if is_ok {
+        Ok(rest
+            .into_iter()
+            .flat_map(|rest| rest.split(','))
+            .map(str::parse)
+            .collect::<Result<_, _>>()
+            .ok()?)
+    } else {
+        Err(serde_json::from_str(rest?).ok()?)
+    };
+    Some((key, wall_s, Entry { seed, outcome }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CAMPAIGN: &str = "version = 1";
+
+    fn open(path: &Path) -> (Journal, Past) {
+        Journal::open(path, CAMPAIGN).unwrap().unwrap()
+    }
+
+    fn written(path: &Path) -> BTreeMap<(u64, u32), Entry> {
+        let figures = [0.1 + 0.2, -0.0, f64::INFINITY, 1e-300];
+        let (journal, past) = open(path);
+        assert_eq!(past, Past::default());
+        let outcomes: [Result<&[f64], &str>; 4] =
+            [Ok(&figures), Err("it,\nfailed \"there\""), Ok(&[]), Ok(&[1.5])];
+        let mut entries = BTreeMap::new();
+        for (k, outcome) in (0..).zip(outcomes) {
+            let seed = (1 << 53) - 1 - k;
+            journal.note(&Finished { evaluation: k, start: 7, seed, outcome }, 0.5 * k as f64).unwrap();
+            let outcome = outcome.map(<[f64]>::to_vec).map_err(str::to_owned);
+            entries.insert((k, 7), Entry { seed, outcome });
+        }
+        entries
+    }
+
+    #[test]
+    fn starts_come_back_as_they_were() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("starts.journal");
+        let entries = written(&path);
+        let (journal, past) = open(&path);
+        assert_eq!((&past.starts, past.wall_s), (&entries, 1.5));
+        assert_eq!(past.of(1).map(|(start, _)| start).collect::<Vec<_>>(), [7]);
+        journal.note(&Finished { evaluation: 9, start: 0, seed: 1, outcome: Ok(&[]) }, 2.0).unwrap();
+        assert_eq!(open(&path).1.starts.len(), 5);
+    }
+
+    /// Cut at any byte: all lines that are whole come back, and the next one does not stick to what was cut.
+    #[test]
+    fn a_torn_journal_loses_its_last_line_only() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("starts.journal");
+        let entries = written(&path);
+        let whole = std::fs::read(&path).unwrap();
+        for length in 0..whole.len() {
+            std::fs::write(&path, &whole[..length]).unwrap();
+            let lines = whole[..length].split(|byte| *byte == b'\n').count() - 1;
+            let (journal, past) = open(&path);
+            let kept: BTreeMap<_, _> = entries.clone().into_iter().take(lines.saturating_sub(1)).collect();
+            assert_eq!(past.starts, kept, "cut at {length}");
+            journal.note(&Finished { evaluation: 9, start: 0, seed: 1, outcome: Ok(&[2.5]) }, 0.0).unwrap();
+            assert_eq!(open(&path).1.starts.len(), kept.len() + 1);
+        }
+    }
+
+    #[test]
+    fn damaged_lines_are_as_if_they_had_never_been() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("starts.journal");
+        written(&path);
+        let whole = std::fs::read(&path).unwrap();
+        let heading = whole.iter().position(|byte| *byte == b'\n').unwrap() + 1;
+        for at in heading..whole.len() {
+            let mut damaged = whole.clone();
+            damaged[at] ^= 1;
+            std::fs::write(&path, &damaged).unwrap();
+            let kept = open(&path).1.starts.len();
+            // A damaged end of a line takes the next line along.
+            let is_end = whole[at] == b'\n';
+            assert!(kept == 3 || is_end && kept >= 2, "{kept} kept with byte {at} damaged");
+        }
+    }
+
+    #[test]
+    fn a_journal_of_another_campaign_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("starts.journal");
+        written(&path);
+        let reason = Journal::open(&path, "version = 2").unwrap().unwrap_err();
+        assert!(reason.contains("its journal is of \"agglo "), "{reason}");
+    }
+}

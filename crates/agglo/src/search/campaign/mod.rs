@@ -1,0 +1,54 @@
+//! A whole search or study: proposals, random starts, confirmation of the best, tables and summary in one folder.
+//!
+//! A campaign is the same to the last bit for any number of threads, and resumed or not. Its optimiser is a function of
+//! its seed and of what it was told; decisions look at the starts in their order; and going on with a campaign means
+//! beginning it anew with the starts that are known from its journal.
+
+mod archive;
+mod conduct;
+mod confirm;
+mod error;
+mod folder;
+mod journal;
+mod pictures;
+mod progress;
+mod records;
+mod summary;
+mod tables;
+mod verbs;
+mod watch;
+
+pub use archive::{Evaluation, Stage, Status};
+pub use conduct::{Ask, Closing, Course, Polish, Results, conduct};
+pub use error::CampaignError;
+pub use folder::Folder;
+pub use progress::{CampaignObserver, CampaignProgress};
+pub use summary::{Best, CampaignSummary, FrontPoint, Goal, Named, Noise};
+pub use verbs::{evaluations_at_most, resume, run, way_of};
+
+use std::path::Path;
+
+/// How a campaign ended without an error.
+#[derive(Clone, Debug)]
+pub enum CampaignEnding {
+    /// It reached its end.
+    Finished(Box<CampaignSummary>),
+    /// The observer asked to stop; all starts that ended are kept.
+    Interrupted,
+}
+
+/// Whether `dir` holds a campaign, and not a run.
+pub fn is_one(dir: &Path) -> bool {
+    Folder::holds(dir)
+}
+
+/// The summary of the campaign in `dir`, if it has finished.
+///
+/// The summary is written last, so a campaign without one, or with one that cannot be read, has something left to do.
+pub fn finished(dir: &Path) -> Option<CampaignSummary> {
+    let text = std::fs::read_to_string(Folder::open(dir).ok()?.summary()).ok()?;
+    serde_json::from_str(&text).ok()
+}
+
+#[cfg(test)]
+mod tests;

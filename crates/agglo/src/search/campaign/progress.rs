@@ -1,0 +1,31 @@
+//! What an observer is told while a campaign goes on.
+
+use std::ops::ControlFlow;
+
+use super::Stage;
+
+/// What an observer is told while a campaign goes on, about ten times a second.
+#[derive(Clone, Debug)]
+pub struct CampaignProgress {
+    /// What is to be small or large, of the best candidate so far, and its standard error.
+    pub best: Option<(f64, f64)>,
+    /// What happens now.
+    pub stage: Stage,
+    /// Candidates that were evaluated so far.
+    pub evaluations: u64,
+    /// Candidates that there will be at most, if that is known.
+    pub evaluations_at_most: Option<u64>,
+    /// Batches that were evaluated so far.
+    pub generations: u64,
+    /// Simulations that ended in this sitting.
+    pub starts: u64,
+    /// Simulations in a second of this sitting.
+    pub starts_per_second: f64,
+    /// Candidates that failed so far.
+    pub failures: u64,
+    /// Wall time that is left [s], if that can be said.
+    pub left_s: Option<f64>,
+}
+
+/// Someone who is told of the progress and may ask to stop.
+pub type CampaignObserver<'a> = dyn FnMut(&CampaignProgress) -> ControlFlow<()> + Send + 'a;

@@ -1,0 +1,234 @@
+//! What is written of each evaluation: the columns of all tables are here.
+
+use std::path::Path;
+
+use super::archive::{Archive, Evaluation, Stage};
+use super::tables::Table;
+use crate::record::RecordError;
+use crate::search::Axis;
+
+/// The tables that grow while a campaign goes on.
+#[derive(Debug)]
+pub struct Records {
+    parameters: Vec<Axis>,
+    objectives: usize,
+    evaluations: Table,
+    runs: Table,
+    generations: Table,
+    failures: Table,
+}
+
+/// A start that counts.
+#[derive(Clone, Copy, Debug)]
+pub struct Start<'a> {
+    /// Its number.
+    pub number: u32,
+    /// Its seed.
+    pub seed: u64,
+    /// Its costs.
+    pub costs: &'a [f64],
+    /// Its figures.
+    pub figures: &'a [f64],
+}
+
+/// `cost`, or `cost_1`, `cost_2` where there are several.
+fn cost_names(objectives: usize) -> Vec<String> {
+    if objectives == 1 {
+        vec!["cost".into()]
+    } else {
+        (1..=objectives).map(|k| format!("cost_{k}")).collect()
+    }
+}
+
+fn words(words: &[&str]) -> impl Iterator<Item = String> {
+    words.iter().map(|word| (*word).to_owned())
+}
+
+impl Records {
+    /// Begins the tables in the campaign's folder.
+    ///
+    /// # Errors
+    /// [`RecordError::File`].
+    pub fn create(
+        folder: &Path,
+        parameters: &[Axis],
+        objectives: usize,
+        columns: &[String],
+    ) -> Result<Self, RecordError> {
+        let names = cost_names(objectives);
+        let errors = names.iter().map(|name| format!("{name}_standard_error"));
+        let parameter_names = parameters.iter().map(Axis::column);
+        let evaluations = words(&["evaluation", "generation", "stage", "status", "starts", "violation"])
+            .chain(names.iter().cloned())
+            .chain(errors)
+            .chain(parameter_names)
+            .chain(columns.iter().cloned());
+        let runs =
+            words(&["evaluation", "start", "seed"]).chain(names.clone()).chain(columns.iter().cloned());
+        let generations = [
+            "generation",
+            "stage",
+            "evaluations",
+            "runs",
+            "failures",
+            "excluded",
+            "cost_lowest",
+            "cost_mean",
+            "best_evaluation",
+            "best_cost",
+            "best_cost_standard_error",
+        ];
+        Ok(Self {
+            parameters: parameters.to_vec(),
+            objectives,
+            evaluations: Table::create(&folder.join("evaluations.csv"), evaluations)?,
+            runs: Table::create(&folder.join("runs.csv"), runs)?,
+            generations: Table::create(&folder.join("generations.csv"), generations)?,
+            failures: Table::create(&folder.join("failures.csv"), ["evaluation", "start", "seed", "reason"])?,
+        })
+    }
+
+    /// Writes an evaluation.
+    ///
+    /// # Errors
+    /// [`RecordError::File`].
+    pub fn evaluation(&mut self, evaluation: &Evaluation, columns: usize) -> Result<(), RecordError> {
+        let (fitness, figures) = (&evaluation.fitness, evaluation.mean_figures());
+        let table = &mut self.evaluations;
+        table.count(evaluation.number);
+        table.count(evaluation.generation);
+        table.word(evaluation.stage.word());
+        table.word(evaluation.status.word());
+        table.count(u64::from(evaluation.starts));
+        table.number(fitness.violation.is_finite().then_some(fitness.violation));
+        for known in [&fitness.costs, &fitness.standard_errors] {
+            (0..self.objectives).for_each(|k| table.number(known.get(k).copied()));
+        }
+        parameters(table, &self.parameters, &evaluation.candidate.values);
+        (0..columns).for_each(|k| table.number(figures.get(k).copied().filter(|figure| figure.is_finite())));
+        table.end_row()
+    }
+
+    /// Writes a start that counts.
+    ///
+    /// # Errors
+    /// [`RecordError::File`].
+    pub fn start(&mut self, evaluation: u64, start: &Start<'_>) -> Result<(), RecordError> {
+        let table = &mut self.runs;
+        table.count(evaluation);
+        table.count(u64::from(start.number));
+        table.count(start.seed);
+        start.costs.iter().for_each(|cost| table.number(*cost));
+        start.figures.iter().for_each(|figure| table.number(figure.is_finite().then_some(*figure)));
+        table.end_row()
+    }
+
+    /// Writes a failure.
+    ///
+    /// # Errors
+    /// [`RecordError::File`].
+    pub fn failure(
+        &mut self,
+        evaluation: u64,
+        start: u32,
+        seed: u64,
+        reason: &str,
+    ) -> Result<(), RecordError> {
+        self.failures.count(evaluation);
+        self.failures.count(u64::from(start));
+        self.failures.count(seed);
+        self.failures.word(reason);
+        self.failures.end_row()
+    }
+
+    /// Writes what the archive holds after a generation, of which the last `count` evaluations are.
+    ///
+    /// # Errors
+    /// [`RecordError::File`].
+    pub fn generation(
+        &mut self,
+        (generation, stage): (u64, Stage),
+        archive: &Archive,
+        count: usize,
+    ) -> Result<(), RecordError> {
+        let of_it = &archive.evaluations[archive.evaluations.len() - count..];
+        let costs: Vec<f64> = of_it.iter().filter_map(|one| one.fitness.costs.first().copied()).collect();
+        let table = &mut self.generations;
+        table.count(generation);
+        table.word(stage.word());
+        for sum in [archive.evaluations.len() as u64, archive.runs, archive.failures, archive.excluded] {
+            table.count(sum);
+        }
+        table.number(costs.iter().copied().reduce(f64::min));
+        table.number((!costs.is_empty()).then(|| costs.iter().sum::<f64>() / costs.len() as f64));
+        let best = archive.best();
+        table.count(best.map(|best| best.number));
+        table.number(best.map(|best| best.fitness.cost()));
+        table.number(best.and_then(|best| best.fitness.standard_errors.first().copied()));
+        table.end_row()
+    }
+
+    /// Hands all rows to the operating system.
+    ///
+    /// # Errors
+    /// [`RecordError::File`].
+    pub fn flush(&mut self) -> Result<(), RecordError> {
+        let tables = [&mut self.evaluations, &mut self.runs, &mut self.generations, &mut self.failures];
+        tables.into_iter().try_for_each(Table::flush)
+    }
+
+    /// Writes the best candidates with what they were in the search, best first, in one go.
+    ///
+    /// # Errors
+    /// [`RecordError::File`].
+    pub fn best(
+        &self,
+        folder: &Path,
+        ranked: &[(&Evaluation, Option<&Evaluation>)],
+    ) -> Result<(), RecordError> {
+        let fixed = [
+            "rank",
+            "evaluation",
+            "cost",
+            "cost_standard_error",
+            "starts",
+            "violation",
+            "search_evaluation",
+            "search_cost",
+            "search_cost_standard_error",
+            "search_starts",
+        ];
+        let columns = words(&fixed).chain(self.parameters.iter().map(Axis::column));
+        let mut table = Table::create(&folder.join("best.csv"), columns)?;
+        for (rank, (evaluation, search)) in (1..).zip(ranked) {
+            table.count(rank);
+            table.count(evaluation.number);
+            cost_with_error(&mut table, Some(evaluation));
+            table.count(u64::from(evaluation.starts));
+            let violation = evaluation.fitness.violation;
+            table.number(violation.is_finite().then_some(violation));
+            table.count(search.map(|search| search.number));
+            cost_with_error(&mut table, *search);
+            table.count(search.map(|search| u64::from(search.starts)));
+            parameters(&mut table, &self.parameters, &evaluation.candidate.values);
+            table.end_row()?;
+        }
+        table.flush()
+    }
+}
+
+fn cost_with_error(table: &mut Table, evaluation: Option<&Evaluation>) {
+    let fitness = evaluation.map(|evaluation| &evaluation.fitness);
+    table.number(fitness.and_then(|fitness| fitness.costs.first().copied()));
+    table.number(fitness.and_then(|fitness| fitness.standard_errors.first().copied()));
+}
+
+fn parameters(table: &mut Table, axes: &[Axis], values: &[f64]) {
+    for (axis, value) in axes.iter().zip(values) {
+        if axis.is_numeric() {
+            table.number(axis.number(*value));
+        } else {
+            table.word(&axis.label(*value));
+        }
+    }
+}

@@ -1,0 +1,234 @@
+//! What a campaign came to, in one file and one table.
+
+use std::fmt;
+
+use serde::de::{MapAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde_json::Value as Json;
+
+use crate::scenario::readable;
+
+/// What a campaign came to; `summary.json` holds the same.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CampaignSummary {
+    /// Version of agglo.
+    pub version: String,
+    /// The campaign's title.
+    pub title: String,
+    /// Seed.
+    pub seed: u64,
+    /// What is to be small or large; the cost of what is to be large is minus its value.
+    pub objectives: Vec<Goal>,
+    /// The best candidate; null where there is nothing to be small.
+    pub best: Option<Best>,
+    /// Candidates that no other beats in every cost, where there are several; empty with one.
+    pub front: Vec<FrontPoint>,
+    /// Batches that were evaluated one after the other.
+    pub generations: u64,
+    /// Candidates that were evaluated, those included that failed, were excluded, or got fresh starts at the end.
+    pub evaluations: u64,
+    /// Simulations that count.
+    pub runs: u64,
+    /// Candidates that failed.
+    pub failures: u64,
+    /// Candidates that were not run, since they miss a constraint between parameters.
+    pub excluded: u64,
+    /// How much of the differences between candidates may be chance.
+    pub noise: Noise,
+    /// Wall time [s], all sittings together.
+    pub wall_s: f64,
+}
+
+/// What is to be small or large.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Goal {
+    /// A column of a run's summary, or a formula of columns and parameters.
+    pub formula: String,
+    /// Whether it is to be large; its cost is then minus its value.
+    pub is_to_be_large: bool,
+}
+
+/// The best candidate.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Best {
+    /// Number of the evaluation that these figures are from.
+    pub evaluation: u64,
+    /// Its mean cost over `starts`; if it was confirmed, over starts that the search did not see.
+    pub cost: f64,
+    /// Standard error of that; null from one start.
+    pub cost_standard_error: Option<f64>,
+    /// All costs, if there are several.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub costs: Vec<f64>,
+    /// Random starts.
+    pub starts: u32,
+    /// Whether the starts are fresh.
+    pub is_confirmed: bool,
+    /// Its mean cost in the search, which is too good where costs scatter; null if the search did not evaluate it.
+    pub search_cost: Option<f64>,
+    /// Standard error of that; null from one start.
+    pub search_cost_standard_error: Option<f64>,
+    /// By how much it misses the limits: the sum of the parts; 0 if it keeps them.
+    pub violation: f64,
+    /// Seed of its first start, which the run in `best/` has.
+    pub start_seed: u64,
+    /// Values by the names of parameters, in SI units; choices as their words.
+    pub parameters: Named,
+    /// The same for people: "v = 120.5 m/s".
+    pub readable: Vec<String>,
+    /// Settings that make its scenario of `scenario.toml`: `agglo run scenario.toml --set ...`.
+    pub settings: Vec<String>,
+    /// Mean figures by their columns.
+    pub figures: Named,
+}
+
+/// A candidate of the front.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FrontPoint {
+    /// Number of its evaluation.
+    pub evaluation: u64,
+    /// Its mean costs.
+    pub costs: Vec<f64>,
+    /// Their standard errors.
+    pub standard_errors: Vec<f64>,
+    /// Values by the names of parameters.
+    pub parameters: Named,
+}
+
+/// How much of the differences between candidates may be chance; null where it cannot be said.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Noise {
+    /// Standard deviation of the cost of one start, pooled over all candidates.
+    pub start_deviation: Option<f64>,
+    /// Mean number of starts of a candidate.
+    pub starts_mean: Option<f64>,
+    /// Difference of two candidates' mean costs that chance exceeds once in twenty times, if each has so many starts of
+    /// its own. Common random numbers make smaller differences significant.
+    pub significant_difference: Option<f64>,
+}
+
+impl CampaignSummary {
+    /// The text of `summary.json`.
+    pub fn to_json(&self) -> String {
+        // A struct of numbers and strings always has a text; numbers that are not finite become null.
+        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+    }
+
+    /// The summary as rows of a table: what, how much.
+    pub fn table(&self) -> Vec<(String, String)> {
+        let mut rows = Vec::new();
+        if let Some(best) = &self.best {
+            rows.push(("best".to_owned(), self.best_row(best)));
+            let parameters = best.readable.iter().filter_map(|text| text.split_once(" = "));
+            rows.extend(parameters.map(|(name, value)| (format!("  {name}"), value.to_owned())));
+        }
+        if !self.front.is_empty() {
+            rows.push(("front".to_owned(), format!("{} candidates that no other beats", self.front.len())));
+        }
+        rows.push(("evaluations".to_owned(), self.evaluations_row()));
+        let starts = self.noise.starts_mean.map(|mean| format!(", {} a candidate", figure(mean)));
+        rows.push(("runs".to_owned(), format!("{}{}", self.runs, starts.unwrap_or_default())));
+        rows.extend(self.noise_row().map(|row| ("noise".to_owned(), row)));
+        rows.push(("wall time".to_owned(), readable(self.wall_s, "s")));
+        rows
+    }
+
+    fn best_row(&self, best: &Best) -> String {
+        let goal = self.objectives.first();
+        let sign = if goal.is_some_and(|goal| goal.is_to_be_large) { -1.0 } else { 1.0 };
+        let value = |cost: f64, error: Option<f64>| {
+            let error = error.map(|error| format!(" +- {}", figure(error))).unwrap_or_default();
+            format!("{}{error}", figure(sign * cost))
+        };
+        let name = goal.map_or("cost", |goal| goal.formula.as_str());
+        let starts = match (best.starts, best.is_confirmed) {
+            (1, true) => "1 fresh start".to_owned(),
+            (1, false) => "1 start".to_owned(),
+            (count, true) => format!("{count} fresh starts"),
+            (count, false) => format!("{count} starts"),
+        };
+        let searched = best.search_cost.filter(|_| best.is_confirmed);
+        let searched = searched.map(|cost| value(cost, best.search_cost_standard_error));
+        let searched = searched.map(|value| format!("; in the search {value}")).unwrap_or_default();
+        let missed = if best.violation > 0.0 { "; it misses the limits" } else { "" };
+        format!("{name} = {} from {starts}{searched}{missed}", value(best.cost, best.cost_standard_error))
+    }
+
+    fn evaluations_row(&self) -> String {
+        let Self { evaluations, generations, failures, excluded, .. } = self;
+        let batches = if *generations == 1 { "1 batch".to_owned() } else { format!("{generations} batches") };
+        let mut parts = vec![format!("{evaluations} in {batches}")];
+        for (count, what) in [(failures, "failed"), (excluded, "not run: they miss the constraints")] {
+            parts.extend((*count > 0).then(|| format!("{count} {what}")));
+        }
+        parts.join(", ")
+    }
+
+    fn noise_row(&self) -> Option<String> {
+        let deviation = self.noise.start_deviation?;
+        let difference = self.noise.significant_difference?;
+        let (deviation, difference) = (figure(deviation), figure(difference));
+        Some(format!(
+            "one start scatters by {deviation}; two candidates differ by more than chance (95 %) from {difference} on"
+        ))
+    }
+}
+
+/// Four significant digits.
+fn figure(value: f64) -> String {
+    readable(value, "")
+}
+
+/// Values by their names, in an order that is kept.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Named(pub Vec<(String, Json)>);
+
+impl Named {
+    /// The value of this name.
+    pub fn get(&self, name: &str) -> Option<&Json> {
+        self.0.iter().find(|(known, _)| known == name).map(|(_, value)| value)
+    }
+}
+
+impl Serialize for Named {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
+    }
+}
+
+impl<'de> Deserialize<'de> for Named {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(NamedVisitor)
+    }
+}
+
+struct NamedVisitor;
+
+impl<'de> Visitor<'de> for NamedVisitor {
+    type Value = Named;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("values by their names")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Named, A::Error> {
+        let mut named = Vec::new();
+        while let Some(entry) = map.next_entry()? {
+            named.push(entry);
+        }
+        Ok(Named(named))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_keep_their_order() {
+        let text = r#"{"v_m_s":120.5,"a":1,"material":"sand"}"#;
+        let named: Named = serde_json::from_str(text).unwrap();
+        assert_eq!(serde_json::to_string(&named).unwrap(), text);
+        assert_eq!(named.get("material"), Some(&Json::from("sand")));
+    }
+}

@@ -1,0 +1,297 @@
+//! Campaigns over models whose outcome is known.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+use super::*;
+use crate::record::RecordError;
+use crate::search::optimiser::{Method, PublishedGenetic, Random};
+use crate::search::test_models::Analytic;
+use crate::search::{Axis, Confirm, Ensemble, RunningMean, Scale, Until};
+
+const TEXT: &str = "version = 1\n";
+
+fn settling() -> Ensemble {
+    let until = Until::RunningMean(RunningMean { tolerance: 0.01, least: 2, most: 12 });
+    Ensemble { until, common_random_numbers: true }
+}
+
+fn genetic() -> Method {
+    Method::PublishedGenetic(PublishedGenetic { generations: 4, ..PublishedGenetic::default() })
+}
+
+/// Conducts a campaign in `dir`, anew or as a resumption.
+fn conducted(
+    model: &Analytic,
+    dir: &Path,
+    (threads, method): (usize, &Method),
+    observer: &mut CampaignObserver<'_>,
+) -> Result<CampaignEnding, CampaignError> {
+    let folder = if dir.exists() { Folder::open(dir)? } else { Folder::create(dir, TEXT, "")? };
+    let axis = |name: &str| Axis {
+        name: name.to_owned(),
+        unit: "m/s".to_owned(),
+        scale: Scale::Linear([-5.12, 5.12]),
+    };
+    let course = Course {
+        title: "bowl",
+        seed: 11,
+        threads,
+        parameters: ["x", "y"].map(axis).to_vec(),
+        objectives: vec![Goal { formula: "value".to_owned(), is_to_be_large: false }],
+        ensemble: settling(),
+        optimiser: method.start(2, 1, 11),
+        evaluations_at_most: Some(76),
+        polish: Some(&|_| Method::Random(Random { points: 5 }).start(2, 1, 12)),
+        confirm: Confirm { candidates: 3, starts: 5 },
+        settings: &|candidate| candidate.values.iter().map(|value| format!("x={value}")).collect(),
+        closing: &mut |results, _| {
+            let file = results.folder.root().join("closed.txt");
+            fs::write(&file, format!("{:?}", results.best)).map_err(RecordError::file("write", &file))?;
+            Ok(ControlFlow::Continue(()))
+        },
+    };
+    conduct(model, course, (&folder, TEXT), observer)
+}
+
+fn whole(model: &Analytic, dir: &Path, threads: usize, method: &Method) -> CampaignSummary {
+    match conducted(model, dir, (threads, method), &mut |_| ControlFlow::Continue(())).unwrap() {
+        CampaignEnding::Finished(summary) => *summary,
+        CampaignEnding::Interrupted => panic!("nobody asked it to stop"),
+    }
+}
+
+fn noisy() -> Analytic {
+    let (sigma, slowest) = (3.0, Duration::from_micros(200));
+    Analytic {
+        sigma,
+        slowest,
+        fails_below: 0.05,
+        panics_above: 0.97,
+        excluded_above: 0.9,
+        ..Analytic::default()
+    }
+}
+
+/// All files but for the wall time.
+fn results(dir: &Path) -> BTreeMap<String, String> {
+    let mut files = BTreeMap::new();
+    for entry in fs::read_dir(dir).unwrap() {
+        let path = entry.unwrap().path();
+        let text = fs::read_to_string(&path).unwrap();
+        let kept: Vec<&str> = text.lines().filter(|line| !line.contains("\"wall_s\"")).collect();
+        files.insert(path.file_name().unwrap().to_str().unwrap().to_owned(), kept.join("\n"));
+    }
+    files
+}
+
+fn rows(dir: &Path, table: &str) -> Vec<BTreeMap<String, String>> {
+    let text = fs::read_to_string(dir.join(table)).unwrap();
+    let mut lines = text.lines().map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
+    let header = lines.next().unwrap();
+    lines.map(|line| header.iter().cloned().zip(line).collect()).collect()
+}
+
+fn number(row: &BTreeMap<String, String>, column: &str) -> f64 {
+    row[column].parse().unwrap()
+}
+
+#[test]
+fn any_number_of_threads_writes_the_same_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let dirs = [1, 2, 5].map(|threads| {
+        let dir = folder.path().join(threads.to_string());
+        whole(&noisy(), &dir, threads, &genetic());
+        dir
+    });
+    let wanted = results(&dirs[0]);
+    let names: Vec<&str> = wanted.keys().map(String::as_str).collect();
+    let known = [
+        "best.csv",
+        "closed.txt",
+        "evaluations.csv",
+        "failures.csv",
+        "generations.csv",
+        "runs.csv",
+        "scenario.toml",
+        "search.toml",
+        "summary.json",
+    ];
+    assert_eq!(names, known);
+    for dir in &dirs[1..] {
+        assert_eq!(results(dir), wanted);
+    }
+}
+
+/// Stopped again and again, with the journal cut at any byte in between, as by a kill in the middle of a line.
+#[test]
+fn a_campaign_that_was_stopped_and_cut_ends_with_the_same_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let (straight, dir) = (folder.path().join("straight"), folder.path().join("stopped"));
+    let reference = noisy();
+    whole(&reference, &straight, 2, &genetic());
+    let model = noisy();
+    let mut sittings = 0;
+    loop {
+        sittings += 1;
+        let mut stop = |progress: &CampaignProgress| {
+            if progress.starts > 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        match conducted(&model, &dir, (2, &genetic()), &mut stop).unwrap() {
+            CampaignEnding::Finished(_) => break,
+            CampaignEnding::Interrupted => {
+                assert!(finished(&dir).is_none() && !dir.join("summary.json").exists());
+                let journal = dir.join("starts.journal");
+                let bytes = fs::read(&journal).unwrap();
+                // Not for ever: the last start would be lost again and again.
+                let cut = if sittings < 6 { 3 * sittings } else { 0 };
+                fs::write(&journal, &bytes[..bytes.len() - cut]).unwrap();
+            }
+        }
+    }
+    assert!(sittings > 2, "it was stopped {sittings} times");
+    assert_eq!(results(&dir), results(&straight));
+    assert_eq!(finished(&dir).unwrap().best, finished(&straight).unwrap().best);
+    // Two starts in each sitting may have been in progress, one line is cut, and decisions may come a little later.
+    let (runs, wanted) = (model.runs.into_inner(), reference.runs.into_inner());
+    assert!(runs <= wanted + 8 * sittings as u64, "{runs} starts instead of {wanted}");
+}
+
+#[test]
+fn tables_and_summary_tell_the_same() {
+    let folder = tempfile::tempdir().unwrap();
+    let dir = folder.path().join("run");
+    let summary = whole(&noisy(), &dir, 2, &genetic());
+    let (evaluations, runs) = (rows(&dir, "evaluations.csv"), rows(&dir, "runs.csv"));
+    // 20 strings, four times 14, five points of the polish, three candidates with fresh starts.
+    assert_eq!((evaluations.len(), summary.evaluations), (84, 84));
+    assert_eq!(runs.len() as u64, summary.runs);
+    for (n, evaluation) in evaluations.iter().enumerate() {
+        let costs: Vec<f64> = runs
+            .iter()
+            .filter(|row| row["evaluation"] == n.to_string())
+            .map(|row| number(row, "cost"))
+            .collect();
+        assert_eq!(number(evaluation, "starts") as usize, costs.len());
+        match evaluation["status"].as_str() {
+            "ok" => {
+                let mean = costs.iter().sum::<f64>() / costs.len() as f64;
+                assert_eq!(number(evaluation, "cost"), mean);
+                // The cost is the sum of both figures; round-off of the means.
+                let sum = number(evaluation, "value") + number(evaluation, "noise");
+                assert!((sum - mean).abs() < 1e-12 * (1.0 + mean.abs()));
+            }
+            "failed" => assert!(evaluation["cost"].is_empty() && costs.is_empty()),
+            "excluded" => assert!(number(evaluation, "violation") > 0.0 && costs.is_empty()),
+            other => panic!("{other}"),
+        }
+    }
+    let count = |status: &str| evaluations.iter().filter(|row| row["status"] == status).count() as u64;
+    assert_eq!((count("failed"), count("excluded")), (summary.failures, summary.excluded));
+    assert!(summary.failures > 0 && summary.excluded > 0);
+    let failures = fs::read_to_string(dir.join("failures.csv")).unwrap();
+    assert!(failures.contains("\"too low,\nfar \"\"too\"\" low\""), "{failures}");
+    let generations = rows(&dir, "generations.csv");
+    // Five of the search, one of the polish, one of the confirmation.
+    assert_eq!((generations.len() as u64, summary.generations), (7, 7));
+    let last = generations.last().unwrap();
+    assert_eq!((number(last, "evaluations"), number(last, "runs")), (84.0, summary.runs as f64));
+}
+
+/// Where all candidates are equally good, the lowest of many costs is low by luck: the fresh mean is not.
+#[test]
+fn the_best_is_told_by_starts_that_the_search_did_not_see() {
+    let folder = tempfile::tempdir().unwrap();
+    let dir = folder.path().join("run");
+    let model = Analytic { sigma: 1000.0, ..Analytic::default() };
+    let summary = whole(&model, &dir, 2, &genetic());
+    let best = summary.best.unwrap();
+    assert!(best.is_confirmed && best.starts == 5);
+    let (evaluations, runs) = (rows(&dir, "evaluations.csv"), rows(&dir, "runs.csv"));
+    let stage =
+        |row: &BTreeMap<String, String>| evaluations[number(row, "evaluation") as usize]["stage"].clone();
+    let seeds = |wanted: fn(&str) -> bool| -> BTreeSet<&str> {
+        runs.iter().filter(|row| wanted(&stage(row))).map(|row| row["seed"].as_str()).collect()
+    };
+    let (seen, fresh) = (seeds(|stage| stage != "confirm"), seeds(|stage| stage == "confirm"));
+    assert_eq!(fresh.len(), 5, "common to the three candidates");
+    assert!(seen.is_disjoint(&fresh) && fresh.contains(best.start_seed.to_string().as_str()));
+    let table = rows(&dir, "best.csv");
+    assert_eq!(table.len(), 3);
+    assert!(table.windows(2).all(|pair| number(&pair[0], "cost") <= number(&pair[1], "cost")));
+    assert_eq!(
+        (number(&table[0], "cost"), number(&table[0], "search_cost")),
+        (best.cost, best.search_cost.unwrap())
+    );
+    // The error of the fresh mean from its five starts.
+    let costs: Vec<f64> = runs
+        .iter()
+        .filter(|row| row["evaluation"] == best.evaluation.to_string())
+        .map(|row| number(row, "cost"))
+        .collect();
+    let mean = costs.iter().sum::<f64>() / 5.0;
+    let error = (costs.iter().map(|cost| (cost - mean).powi(2)).sum::<f64>() / 20.0).sqrt();
+    assert!((best.cost_standard_error.unwrap() / error - 1.0).abs() < 1e-12);
+    // About 300 starts of which the pooled deviation is made: 4 % of scatter, five times that.
+    let deviation = summary.noise.start_deviation.unwrap();
+    assert!((deviation / 1000.0 - 1.0).abs() < 0.35, "{deviation}");
+}
+
+#[test]
+fn a_campaign_that_comes_to_nothing_is_given_up_with_the_reason() {
+    let folder = tempfile::tempdir().unwrap();
+    let broken = || Analytic { is_broken: true, ..Analytic::default() };
+    let go_on = &mut |_: &CampaignProgress| ControlFlow::Continue(());
+    for (points, tried) in [(100, 32), (7, 7)] {
+        let dir = folder.path().join(points.to_string());
+        let method = Method::Random(Random { points });
+        let error = conducted(&broken(), &dir, (2, &method), go_on).unwrap_err();
+        let wanted = format!(
+            "none of {tried} candidates could be evaluated: {tried} failed, 0 miss the constraints\n\
+             the first one failed so: there is no scenario, \"really\""
+        );
+        assert_eq!((error.to_string(), error.exit_code()), (wanted, 1));
+    }
+    let dir = folder.path().join("excluded");
+    let nowhere = Analytic { excluded_above: -1.0, ..Analytic::default() };
+    let error = conducted(&nowhere, &dir, (2, &Method::Random(Random { points: 40 })), go_on).unwrap_err();
+    let wanted = "none of 40 candidates could be evaluated: 0 failed, 40 miss the constraints";
+    assert_eq!(error.to_string(), wanted);
+    assert_eq!(nowhere.runs.load(Ordering::Relaxed), 0);
+}
+
+#[test]
+fn folders_in_use_and_foreign_journals_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let dir = folder.path().join("run");
+    whole(&Analytic::default(), &dir, 1, &Method::Random(Random { points: 3 }));
+    let error = Folder::create(&dir, TEXT, "").unwrap_err();
+    assert!(matches!(error, CampaignError::FolderInUse { .. }) && error.exit_code() == 2);
+    let error = Folder::open(folder.path()).unwrap_err();
+    assert!(matches!(error, CampaignError::NoCampaign { .. }) && error.exit_code() == 2);
+    fs::write(dir.join("starts.journal"), "agglo 0.0.1,00000000\n").unwrap();
+    let go_on = &mut |_: &CampaignProgress| ControlFlow::Continue(());
+    let error = conducted(&Analytic::default(), &dir, (1, &genetic()), go_on).unwrap_err();
+    assert!(error.to_string().contains("its journal is of \"agglo 0.0.1,00000000\""), "{error}");
+}
+
+#[test]
+fn the_observer_is_told_how_far_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = Analytic { slowest: Duration::from_millis(8), ..Analytic::default() };
+    let mut told: Vec<CampaignProgress> = Vec::new();
+    let observer = &mut |progress: &CampaignProgress| {
+        told.push(progress.clone());
+        ControlFlow::Continue(())
+    };
+    conducted(&model, &folder.path().join("run"), (2, &genetic()), observer).unwrap();
+    let last = told.last().unwrap();
+    assert!(told.len() >= 2 && last.evaluations > 0 && last.evaluations_at_most == Some(76));
+    assert!(last.best.is_some() && last.starts >= last.evaluations && last.starts_per_second > 0.0);
+    assert!(told.windows(2).all(|pair| pair[0].evaluations <= pair[1].evaluations));
+    assert!(told.iter().any(|progress| progress.left_s.is_some()));
+}

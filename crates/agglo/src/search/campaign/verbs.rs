@@ -1,0 +1,173 @@
+//! The verbs that the terminal and Python share: conduct a search or study of scenarios, go on with it.
+
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+use super::conduct::{Ask, Course, Polish, Results, conduct};
+use super::folder::Folder;
+use super::progress::CampaignObserver;
+use super::summary::Goal;
+use super::{CampaignEnding, CampaignError, pictures};
+use crate::packing::Placement;
+use crate::record::RecordError;
+use crate::run::{self, Ending};
+use crate::scenario::{LoadError, Scenario};
+use crate::search::optimiser::{Method, NelderMead, Optimiser};
+use crate::search::{Base, Campaign, Confirm, Problem};
+
+/// Conducts a campaign on `threads` threads in the folder `dir`; `base` is the folder that its files are relative to.
+///
+/// # Errors
+/// [`CampaignError`] where the folder is in use, nothing can be evaluated, or a file cannot be written.
+pub fn run(
+    campaign: &Campaign,
+    base: &Path,
+    dir: &Path,
+    threads: usize,
+    observer: &mut CampaignObserver<'_>,
+) -> Result<CampaignEnding, CampaignError> {
+    let problem = Problem::new(campaign, base)?;
+    let mut scenario = problem.base().clone();
+    find_tables(&mut scenario, problem.folder());
+    let head = |what: &str| {
+        format!("# {what} of agglo {}: every default is written out.\n", env!("CARGO_PKG_VERSION"))
+    };
+    let own = Base::File("scenario.toml".to_owned());
+    let resolved = Campaign { base: own, settings: Vec::new(), ..campaign.clone() };
+    let scenario = head("Scenario that is varied by a search or study") + &scenario.to_toml()?;
+    let campaign = head("Resolved search or study") + &resolved.to_toml()?;
+    Folder::create(dir, &campaign, &scenario)?;
+    resume(dir, threads, observer)
+}
+
+/// Tables of grains are found from any folder.
+fn find_tables(scenario: &mut Scenario, base: &Path) {
+    for group in &mut scenario.grains {
+        if let Placement::Table(table) = &mut group.placement {
+            let found = base.join(&table.file);
+            table.file = std::path::absolute(&found).unwrap_or(found);
+        }
+    }
+}
+
+/// Goes on with the campaign in `dir`, on any number of threads.
+///
+/// A campaign that has finished is left as it is, and its summary given again.
+///
+/// # Errors
+/// [`CampaignError`] where there is no campaign, or a file cannot be written.
+pub fn resume(
+    dir: &Path,
+    threads: usize,
+    observer: &mut CampaignObserver<'_>,
+) -> Result<CampaignEnding, CampaignError> {
+    let folder = Folder::open(dir)?;
+    if let Some(summary) = super::finished(dir) {
+        return Ok(CampaignEnding::Finished(Box::new(summary)));
+    }
+    let read = |path: PathBuf| std::fs::read_to_string(&path).map_err(RecordError::file("read", &path));
+    let text = read(folder.campaign())? + &read(folder.scenario())?;
+    let unreadable = |error: LoadError| {
+        let reason = format!("its search.toml cannot be read: {error}");
+        CampaignError::NoCampaign { dir: dir.to_owned(), reason }
+    };
+    let campaign = Campaign::load(&folder.campaign()).map_err(unreadable)?;
+    let problem = Problem::new(&campaign, dir)?;
+    let is_search = campaign.plan.is_none();
+    let polish = |point: &[f64]| -> Box<dyn Optimiser> {
+        let simplex = campaign.polish.clone().unwrap_or_default();
+        let from = Method::NelderMead(NelderMead { start: point.to_vec(), ..simplex });
+        from.start(point.len(), 1, campaign.seed)
+    };
+    let course = Course {
+        title: &campaign.title,
+        seed: campaign.seed,
+        threads,
+        parameters: problem.axes().to_vec(),
+        objectives: problem.objectives().map(|(formula, large)| goal(formula, large)).collect(),
+        ensemble: campaign.ensemble.clone(),
+        optimiser: optimiser(&campaign, &problem),
+        evaluations_at_most: evaluations_at_most(&campaign, &problem),
+        polish: campaign.polish.as_ref().map(|_| &polish as &Polish<'_>),
+        confirm: if is_search { campaign.confirm } else { Confirm { candidates: 0, starts: 0 } },
+        settings: &|candidate| problem.settings(candidate),
+        closing: &mut |results, ask| {
+            pictures::clear(&results.folder.pictures())?;
+            pictures::write(&campaign, &problem, results)?;
+            if is_search { run_best(&problem, results, ask) } else { Ok(ControlFlow::Continue(())) }
+        },
+    };
+    conduct(&problem, course, (&folder, &text), observer)
+}
+
+fn goal(formula: &str, is_to_be_large: bool) -> Goal {
+    Goal { formula: formula.to_owned(), is_to_be_large }
+}
+
+/// Runs the best candidate with frames, from the first of its starts that count.
+fn run_best(
+    problem: &Problem,
+    results: &Results<'_>,
+    ask: &mut Ask<'_>,
+) -> Result<ControlFlow<()>, CampaignError> {
+    let Some((candidate, best)) = results.best.zip(results.summary.best.as_ref()) else {
+        return Ok(ControlFlow::Continue(()));
+    };
+    let dir = results.folder.best();
+    if run::finished(&dir).is_some() {
+        return Ok(ControlFlow::Continue(()));
+    }
+    if dir.exists() {
+        // What a killed sitting left; the run is no longer than any other of the campaign.
+        std::fs::remove_dir_all(&dir).map_err(RecordError::file("remove", &dir))?;
+    }
+    let scenario = Scenario { seed: best.start_seed, ..problem.scenario(candidate)? };
+    Ok(match run::run(&scenario, problem.folder(), &dir, &mut |_| ask())? {
+        Ending::Finished(_) => ControlFlow::Continue(()),
+        Ending::Interrupted(_) => ControlFlow::Break(()),
+    })
+}
+
+fn levels(problem: &Problem) -> Vec<Option<usize>> {
+    problem.axes().iter().map(|axis| axis.scale.levels()).collect()
+}
+
+/// What proposes the points of a search or study; its file has been checked.
+fn optimiser(campaign: &Campaign, problem: &Problem) -> Box<dyn Optimiser> {
+    if let Some(plan) = &campaign.plan {
+        return plan.start(&levels(problem), campaign.seed);
+    }
+    let method = campaign.method.clone().unwrap_or_default();
+    method.start(problem.axes().len(), campaign.objectives.len(), campaign.seed)
+}
+
+/// Candidates that a search or study evaluates at most, those with fresh starts included.
+pub fn evaluations_at_most(campaign: &Campaign, problem: &Problem) -> Option<u64> {
+    if let Some(plan) = &campaign.plan {
+        return Some(plan.evaluations(&levels(problem)));
+    }
+    let searched = match campaign.method.as_ref()? {
+        Method::CmaEs(method) => method.evaluations,
+        Method::Genetic(method) => method.population * (1 + method.generations),
+        Method::PublishedGenetic(method) => {
+            method.population + method.generations * (method.population - method.parents)
+        }
+        Method::NelderMead(method) => method.evaluations,
+        Method::Random(method) => method.points,
+        Method::Sobol(method) => method.points,
+    };
+    let polished = campaign.polish.as_ref().map_or(0, |polish| polish.evaluations);
+    let Confirm { candidates, starts } = campaign.confirm;
+    Some((searched + polished) as u64 + if starts > 0 { u64::from(candidates) } else { 0 })
+}
+
+/// How the points are chosen, in words: "method" or "plan" and its name in the file.
+pub fn way_of(campaign: &Campaign) -> (&'static str, String) {
+    if let Some(plan) = &campaign.plan {
+        return ("plan", plan.word().to_owned());
+    }
+    // A method is written as a table whose only key is its name.
+    let tree = serde_json::to_value(&campaign.method).unwrap_or_default();
+    let name = tree.as_object().and_then(|table| table.keys().next().cloned());
+    ("method", name.unwrap_or_default())
+}

@@ -1,0 +1,75 @@
+//! Tells the observer how far a campaign is, not too often.
+
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+use super::archive::{Archive, Stage};
+use super::progress::{CampaignObserver, CampaignProgress};
+
+/// How often the observer is told.
+const TELL_EVERY: Duration = Duration::from_millis(100);
+
+/// Keeps the time and tells the observer.
+pub struct Watch<'a> {
+    observer: &'a mut CampaignObserver<'a>,
+    sat_down: Instant,
+    told: Option<Instant>,
+    evaluations_at_most: Option<u64>,
+    /// Evaluations that were known when it sat down.
+    known: u64,
+    /// -1 where a cost is minus what is to be large.
+    sign: f64,
+}
+
+/// Where a campaign is.
+#[derive(Clone, Copy, Debug)]
+pub struct Now {
+    /// What happens.
+    pub stage: Stage,
+    /// Batches that were evaluated so far.
+    pub generations: u64,
+    /// Candidates of the batch at hand that are decided.
+    pub decided: u64,
+    /// Simulations that ended in this sitting.
+    pub starts: u64,
+}
+
+impl<'a> Watch<'a> {
+    /// Sits down with `known` evaluations from earlier sittings; what is told is `sign` times the cost.
+    pub fn new(
+        observer: &'a mut CampaignObserver<'a>,
+        sat_down: Instant,
+        evaluations_at_most: Option<u64>,
+        known: u64,
+        sign: f64,
+    ) -> Self {
+        Self { observer, sat_down, told: None, evaluations_at_most, known, sign }
+    }
+
+    /// Tells the observer, if it is time to; it may ask to stop.
+    pub fn tell(&mut self, archive: &Archive, now: &Now) -> ControlFlow<()> {
+        if self.told.is_some_and(|told| told.elapsed() < TELL_EVERY) {
+            return ControlFlow::Continue(());
+        }
+        self.told = Some(Instant::now());
+        let wall = self.sat_down.elapsed().as_secs_f64();
+        let evaluations = archive.evaluations.len() as u64 + now.decided;
+        let new = evaluations.saturating_sub(self.known) as f64;
+        let left = self.evaluations_at_most.map(|most| most.saturating_sub(evaluations) as f64);
+        let of = |best: &super::Evaluation| {
+            (self.sign * best.fitness.cost(), best.fitness.standard_errors.first().copied().unwrap_or(0.0))
+        };
+        let progress = CampaignProgress {
+            best: archive.best().map(of),
+            stage: now.stage,
+            evaluations,
+            evaluations_at_most: self.evaluations_at_most,
+            generations: now.generations,
+            starts: now.starts,
+            starts_per_second: if wall > 0.0 { now.starts as f64 / wall } else { 0.0 },
+            failures: archive.failures,
+            left_s: left.filter(|_| new > 0.0).map(|left| left * wall / new),
+        };
+        (self.observer)(&progress)
+    }
+}

@@ -1,0 +1,163 @@
+//! Optimisers: they propose points and are told how good these are.
+//!
+//! They know nothing of scenarios, of threads or of time. A search is resumed by asking and telling again.
+
+mod cma_es;
+mod eigen;
+mod genetic;
+mod nelder_mead;
+mod published_genetic;
+mod random;
+mod sobol;
+#[cfg(test)]
+mod tests;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+pub use cma_es::CmaEs;
+pub use genetic::Genetic;
+pub use nelder_mead::NelderMead;
+pub use published_genetic::PublishedGenetic;
+pub use random::Random;
+pub use sobol::Sobol;
+
+use super::Fitness;
+use crate::math::rng::{Purpose, Stream};
+
+/// A point of the unit cube, one coordinate in [0, 1] for each parameter.
+pub type Point = Vec<f64>;
+
+/// A key of a method's parameters and what is wrong with its value.
+pub type Fault = (&'static str, String);
+
+/// Proposes points and learns how good they are. What it asks is a function of its seed and of what it was told.
+pub trait Optimiser: Send {
+    /// Points to be evaluated next; none if the search is over.
+    fn ask(&mut self) -> Vec<Point>;
+
+    /// How good the points of the last [`Optimiser::ask`] are, in their order.
+    fn tell(&mut self, fitnesses: &[Fitness]);
+
+    /// The point that it would choose now; with noise that need not be the one with the lowest cost seen.
+    fn recommended(&self) -> Option<Point>;
+}
+
+/// How the space is searched.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Method {
+    /// Covariance matrix adaptation; heeds noise.
+    CmaEs(CmaEs),
+    /// Genetic algorithm with simulated binary crossover; finds fronts of two costs.
+    Genetic(Genetic),
+    /// The genetic algorithm of [B] 7.
+    PublishedGenetic(PublishedGenetic),
+    /// Downhill simplex: polishes a given point.
+    NelderMead(NelderMead),
+    /// Points drawn uniformly.
+    Random(Random),
+    /// Points that fill the space evenly.
+    Sobol(Sobol),
+}
+
+impl Default for Method {
+    fn default() -> Self {
+        Self::CmaEs(CmaEs::default())
+    }
+}
+
+impl Method {
+    /// An optimiser over `dimensions` parameters for `objectives` costs; its parameters have no faults.
+    pub fn start(&self, dimensions: usize, objectives: usize, seed: u64) -> Box<dyn Optimiser> {
+        match self {
+            Self::CmaEs(parameters) => Box::new(parameters.start(dimensions, seed)),
+            Self::Genetic(parameters) => Box::new(parameters.start(dimensions, objectives, seed)),
+            Self::PublishedGenetic(parameters) => Box::new(parameters.start(dimensions, seed)),
+            Self::NelderMead(parameters) => Box::new(parameters.start(dimensions)),
+            Self::Random(parameters) => Box::new(parameters.start(dimensions, seed)),
+            Self::Sobol(parameters) => Box::new(parameters.start(dimensions, seed)),
+        }
+    }
+
+    /// What is wrong with its parameters: key and message.
+    pub fn faults(&self, dimensions: usize, objectives: usize) -> Vec<Fault> {
+        let mut faults = match self {
+            Self::CmaEs(parameters) => parameters.faults(dimensions),
+            Self::Genetic(parameters) => parameters.faults(),
+            Self::PublishedGenetic(parameters) => parameters.faults(),
+            Self::NelderMead(parameters) => parameters.faults(dimensions),
+            Self::Random(parameters) => parameters.faults(),
+            Self::Sobol(parameters) => parameters.faults(dimensions),
+        };
+        if objectives != 1 && !matches!(self, Self::Genetic(_) | Self::Random(_) | Self::Sobol(_)) {
+            let message =
+                format!("this method makes 1 cost small, not {objectives}; `genetic` finds fronts of 2");
+            faults.push(("objectives", message));
+        }
+        if dimensions == 0 {
+            faults.push(("parameters", "there is nothing to vary".into()));
+        }
+        faults
+    }
+}
+
+/// What a stream of an optimiser's random numbers is for.
+#[derive(Clone, Copy)]
+#[repr(u32)]
+enum Part {
+    /// Points of the whole box or of a part of it.
+    Points = 0,
+    /// How parents are chosen and mixed.
+    Mating = 1,
+    /// Where a distribution is sampled.
+    Deviates = 2,
+}
+
+fn stream(seed: u64, part: Part) -> Stream {
+    Stream::new(seed, Purpose::Search, part as u32)
+}
+
+/// A point drawn uniformly from the unit cube.
+fn uniform_point(stream: &mut Stream, dimensions: usize) -> Point {
+    (0..dimensions).map(|_| stream.uniform()).collect()
+}
+
+/// The coordinate in [0, 1] that `y` is a mirror image of.
+fn mirrored(y: f64) -> f64 {
+    let folded = y.rem_euclid(2.0);
+    folded.min(2.0 - folded)
+}
+
+/// What is wrong with the point where a search is to start.
+fn start_faults(start: &[f64], dimensions: usize) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    if !start.is_empty() && start.len() != dimensions {
+        faults.push(("start", format!("it has {} numbers for {dimensions} parameters", start.len())));
+    }
+    if let Some(x) = start.iter().find(|x| !(0.0..=1.0).contains(*x)) {
+        faults.push(("start", format!("{x} is not a part of a range, from 0 to 1")));
+    }
+    faults
+}
+
+/// A point and how good it is.
+#[derive(Clone, Debug)]
+struct Candidate {
+    point: Point,
+    fitness: Fitness,
+}
+
+/// What was asked with what was told, in order.
+fn candidates(asked: &mut Vec<Point>, fitnesses: &[Fitness]) -> impl Iterator<Item = Candidate> {
+    asked.drain(..).zip(fitnesses).map(|(point, fitness)| Candidate { point, fitness: fitness.clone() })
+}
+
+/// Puts the best of the new ones in the place of `best` if it is better.
+fn keep_best(best: &mut Option<Candidate>, new: impl Iterator<Item = Candidate>) {
+    for candidate in new {
+        if best.as_ref().is_none_or(|best| candidate.fitness.compare(&best.fitness).is_lt()) {
+            *best = Some(candidate);
+        }
+    }
+}

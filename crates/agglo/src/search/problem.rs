@@ -1,0 +1,262 @@
+//! A campaign as a model: from a point to a scenario, from its runs to figures, costs and limits.
+
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+use serde::Deserialize;
+use serde_json::Value as Json;
+
+use super::analysis::Moments;
+use super::axes::{self, Knob};
+use super::base::BaseScenario;
+use super::file::Campaign;
+use super::formula::Formula;
+use super::formulas::{Corridor, Cost, Reader};
+use super::setter::Setter;
+use super::space::{self, Axis};
+use super::{Candidate, Fitness, Model, Trouble, columns};
+use crate::run::{self, Ending};
+use crate::scenario::{Fault, Faults, Scenario};
+
+/// What a campaign evaluates: its scenario, with values for its parameters.
+#[derive(Debug)]
+pub struct Problem {
+    base: BaseScenario,
+    knobs: Vec<Knob>,
+    axes: Vec<Axis>,
+    derived: Vec<(Setter, Formula)>,
+    constraints: Vec<Corridor>,
+    objectives: Vec<Cost>,
+    limits: Vec<Corridor>,
+    columns: Vec<String>,
+}
+
+/// A candidate's scenario, checked.
+#[derive(Clone, Debug)]
+pub struct Prepared {
+    scenario: Scenario,
+    numbers: Vec<f64>,
+}
+
+impl Problem {
+    /// Draws up the problem of a campaign whose file stands in `folder`.
+    ///
+    /// # Errors
+    /// Everything that is wrong with base, parameters and formulas; the keys are paths in the campaign.
+    pub fn new(campaign: &Campaign, folder: &Path) -> Result<Self, Faults> {
+        let base = BaseScenario::load(campaign, folder).map_err(Faults::new)?;
+        let mut faults = Vec::new();
+        let mut knobs = Vec::new();
+        for (at, parameter) in campaign.parameters.iter().enumerate() {
+            match axes::knob(parameter, at, &base) {
+                Ok(knob) => knobs.push(knob),
+                Err(more) => faults.extend(more),
+            }
+        }
+        // Formulas know a parameter by its name even if its range has faults.
+        let names: Vec<&str> = campaign.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
+        let is_numeric = |name: &str| {
+            knobs.iter().find(|knob: &&Knob| knob.axis.name == name).is_none_or(|knob| knob.axis.is_numeric())
+        };
+        let mut reader = Reader {
+            is_numeric: &is_numeric,
+            names: &names,
+            known: columns::known(base.scenario.engine.is_hard()),
+            columns: Vec::new(),
+            faults,
+        };
+        let derived = reader.derived(&campaign.derived, &base);
+        let constraints = reader.constraints(campaign);
+        let objectives = reader.objectives(campaign);
+        let limits = reader.limits(campaign);
+        reader.columns(&campaign.columns);
+        let Reader { columns, faults, .. } = reader;
+        if !faults.is_empty() {
+            return Err(Faults::new(faults));
+        }
+        let axes = knobs.iter().map(|knob| knob.axis.clone()).collect();
+        Ok(Self { base, knobs, axes, derived, constraints, objectives, limits, columns })
+    }
+
+    /// The parameters as axes, in the order of a candidate's values.
+    pub fn axes(&self) -> &[Axis] {
+        &self.axes
+    }
+
+    /// The scenario that is varied, with the fixed settings.
+    pub fn base(&self) -> &Scenario {
+        &self.base.scenario
+    }
+
+    /// The folder that the scenario's tables are relative to.
+    pub fn folder(&self) -> &Path {
+        &self.base.folder
+    }
+
+    /// Texts of the objectives, and whether each is to be large; a cost is minus the value of such a one.
+    pub fn objectives(&self) -> impl Iterator<Item = (&str, bool)> {
+        self.objectives.iter().map(|cost| (cost.formula.text(), cost.sign < 0.0))
+    }
+
+    /// The candidate in the middle of the box.
+    pub fn centre(&self) -> Candidate {
+        self.candidate(&vec![0.5; self.knobs.len()])
+    }
+
+    /// The candidate with these values: SI units, numbers of choices from 0.
+    pub fn candidate_at(&self, values: &[f64]) -> Candidate {
+        self.candidate(&space::point(&self.axes, values))
+    }
+
+    /// A candidate's scenario, checked.
+    ///
+    /// # Errors
+    /// Why it cannot be run.
+    pub fn scenario(&self, candidate: &Candidate) -> Result<Scenario, Faults> {
+        let mut tree = self.base.tree.clone();
+        for (setter, value) in self.assignments(candidate) {
+            if value.is_null() {
+                let message = "its formula has no value for these parameters".to_owned();
+                return Err(Faults::new(vec![Fault::new(setter.key.as_str(), message)]));
+            }
+            setter.put(&mut tree, value);
+        }
+        let scenario = Scenario::deserialize(&tree)
+            .map_err(|error| Faults::new(vec![Fault::new("", error.to_string())]))?;
+        scenario.check()?;
+        Ok(scenario)
+    }
+
+    /// The settings `key=value` that make the candidate's scenario of the base, as the command line takes them.
+    pub fn settings(&self, candidate: &Candidate) -> Vec<String> {
+        self.assignments(candidate).map(|(setter, value)| setter.setting(&value)).collect()
+    }
+
+    /// The candidates at the ends of each axis, the rest in the middle, that cannot be run, in words.
+    pub fn refused_ends(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        for (at, axis) in self.axes.iter().enumerate() {
+            for end in [0.0, 1.0] {
+                let mut point = vec![0.5; self.axes.len()];
+                point[at] = end;
+                let candidate = self.candidate(&point);
+                if candidate.violation > 0.0 {
+                    continue;
+                }
+                if let Err(faults) = self.scenario(&candidate) {
+                    let value = axis.readable(candidate.values[at]);
+                    let first = faults.iter().next().map(Fault::headline).unwrap_or_default();
+                    notes.push(format!(
+                        "{} = {value} cannot be run with the rest in the middle: {first}",
+                        axis.name
+                    ));
+                }
+            }
+        }
+        notes
+    }
+
+    fn numbers(&self, values: &[f64]) -> Vec<f64> {
+        self.axes.iter().zip(values).map(|(axis, value)| axis.number(*value)).collect()
+    }
+
+    /// What is set to what: parameters, then keys that follow from them.
+    fn assignments<'a>(&'a self, candidate: &'a Candidate) -> impl Iterator<Item = (&'a Setter, Json)> {
+        let set = self.knobs.iter().zip(&candidate.values).filter_map(|(knob, value)| {
+            let setter = knob.setter.as_ref()?;
+            Some((setter, knob.json(setter, *value)))
+        });
+        let numbers = self.numbers(&candidate.values);
+        let follow = self
+            .derived
+            .iter()
+            .map(move |(setter, formula)| (setter, setter.number(formula.at(&numbers, &[]))));
+        set.chain(follow)
+    }
+
+    /// Costs of figures; `numbers` are the parameters as numbers.
+    fn costs_of(&self, numbers: &[f64], figures: &[f64]) -> Vec<f64> {
+        self.objectives.iter().map(|cost| cost.sign * cost.formula.at(numbers, figures)).collect()
+    }
+
+    /// The first objective or limit that has no value for these figures.
+    fn without_value(&self, numbers: &[f64], figures: &[f64]) -> Option<&str> {
+        let objectives = self.objectives.iter().map(|cost| &cost.formula);
+        let mut formulas = objectives.chain(self.limits.iter().map(|limit| &limit.formula));
+        formulas.find(|formula| !formula.at(numbers, figures).is_finite()).map(Formula::text)
+    }
+}
+
+impl Model for Problem {
+    type Prepared = Prepared;
+
+    fn columns(&self) -> &[String] {
+        &self.columns
+    }
+
+    fn candidate(&self, point: &[f64]) -> Candidate {
+        let values = space::values(&self.axes, point);
+        let numbers = self.numbers(&values);
+        let missed = |corridor: &Corridor| corridor.missed(&[corridor.formula.at(&numbers, &[])]);
+        // An empty sum would be -0, which orders before 0.
+        let violation = self.constraints.iter().map(missed).fold(0.0, |sum, part| sum + part);
+        Candidate { point: point.to_vec(), values, violation }
+    }
+
+    fn prepare(&self, candidate: &Candidate) -> Result<Prepared, String> {
+        let scenario = self.scenario(candidate).map_err(|faults| {
+            let lines: Vec<String> = faults.iter().map(Fault::to_string).collect();
+            lines.join("; ")
+        })?;
+        Ok(Prepared { scenario, numbers: self.numbers(&candidate.values) })
+    }
+
+    fn run(&self, prepared: &Prepared, seed: u64, stop: &AtomicBool) -> Result<Vec<f64>, Trouble> {
+        let scenario = Scenario { seed, ..prepared.scenario.clone() };
+        let summary = match run::quiet(&scenario, &self.base.folder, stop) {
+            Ok(Ending::Finished(summary)) => summary,
+            Ok(Ending::Interrupted(_)) => return Err(Trouble::Stopped),
+            Err(error) => return Err(Trouble::Failed(error.to_string())),
+        };
+        let figures = columns::pick(&summary, &self.columns);
+        match self.without_value(&prepared.numbers, &figures) {
+            Some(formula) => Err(Trouble::Failed(format!("\"{formula}\" has no value for this run"))),
+            None => Ok(figures),
+        }
+    }
+
+    fn costs(&self, candidate: &Candidate, figures: &[f64]) -> Vec<f64> {
+        self.costs_of(&self.numbers(&candidate.values), figures)
+    }
+
+    /// Costs are means over the starts, with the standard error of the mean; limits hold for means.
+    ///
+    /// A candidate without starts that misses constraints between parameters has that violation and no cost.
+    fn fitness(&self, candidate: &Candidate, starts: &[Vec<f64>]) -> Fitness {
+        if starts.is_empty() {
+            let violation = candidate.violation;
+            return if violation > 0.0 {
+                Fitness { violation, ..Fitness::failed() }
+            } else {
+                Fitness::failed()
+            };
+        }
+        let numbers = self.numbers(&candidate.values);
+        let costs: Vec<Vec<f64>> = starts.iter().map(|figures| self.costs_of(&numbers, figures)).collect();
+        let of = |objective: usize| costs.iter().map(|costs| costs[objective]).collect::<Vec<_>>();
+        let moments: Vec<Moments> = (0..self.objectives.len()).map(|at| Moments::of(&of(at))).collect();
+        let limits = self.limits.iter().map(|limit| {
+            let values: Vec<f64> = starts.iter().map(|figures| limit.formula.at(&numbers, figures)).collect();
+            limit.missed(&values)
+        });
+        Fitness {
+            violation: limits.fold(candidate.violation, |sum, part| sum + part),
+            costs: moments.iter().map(|cost| cost.mean).collect(),
+            standard_errors: moments.iter().map(Moments::standard_error).collect(),
+        }
+    }
+}
+
+#[cfg(test)]
+#[path = "problem_tests.rs"]
+mod tests;
