@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
-/// Simulates how particulate agglomerates break up and disperse.
+/// Simulates how particulate agglomerates grow, break up and disperse, and searches for the best conditions.
 #[derive(Debug, Parser)]
 #[command(name = "agglo", version, about, arg_required_else_help = true)]
 pub(crate) struct Arguments {
@@ -15,16 +15,16 @@ pub(crate) struct Arguments {
 /// The verbs.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Verb {
-    /// Print a commented scenario to start from: acoustic, acoustic-sound, microscale, reacting or reacting-published
+    /// Print a commented scenario, search or study to start from: acoustic, reacting ...; all are listed for a wrong name
     New {
         /// Which one
         template: String,
     },
-    /// Check a scenario: all faults at once, or else the plan of the run
+    /// Check a scenario, search or study: all faults at once, or else what it would do
     Check {
-        /// The scenario file
+        /// The file
         scenario: PathBuf,
-        /// Replace a value of the scenario, such as time.end="1 s"; may be repeated
+        /// Replace a value of the file, such as time.end="1 s"; may be repeated
         #[arg(long = "set", value_name = "KEY=VALUE")]
         settings: Vec<String>,
     },
@@ -34,12 +34,20 @@ pub(crate) enum Verb {
         law: Option<String>,
     },
     /// Print the JSON schema of scenario files, for editors
-    Schema,
+    Schema {
+        /// That of searches and studies instead
+        #[arg(long)]
+        search: bool,
+    },
     /// Run a scenario into a folder
     Run(Orders),
-    /// Go on with a run from its newest sound checkpoint
+    /// Search for the conditions that do something best, into a folder
+    Search(Orders),
+    /// Study how an outcome depends on the conditions, into a folder
+    Study(Orders),
+    /// Go on with a run from its newest sound checkpoint, or with a search or study
     Resume {
-        /// The run's folder
+        /// The folder
         folder: PathBuf,
         /// Number of threads; all processors if left out
         #[arg(long, value_parser = clap::value_parser!(u32).range(1..=4096))]
@@ -47,21 +55,22 @@ pub(crate) enum Verb {
     },
 }
 
-/// What to run.
+/// What to run, search or study.
 #[derive(Args, Debug)]
 pub(crate) struct Orders {
-    /// The scenario file
+    /// The file
+    #[arg(value_name = "FILE")]
     pub scenario: PathBuf,
-    /// Folder of the run; out/ and the scenario's name if left out
+    /// Folder of the results; out/ and the file's name if left out
     #[arg(short, long = "output", value_name = "FOLDER")]
     pub output: Option<PathBuf>,
-    /// Replace a value of the scenario, such as time.end="1 s"; may be repeated
+    /// Replace a value of the file, such as time.end="1 s"; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub settings: Vec<String>,
     /// Number of threads; all processors if left out
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=4096))]
     pub threads: Option<u32>,
-    /// Seed of all random numbers instead of the scenario's
+    /// Seed of all random numbers instead of the file's
     #[arg(long)]
     pub seed: Option<u64>,
 }

@@ -7,14 +7,17 @@ mod explain;
 mod progress;
 mod read;
 mod run;
+mod search;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
 
 use agglo::scenario::{Plan, TEMPLATES, nearest_template, schema, template};
+use agglo::search::campaign_schema;
 use clap::Parser;
 
 use arguments::{Arguments, Verb};
+use read::Kind;
 
 /// Why the program ends early: the message for the user and the exit code.
 #[derive(Debug)]
@@ -40,8 +43,13 @@ fn main() -> ExitCode {
         Verb::New { template } => new(&template),
         Verb::Check { scenario, settings } => check(&scenario, &settings),
         Verb::Explain { law } => explain::explain(law.as_deref()),
-        Verb::Schema => print(&format!("{:#}", schema())),
+        Verb::Schema { search } => print(&format!("{:#}", if search { campaign_schema() } else { schema() })),
         Verb::Run(orders) => run::run(&orders),
+        Verb::Search(orders) => search::conduct(&orders, Kind::Search),
+        Verb::Study(orders) => search::conduct(&orders, Kind::Study),
+        Verb::Resume { folder, threads } if agglo::search::campaign::is_one(&folder) => {
+            search::resume(&folder, threads)
+        }
         Verb::Resume { folder, threads } => run::resume(&folder, threads),
     };
     match outcome {
@@ -76,6 +84,9 @@ fn new(name: &str) -> Result<(), Failure> {
 }
 
 fn check(file: &std::path::Path, settings: &[String]) -> Result<(), Failure> {
+    if read::kind(file) != Kind::Scenario {
+        return search::check(file, settings);
+    }
     let read = read::scenario(file, settings)?;
     print(&format!("{} is sound\n{}", file.display(), Plan::new(&read.scenario, &read.base)))
 }

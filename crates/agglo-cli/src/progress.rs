@@ -1,10 +1,12 @@
-//! What a run shows while it goes on: a bar on a terminal, a line every ten seconds elsewhere.
+//! What a run, search or study shows while it goes on: a bar on a terminal, a line every ten seconds elsewhere.
 
 use std::collections::BTreeSet;
 use std::io::{self, IsTerminal, Write};
 use std::time::{Duration, Instant};
 
 use agglo::run::Progress;
+use agglo::scenario::readable;
+use agglo::search::campaign::CampaignProgress;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 const BETWEEN_LINES: Duration = Duration::from_secs(10);
@@ -63,6 +65,20 @@ impl Display {
         } else if self.last_line.elapsed() >= BETWEEN_LINES {
             self.last_line = Instant::now();
             self.line(&format!("{:>3.0} %  {state}", 100.0 * part(progress)));
+        }
+    }
+
+    /// Shows how far a search or study is.
+    pub(crate) fn show_campaign(&mut self, progress: &CampaignProgress) {
+        let state = campaign_state(progress);
+        let part = progress.evaluations_at_most.map(|most| progress.evaluations as f64 / most.max(1) as f64);
+        if self.on_terminal {
+            self.bar.set_position((PARTS * part.unwrap_or(0.0).min(1.0)) as u64);
+            self.bar.set_message(state);
+        } else if self.last_line.elapsed() >= BETWEEN_LINES {
+            self.last_line = Instant::now();
+            let part = part.map(|part| format!("{:>3.0} %  ", 100.0 * part)).unwrap_or_default();
+            self.line(&format!("{part}{state}"));
         }
     }
 
@@ -149,6 +165,23 @@ fn state(progress: &Progress, pace: &Pace) -> String {
     format!("{time}, {rate} {steps_are}/s, {left} left{now}")
 }
 
+/// "search, best 0.3204 +- 0.004, 314 of 370 candidates in 21 batches, 1204 runs, 35.2/s, 1:02 left".
+fn campaign_state(progress: &CampaignProgress) -> String {
+    let CampaignProgress { evaluations, generations, starts, failures, .. } = progress;
+    let best = progress.best.map_or("none yet".to_owned(), |(cost, error)| {
+        let error = if error > 0.0 { format!(" +- {}", readable(error, "")) } else { String::new() };
+        format!("{}{error}", readable(cost, ""))
+    });
+    let most = progress.evaluations_at_most.map(|most| format!(" of {most}")).unwrap_or_default();
+    let failed = if *failures > 0 { format!(", {failures} failed") } else { String::new() };
+    let left = progress.left_s.map(|left| format!(", {} left", clock(left))).unwrap_or_default();
+    let (stage, rate) = (progress.stage.word(), readable(progress.starts_per_second, ""));
+    format!(
+        "{stage}, best {best}, {evaluations}{most} candidates in {generations} batches{failed}, {starts} runs, \
+         {rate}/s{left}"
+    )
+}
+
 /// Simulated time in the unit in which the end reads well: "35.120 of 120 us".
 fn time_of(time: f64, end: f64) -> String {
     const UNITS: [(f64, &str); 5] = [(1.0, "s"), (1e-3, "ms"), (1e-6, "us"), (1e-9, "ns"), (1e-12, "ps")];
@@ -168,6 +201,8 @@ fn clock(seconds: f64) -> String {
 
 #[cfg(test)]
 mod tests {
+    use agglo::search::campaign::Stage;
+
     use super::*;
 
     fn report(time: f64, step: u64) -> Progress {
@@ -182,6 +217,24 @@ mod tests {
         pace.note(&report(1.5, 300), 65.0);
         // Half a second of simulated time in 60 s: another half takes 60 s; 200 steps in 60 s are 3.3 a second.
         assert_eq!(state(&report(1.5, 300), &pace), "1.500 of 2 s, 3.3 steps/s, 1:00 left, pulse 2 of 4");
+    }
+
+    #[test]
+    fn a_campaign_shows_its_best_and_what_is_left() {
+        let progress = CampaignProgress {
+            best: Some((0.320_44, 0.004)),
+            stage: Stage::Search,
+            evaluations: 314,
+            evaluations_at_most: Some(370),
+            generations: 21,
+            starts: 1204,
+            starts_per_second: 35.21,
+            failures: 2,
+            left_s: Some(62.0),
+        };
+        let wanted = "search, best 0.3204 +- 0.004, 314 of 370 candidates in 21 batches, 2 failed, 1204 runs, \
+                      35.21/s, 1:02 left";
+        assert_eq!(campaign_state(&progress), wanted);
     }
 
     /// A slow beginning is forgotten: after 40 s at 0.02 of simulated time a second, exp(-5) of it is left.

@@ -14,8 +14,8 @@ use crate::{Failure, print, read};
 
 /// Runs a scenario into a folder.
 pub(crate) fn run(orders: &Orders) -> Result<(), Failure> {
-    let mut settings = orders.settings.clone();
-    settings.extend(orders.seed.map(|seed| format!("seed={seed}")));
+    read::refuse_other_kind(&orders.scenario, read::Kind::Scenario)?;
+    let settings = settings(orders);
     let read = read::scenario(&orders.scenario, &settings)?;
     let folder = orders.output.clone().unwrap_or_else(|| default_folder(&orders.scenario));
     refuse_occupied(&folder)?;
@@ -36,12 +36,19 @@ pub(crate) fn resume(folder: &Path, threads: Option<u32>) -> Result<(), Failure>
     go(folder, |observer| agglo::run::resume(folder, observer))
 }
 
-fn default_folder(scenario: &Path) -> PathBuf {
+/// The settings of the command line, the seed among them.
+pub(crate) fn settings(orders: &Orders) -> Vec<String> {
+    let seed = orders.seed.map(|seed| format!("seed={seed}"));
+    orders.settings.iter().cloned().chain(seed).collect()
+}
+
+/// Where the results go if no folder is named.
+pub(crate) fn default_folder(scenario: &Path) -> PathBuf {
     Path::new("out").join(scenario.file_stem().unwrap_or("run".as_ref()))
 }
 
 /// A folder that holds anything is left alone: it may be the only copy of another run.
-fn refuse_occupied(folder: &Path) -> Result<(), Failure> {
+pub(crate) fn refuse_occupied(folder: &Path) -> Result<(), Failure> {
     let shown = folder.display();
     if folder.exists() && !folder.is_dir() {
         return Err(Failure::bad_input(format!("error: {shown} is a file; choose a folder with -o")));
@@ -54,7 +61,8 @@ fn refuse_occupied(folder: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-fn use_threads(threads: Option<u32>) -> Result<(), Failure> {
+/// Makes the program's pool of threads.
+pub(crate) fn use_threads(threads: Option<u32>) -> Result<(), Failure> {
     let Some(threads) = threads else { return Ok(()) };
     rayon::ThreadPoolBuilder::new()
         .num_threads(threads as usize)
@@ -67,10 +75,7 @@ fn go(
     folder: &Path,
     work: impl FnOnce(&mut Observer<'_>) -> Result<Ending, RunError>,
 ) -> Result<(), Failure> {
-    let stop = Arc::new(AtomicBool::new(false));
-    let asked = Arc::clone(&stop);
-    ctrlc::set_handler(move || interrupt(&asked))
-        .map_err(|error| Failure::failed(format!("error: cannot listen for Ctrl-C: {error}")))?;
+    let stop = listen()?;
     let mut display = Display::new();
     let outcome = work(&mut |progress| {
         display.show(progress);
@@ -92,6 +97,15 @@ fn go(
     }
 }
 
+/// A flag that Ctrl-C sets.
+pub(crate) fn listen() -> Result<Arc<AtomicBool>, Failure> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let asked = Arc::clone(&stop);
+    ctrlc::set_handler(move || interrupt(&asked))
+        .map_err(|error| Failure::failed(format!("error: cannot listen for Ctrl-C: {error}")))?;
+    Ok(stop)
+}
+
 /// The first Ctrl-C asks the run to stop with a checkpoint, the second ends the program at once.
 fn interrupt(asked: &AtomicBool) {
     if asked.swap(true, Ordering::Relaxed) {
@@ -99,9 +113,12 @@ fn interrupt(asked: &AtomicBool) {
     }
 }
 
-/// The rows of a summary, in two columns.
 fn table(summary: &Summary) -> String {
-    let rows = summary.table();
+    columns(&summary.table())
+}
+
+/// Rows in two columns.
+pub(crate) fn columns(rows: &[(String, String)]) -> String {
     let width = rows.iter().map(|(label, _)| label.chars().count()).max().unwrap_or(0);
     let lines: Vec<String> =
         rows.iter().map(|(label, value)| format!("  {label:<width$}  {value}")).collect();

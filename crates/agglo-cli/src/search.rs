@@ -1,0 +1,153 @@
+//! The verbs `search` and `study`, and what `resume` and `check` do with their files.
+
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::sync::atomic::Ordering;
+
+use agglo::scenario::Plan;
+use agglo::search::campaign::{
+    self, CampaignEnding, CampaignError, CampaignObserver, CampaignSummary, evaluations_at_most,
+};
+use agglo::search::{Axis, Campaign, Ensemble, Problem, Scale, Until};
+
+use crate::arguments::Orders;
+use crate::progress::Display;
+use crate::read::{self, Kind};
+use crate::run::{columns, default_folder, listen, refuse_occupied, settings, use_threads};
+use crate::{Failure, print};
+
+/// Conducts a search or study into a folder.
+pub(crate) fn conduct(orders: &Orders, kind: Kind) -> Result<(), Failure> {
+    read::refuse_other_kind(&orders.scenario, kind)?;
+    let (campaign, base) = read::campaign(&orders.scenario, &settings(orders))?;
+    let folder = orders.output.clone().unwrap_or_else(|| default_folder(&orders.scenario));
+    refuse_occupied(&folder)?;
+    use_threads(orders.threads)?;
+    let threads = threads(orders.threads);
+    go(&folder, |observer| campaign::run(&campaign, &base, &folder, threads, observer))
+}
+
+/// Goes on with the search or study in a folder.
+pub(crate) fn resume(folder: &Path, threads_wanted: Option<u32>) -> Result<(), Failure> {
+    if let Some(summary) = campaign::finished(folder) {
+        let shown = folder.display();
+        return print(&format!("{}\nwhat is in {shown} has finished already", columns(&summary.table())));
+    }
+    use_threads(threads_wanted)?;
+    go(folder, |observer| campaign::resume(folder, threads(threads_wanted), observer))
+}
+
+fn threads(wanted: Option<u32>) -> usize {
+    let all = || std::thread::available_parallelism().map_or(1, usize::from);
+    wanted.map_or_else(all, |threads| threads as usize)
+}
+
+/// Conducts with a display, stops at Ctrl-C, and says how it ended.
+fn go(
+    folder: &Path,
+    work: impl FnOnce(&mut CampaignObserver<'_>) -> Result<CampaignEnding, CampaignError>,
+) -> Result<(), Failure> {
+    let stop = listen()?;
+    let mut display = Display::new();
+    let outcome = work(&mut |progress| {
+        display.show_campaign(progress);
+        if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    let closing = display.finish();
+    let shown = folder.display();
+    match outcome {
+        Ok(CampaignEnding::Finished(summary)) => print(&finished(&summary, folder)),
+        Ok(CampaignEnding::Interrupted) => Err(Failure::failed(format!(
+            "stopped ({closing}); all simulations that ended are kept, `agglo resume {shown}` goes on from there"
+        ))),
+        Err(error) => {
+            Err(Failure { message: format!("error: {error}\n({closing})"), code: error.exit_code() })
+        }
+    }
+}
+
+fn finished(summary: &CampaignSummary, folder: &Path) -> String {
+    let run = folder.join("best");
+    let best =
+        if run.is_dir() { format!("; the best one's run in {}", run.display()) } else { String::new() };
+    format!("{}\nin {}{best}", columns(&summary.table()), folder.display())
+}
+
+/// Checks a search or study and says what it would do.
+pub(crate) fn check(file: &Path, settings: &[String]) -> Result<(), Failure> {
+    let (campaign, base) = read::campaign(file, settings)?;
+    let problem =
+        Problem::new(&campaign, &base).map_err(|faults| Failure::bad_input(format!("error: {faults}")))?;
+    let mut parts = vec![format!("{} is sound", file.display()), columns(&rows(&campaign, &problem))];
+    parts.extend(problem.refused_ends().iter().map(|note| format!("note: {note}")));
+    if let Ok(scenario) = problem.scenario(&problem.centre()) {
+        let plan = Plan::new(&scenario, problem.folder());
+        parts.push(format!("\nOne run, with all parameters in the middle of their ranges:\n{plan}"));
+    }
+    print(&parts.join("\n"))
+}
+
+/// What a search or study varies, wants and does, in two columns.
+fn rows(campaign: &Campaign, problem: &Problem) -> Vec<(String, String)> {
+    let row = |what: &str, words: String| (what.to_owned(), words);
+    let mut rows = Vec::new();
+    for (axis, parameter) in problem.axes().iter().zip(&campaign.parameters) {
+        let key = parameter.key.as_ref().map(|key| format!("  {key}")).unwrap_or_default();
+        rows.push(row(&axis.name, format!("{}{key}", range(axis))));
+    }
+    for (formula, is_to_be_large) in problem.objectives() {
+        rows.push(row(if is_to_be_large { "to be large" } else { "to be small" }, formula.to_owned()));
+    }
+    let corridor = |formula: &str, at_least: Option<f64>, at_most: Option<f64>| {
+        let least = at_least.map(|least| format!(" at least {least}")).unwrap_or_default();
+        let most = at_most.map(|most| format!(" at most {most}")).unwrap_or_default();
+        format!("{formula}{least}{most}")
+    };
+    let constraints =
+        campaign.constraints.iter().map(|one| corridor(&one.formula, one.at_least, one.at_most));
+    rows.extend(constraints.map(|words| row("constraint", words)));
+    let limits = campaign.limits.iter().map(|one| corridor(&one.formula, one.at_least, one.at_most));
+    rows.extend(limits.map(|words| row("limit", words)));
+    let (what, word) = campaign::way_of(campaign);
+    rows.push(row(what, word));
+    rows.push(row("starts", starts(&campaign.ensemble)));
+    if let Some(most) = evaluations_at_most(campaign, problem) {
+        rows.push(row("candidates", format!("{most} at most")));
+    }
+    rows
+}
+
+fn range(axis: &Axis) -> String {
+    let ends = |bounds: &[f64; 2], how: &str| {
+        let [lower, upper] = bounds.map(|bound| axis.readable(bound));
+        format!("{lower} to {upper}{how}")
+    };
+    match &axis.scale {
+        Scale::Linear(bounds) => ends(bounds, ""),
+        Scale::Log(bounds) => ends(bounds, ", logarithmic"),
+        Scale::Whole(bounds) => ends(&bounds.map(|bound| bound as f64), ", whole numbers"),
+        Scale::Choices(choices) => {
+            let labels: Vec<&str> = choices.iter().map(|choice| choice.label.as_str()).collect();
+            labels.join(", ")
+        }
+    }
+}
+
+fn starts(ensemble: &Ensemble) -> String {
+    let count = match &ensemble.until {
+        Until::Fixed(fixed) => fixed.starts.to_string(),
+        Until::RunningMean(rule) => {
+            let (least, most, part) = (ensemble.least(), ensemble.most(), rule.tolerance);
+            format!("{least} to {most}, until one more moves the mean cost by less than {part} of itself")
+        }
+        Until::Confidence(rule) => {
+            let (least, most, width) = (ensemble.least(), ensemble.most(), rule.half_width);
+            format!(
+                "{least} to {most}, until the mean cost is known to +- {width} ({} %)",
+                100.0 * rule.level
+            )
+        }
+    };
+    let whose = if ensemble.common_random_numbers { "the same for all" } else { "each candidate its own" };
+    format!("{count}; {whose}")
+}

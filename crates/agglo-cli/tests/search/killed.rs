@@ -1,0 +1,63 @@
+//! A search that is killed or stopped, and goes on.
+
+use std::fs;
+
+use crate::bench::{Bench, SEARCH, assert_same, reference};
+use crate::common::{complained, ended, said, signal};
+
+fn runs() -> usize {
+    reference().summary()["runs"].as_u64().unwrap() as usize
+}
+
+#[test]
+fn one_thread_writes_the_same_files_as_two() {
+    let bench = Bench::with(SEARCH);
+    bench.ends("search", &["--threads", "1"], 0);
+    assert_same(&bench.out(), &reference().out());
+}
+
+/// SIGKILL at ten moments spread over the search, each time in the sitting that went on after the last; then the rest.
+#[test]
+fn a_search_killed_at_ten_moments_ends_with_the_same_files() {
+    const KILLS: usize = 10;
+    let (bench, runs) = (Bench::with(SEARCH), runs());
+    let mut killed = 0;
+    for kill in 0..KILLS {
+        let mut order = if kill == 0 { bench.order("search", &[]) } else { bench.resume() };
+        let mut child = order.spawn().unwrap();
+        bench.wait_for_starts(runs * kill / KILLS);
+        std::thread::sleep(std::time::Duration::from_millis((kill * 7 % 23) as u64));
+        child.kill().unwrap();
+        killed += usize::from(child.wait().unwrap().code().is_none());
+    }
+    // The last sittings may have reached the end before their kill where the machine is fast.
+    assert!(killed >= KILLS - 2, "only {killed} of {KILLS} kills hit a search");
+    ended(bench.resume().output().unwrap(), 0);
+    assert_same(&bench.out(), &reference().out());
+}
+
+#[test]
+fn ctrl_c_keeps_what_ended_and_says_how_to_go_on() {
+    let (bench, runs) = (Bench::with(SEARCH), runs());
+    let child = bench.order("search", &[]).spawn().unwrap();
+    assert!(bench.wait_for_starts(runs / 3));
+    signal(&child, "INT");
+    let stopped = ended(child.wait_with_output().unwrap(), 1);
+    let text = complained(&stopped);
+    let advice = format!("`agglo resume {}` goes on from there", bench.out().display());
+    assert!(text.contains("stopped (") && text.contains(&advice), "{text}");
+    assert!(!bench.out().join("summary.json").exists());
+    // Torn, as by a loss of power: the last line is cut in half, one in the middle is damaged.
+    let journal = bench.out().join("starts.journal");
+    let mut bytes = fs::read(&journal).unwrap();
+    bytes.truncate(bytes.len() - 9);
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    fs::write(&journal, bytes).unwrap();
+    let done = ended(bench.resume().output().unwrap(), 0);
+    assert!(said(&done).contains("best"), "{}", said(&done));
+    assert_same(&bench.out(), &reference().out());
+    assert!(!journal.exists());
+    let again = said(&ended(bench.resume().output().unwrap(), 0));
+    assert!(again.contains("has finished already") && again.contains("hardness"), "{again}");
+}

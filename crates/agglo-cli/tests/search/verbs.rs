@@ -1,0 +1,85 @@
+//! What the verbs say of searches and studies.
+
+use crate::bench::{Bench, SEARCH, reference};
+use crate::common::{agglo, complained, ended, said};
+
+#[test]
+fn check_says_what_a_search_would_do() {
+    let bench = Bench::with(SEARCH);
+    let text = said(&ended(agglo(&["check", &bench.file("campaign.toml")]), 0));
+    let wanted = [
+        "is sound",
+        "20 m/s to 200 m/s, logarithmic  grains.0.velocity_spread.uniform.bounds.0",
+        "100 kPa to 1 MPa",
+        "published_genetic",
+        "2 to 8, until one more moves the mean cost by less than 0.002 of itself; the same for all",
+        // 20 strings, three times 14, three with fresh starts.
+        "65 at most",
+        "impacts",
+    ];
+    for words in wanted {
+        assert!(text.contains(words), "no \"{words}\" in:\n{text}");
+    }
+}
+
+#[test]
+fn each_file_has_its_verb() {
+    let bench = Bench::with(SEARCH);
+    let refused = |verb: &str, file: &str| complained(&ended(agglo(&[verb, &bench.file(file)]), 2));
+    let text = refused("run", "campaign.toml");
+    assert!(text.contains("is a search") && text.contains("`agglo search "), "{text}");
+    let text = refused("study", "campaign.toml");
+    assert!(text.contains("is a search") && text.contains("`agglo search "), "{text}");
+    let text = refused("search", "scenario.toml");
+    assert!(text.contains("is a scenario") && text.contains("`agglo run "), "{text}");
+}
+
+#[test]
+fn the_closing_table_and_the_folder_tell_the_best() {
+    let bench = reference();
+    let summary = bench.summary();
+    let best = &summary["best"];
+    assert_eq!((&best["starts"], &best["is_confirmed"]), (&4.into(), &true.into()));
+    let cost = best["cost"].as_f64().unwrap();
+    // Soft and fast grains stick: anything is better than what a cloud that does not stick has, 1 - 400^(-1/3) = 0.864.
+    assert!(cost < 0.8, "{cost}");
+    let ranked = bench.rows("best.csv");
+    assert_eq!(ranked.len(), 3);
+    assert!(
+        bench.out().join("best/summary.json").is_file() && bench.out().join("pictures/cost.svg").is_file()
+    );
+    // The run in best/ is the first of its fresh starts.
+    let evaluation = best["evaluation"].to_string();
+    let first =
+        bench.rows("runs.csv").into_iter().find(|row| row.starts_with(&format!("{evaluation},0,"))).unwrap();
+    let run: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(bench.out().join("best/summary.json")).unwrap()).unwrap();
+    assert_eq!(first.split(',').nth(3).unwrap().parse::<f64>().unwrap(), run["pi"].as_f64().unwrap());
+    assert_eq!(first.split(',').nth(2).unwrap(), run["seed"].to_string());
+    // And so is a run of the scenario with the settings that the summary names.
+    let mut arguments = vec!["run".to_owned(), bench.out().join("scenario.toml").display().to_string()];
+    let other = tempfile::tempdir().unwrap();
+    arguments.extend(["-o".to_owned(), other.path().join("run").display().to_string()]);
+    arguments.extend(["--seed".to_owned(), best["start_seed"].to_string()]);
+    for setting in best["settings"].as_array().unwrap() {
+        arguments.extend(["--set".to_owned(), setting.as_str().unwrap().to_owned()]);
+    }
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    ended(agglo(&arguments), 0);
+    let again: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(other.path().join("run/summary.json")).unwrap()).unwrap();
+    assert_eq!(again["pi"], run["pi"]);
+}
+
+#[test]
+fn a_study_runs_its_plan() {
+    let method = SEARCH.find("[method").unwrap();
+    let study = SEARCH[..method].to_owned() + "[plan.grid]\nlevels = 3\n";
+    let bench = Bench::with(&study);
+    let text = said(&bench.ends("study", &["--set", "ensemble.until={ fixed = { starts = 2 } }"], 0));
+    assert!(text.contains("9 in 1 batch"), "{text}");
+    assert_eq!((bench.rows("evaluations.csv").len(), bench.rows("runs.csv").len()), (9, 18));
+    assert!(bench.out().join("measures.csv").is_file() && !bench.out().join("best").exists());
+    let text = complained(&ended(agglo(&["search", &bench.file("campaign.toml")]), 2));
+    assert!(text.contains("is a study") && text.contains("`agglo study "), "{text}");
+}
