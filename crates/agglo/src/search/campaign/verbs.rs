@@ -146,16 +146,7 @@ pub fn evaluations_at_most(campaign: &Campaign, problem: &Problem) -> Option<u64
     if let Some(plan) = &campaign.plan {
         return Some(plan.evaluations(&levels(problem)));
     }
-    let searched = match campaign.method.as_ref()? {
-        Method::CmaEs(method) => method.evaluations,
-        Method::Genetic(method) => method.population * (1 + method.generations),
-        Method::PublishedGenetic(method) => {
-            method.population + method.generations * (method.population - method.parents)
-        }
-        Method::NelderMead(method) => method.evaluations,
-        Method::Random(method) => method.points,
-        Method::Sobol(method) => method.points,
-    };
+    let searched = campaign.method.as_ref()?.evaluations();
     let polished = campaign.polish.as_ref().map_or(0, |polish| polish.evaluations);
     let Confirm { candidates, starts } = campaign.confirm;
     Some((searched + polished) as u64 + if starts > 0 { u64::from(candidates) } else { 0 })

@@ -80,6 +80,20 @@ impl Method {
         }
     }
 
+    /// Points that it asks for at the most.
+    pub fn evaluations(&self) -> usize {
+        match self {
+            Self::CmaEs(method) => method.evaluations,
+            Self::Genetic(method) => method.population * (1 + method.generations),
+            Self::PublishedGenetic(method) => {
+                method.population + method.generations * (method.population - method.parents)
+            }
+            Self::NelderMead(method) => method.evaluations,
+            Self::Random(method) => method.points,
+            Self::Sobol(method) => method.points,
+        }
+    }
+
     /// What is wrong with its parameters: key and message.
     pub fn faults(&self, dimensions: usize, objectives: usize) -> Vec<Fault> {
         let mut faults = match self {
