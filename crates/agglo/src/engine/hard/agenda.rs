@@ -14,6 +14,8 @@ pub struct Agenda {
     pub collision: f64,
     /// Time at which it leaves its cell or meets a wall [s].
     pub crossing: f64,
+    /// Its stable name, which decides between events of one moment.
+    pub id: u32,
     /// Its cell; beyond the grid where the volume is open.
     pub cell: [i32; 3],
     /// Whom it meets; [`NONE`] if it must look again.
@@ -51,6 +53,7 @@ impl Agenda {
     pub const EMPTY: Self = Self {
         collision: f64::INFINITY,
         crossing: f64::INFINITY,
+        id: NONE,
         cell: [0; 3],
         partner: NONE,
         flat: NONE,

@@ -11,8 +11,8 @@ use super::spheres::Spheres;
 /// From this many spheres on, they are fetched from memory ahead of their events: fewer stay near the processor anyway.
 const MANY: usize = 40_000;
 
-/// Fetches from memory what the next event of a sphere will need: first its own, then the cells that it will look into,
-/// then the spheres there.
+/// Fetches from memory what the next event of a sphere will need: first its own, then what says which of the cells about it
+/// hold any, then those cells, then the spheres there.
 #[inline]
 pub fn fetch(soon: Soon, agendas: &[Agenda], grid: &Grid, spheres: &Spheres, sphere: u32) {
     if agendas.len() < MANY {
@@ -20,18 +20,24 @@ pub fn fetch(soon: Soon, agendas: &[Agenda], grid: &Grid, spheres: &Spheres, sph
     }
     let at = sphere as usize;
     match soon {
-        Soon::Later => {
+        Soon::Someday => {
             prefetch(agendas, at);
             prefetch(&spheres.motion, at);
             grid.fetch_link(sphere);
         }
-        Soon::Next => {
-            if agendas[at].collision < agendas[at].crossing {
+        Soon::Later => {
+            let agenda = &agendas[at];
+            if agenda.collision < agenda.crossing {
+                let partner = agenda.partner as usize;
+                prefetch(agendas, partner);
+                prefetch(&spheres.motion, partner);
+                prefetch(&spheres.bulk, partner);
                 prefetch(&spheres.bulk, at);
             }
-            grid.fetch_cells(&agendas[at]);
+            grid.fetch_words(&agendas[at]);
         }
-        Soon::Now => grid.fetch_spheres(&agendas[at], &spheres.motion),
+        Soon::Next => grid.fetch_cells(&agendas[at]),
+        Soon::Now => grid.fetch_spheres(&agendas[at], &spheres.motion, agendas),
     }
 }
 

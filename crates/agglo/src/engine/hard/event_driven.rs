@@ -156,7 +156,7 @@ impl Events {
         for (level, velocities) in (0..).zip(state.velocities) {
             events.grid.note_velocities(level, velocities);
         }
-        events.queue_all(cloud, filed.moment);
+        events.queue_all(filed.moment);
         events
     }
 
@@ -178,8 +178,7 @@ impl Events {
     pub fn advance(&mut self, cloud: &mut Cloud, clock: &mut Clock, until: f64) -> Result<(), SimError> {
         for _ in 0..BATCH {
             let spheres = &cloud.state.spheres;
-            let id = |at: u32| spheres.bulk[at as usize].id;
-            let Some((time, sphere)) = self.queue.next(&mut self.agendas, until, id, |soon, agendas, at| {
+            let Some((time, sphere)) = self.queue.next(&mut self.agendas, until, |soon, agendas, at| {
                 fetch(soon, agendas, &self.grid, spheres, at);
             }) else {
                 clock.time = until;
@@ -219,7 +218,7 @@ impl Events {
             }
             self.sort(cloud);
             self.link_all(cloud);
-            self.queue_all(cloud, time);
+            self.queue_all(time);
         }
         Ok(())
     }
@@ -270,7 +269,7 @@ impl Events {
             .look_ahead(&mut self.scratch);
         self.agendas[sphere as usize].exit = next;
         let other = if found == known { None } else { self.arrange(sphere, found) };
-        self.refile(cloud, sphere, other);
+        self.refile(sphere, other);
         Ok(())
     }
 
@@ -338,6 +337,7 @@ impl Events {
             return Err(SimError::Outgrown { time, grain, diameter: 2.0 * motion.radius, edge });
         }
         let agenda = &mut self.agendas[sphere as usize];
+        agenda.id = cloud.state.spheres.bulk[sphere as usize].id;
         self.grid.seat(agenda, motion, time);
         self.grid.link(agenda, sphere);
         Ok(())
@@ -358,7 +358,7 @@ impl Events {
         let found = Seeker::new(&spheres.motion, &self.agendas, &self.grid, sphere, time, Meeting::NEVER)
             .look_around(&mut self.scratch);
         let other = self.arrange(sphere, found);
-        self.refile(cloud, sphere, other);
+        self.refile(sphere, other);
         Ok(())
     }
 
@@ -391,9 +391,9 @@ impl Events {
     }
 
     /// Files a sphere, and another one if there is one, under their new times.
-    fn refile(&mut self, cloud: &Cloud, sphere: u32, other: Option<u32>) {
+    fn refile(&mut self, sphere: u32, other: Option<u32>) {
         for at in other.into_iter().chain([sphere]) {
-            self.queue.file(&mut self.agendas, at, |at| cloud.state.spheres.bulk[at as usize].id);
+            self.queue.file(&mut self.agendas, at);
         }
     }
 
@@ -413,6 +413,7 @@ impl Events {
         for ((agenda, motion), bulk) in self.agendas.iter_mut().zip(&mut spheres.motion).zip(&spheres.bulk) {
             if bulk.lives() {
                 motion.position += self.grid.way_back(motion.at(time), time);
+                agenda.id = bulk.id;
                 self.grid.seat(agenda, motion, time);
             }
         }
@@ -431,7 +432,7 @@ impl Events {
                 self.arrange(sphere, found);
             }
         }
-        self.queue_all(cloud, time);
+        self.queue_all(time);
     }
 
     /// Files all spheres under the cells that their agendas name.
@@ -448,9 +449,8 @@ impl Events {
     }
 
     /// Files all spheres under the times that their agendas name.
-    fn queue_all(&mut self, cloud: &Cloud, time: f64) {
-        let bulk = &cloud.state.spheres.bulk;
-        self.queue.rebuild(time, &mut self.agendas, |at| bulk[at as usize].id);
+    fn queue_all(&mut self, time: f64) {
+        self.queue.rebuild(time, &mut self.agendas);
     }
 
     /// Puts spheres that are near one another in space near one another in memory, and drops empty places. The order

@@ -15,6 +15,7 @@ use crate::math::{Vec3, prefetch};
 use super::agenda::{Agenda, Exit, NONE};
 use super::frame::Frame;
 use super::level::{Level, SLACK};
+use super::spans::Spans;
 use super::spheres::Sphere;
 
 /// Cells of the second coarsest level along the shortest edge, at least, if there are as many at all.
@@ -106,6 +107,11 @@ impl Grid {
         &self.levels
     }
 
+    /// The levels from a number on that hold any sphere, and their numbers.
+    pub fn populated(&self, from: usize) -> impl Iterator<Item = (usize, &Level)> {
+        self.levels.iter().enumerate().skip(from).filter(|(_, level)| level.population > 0)
+    }
+
     /// Empties all cells.
     pub fn clear(&mut self) {
         self.levels.iter_mut().for_each(Level::clear);
@@ -170,14 +176,18 @@ impl Grid {
     /// Files a sphere under the cell that its agenda names.
     #[inline]
     pub fn link(&mut self, agenda: &mut Agenda, sphere: u32) {
-        let level = &mut self.levels[agenda.level as usize];
-        let cell = match self.boundary {
+        agenda.flat = self.flat(agenda);
+        self.after[sphere as usize] = self.levels[agenda.level as usize].put_first(agenda.flat, sphere);
+    }
+
+    /// Number of the cell that an agenda names.
+    #[inline]
+    fn flat(&self, agenda: &Agenda) -> u32 {
+        let level = &self.levels[agenda.level as usize];
+        level.flat(match self.boundary {
             Boundary::Open => [0, 1, 2].map(|axis| agenda.cell[axis].rem_euclid(level.counts[axis]) as u32),
             _ => agenda.cell.map(|along| along as u32),
-        };
-        let flat = level.flat(cell);
-        agenda.flat = flat;
-        self.after[sphere as usize] = level.put_first(flat, sphere);
+        })
     }
 
     /// Takes a sphere out of its cell.
@@ -300,7 +310,13 @@ impl Grid {
         if !level.is_occupied(flat) {
             return;
         }
-        let mut sphere = level.heads[flat as usize];
+        self.visit_first(level.heads[flat as usize], image, visit);
+    }
+
+    /// Visits the spheres of a list, from its first on.
+    #[inline(always)]
+    fn visit_first(&self, first: u32, image: [i8; 3], visit: &mut impl FnMut(u32, [i8; 3])) {
+        let mut sphere = first;
         while sphere != NONE {
             visit(sphere, image);
             sphere = self.after[sphere as usize];
@@ -339,18 +355,35 @@ impl Grid {
         });
     }
 
+    /// Fetches from memory which cells are occupied where a sphere will look at its next event.
+    #[inline]
+    pub fn fetch_words(&self, agenda: &Agenda) {
+        if let Some(level) = self.levels.get(agenda.level as usize) {
+            level.fetch_words(agenda.flat);
+        }
+    }
+
     /// Fetches from memory the cells that a sphere will look into at its next event.
     #[inline]
     pub fn fetch_cells(&self, agenda: &Agenda) {
         self.each_cell_in_view(agenda, |level, flat| prefetch(&level.heads, flat as usize));
+        if agenda.crossing < agenda.collision && !agenda.exit.is_wall {
+            // It will be taken out of one cell and filed in another.
+            let level = &self.levels[agenda.level as usize];
+            let mut next = *agenda;
+            self.step_over(&mut next);
+            prefetch(&level.heads, agenda.flat as usize);
+            prefetch(&level.heads, self.flat(&next) as usize);
+        }
     }
 
     /// Fetches from memory the first sphere of each of these cells.
     #[inline]
-    pub fn fetch_spheres(&self, agenda: &Agenda, motion: &[Sphere]) {
+    pub fn fetch_spheres(&self, agenda: &Agenda, motion: &[Sphere], agendas: &[Agenda]) {
         self.each_cell_in_view(agenda, |level, flat| {
             let first = level.heads[flat as usize] as usize;
             prefetch(motion, first);
+            prefetch(agendas, first);
             prefetch(&self.after, first);
         });
     }
@@ -438,49 +471,18 @@ impl Grid {
     pub fn visit_within(&self, number: usize, block: [Vec3; 2], mut visit: impl FnMut(u32, [i8; 3])) {
         let level = &self.levels[number];
         let range = |axis: usize| self.range(level, axis, block);
-        let [(x0, x1), (y0, y1), (z0, z1)] = [range(0), range(1), range(2)];
-        let (z, y, x) =
-            (self.walk(level, 2, z0, z1), self.walk(level, 1, y0, y1), self.walk(level, 0, x0, x1));
-        for (z, image_z) in z {
-            for (y, image_y) in y.clone() {
-                for (x, image_x) in x.clone() {
-                    self.visit_cell(level, x + y + z, [image_x, image_y, image_z], &mut visit);
-                }
-            }
-        }
-    }
-
-    /// Cells from one to another along an axis, folded into the volume: what they add to a cell's number, and the edges
-    /// to add.
-    #[inline(always)]
-    fn walk(
-        &self,
-        level: &Level,
-        axis: usize,
-        from: i32,
-        to: i32,
-    ) -> impl Iterator<Item = (u32, i8)> + Clone {
-        let count = level.counts[axis];
-        let (mut round, mut within) = (from.div_euclid(count), from.rem_euclid(count));
-        let is_periodic = self.boundary == Boundary::Periodic;
-        (from..=to).map(move |_| {
-            let cell = (level.part(axis, within as u32), if is_periodic { round as i8 } else { 0 });
-            within += 1;
-            if within == count {
-                (round, within) = (round + 1, 0);
-            }
-            cell
-        })
+        let has_images = self.boundary == Boundary::Periodic;
+        let spans =
+            |axis: usize| Spans::new(axis, level.strides[axis], level.counts[axis], range(axis), has_images);
+        level.each_occupied([spans(0), spans(1), spans(2)], |cell, image| {
+            self.visit_first(level.heads[cell], image, &mut visit);
+        });
     }
 
     /// Visits all spheres of a level.
     pub fn visit_level(&self, number: usize, mut visit: impl FnMut(u32)) {
         self.levels[number].each_first(|first| {
-            let mut sphere = first;
-            while sphere != NONE {
-                visit(sphere);
-                sphere = self.after[sphere as usize];
-            }
+            self.visit_first(first, [0; 3], &mut |sphere, _| visit(sphere));
         });
     }
 

@@ -2,9 +2,10 @@
 
 #![allow(clippy::inline_always, reason = "part of the innermost loop of the engine")]
 
-use crate::math::Vec3;
+use crate::math::{Vec3, prefetch};
 
 use super::agenda::NONE;
+use super::spans::Span;
 
 /// Cells of a block, which share a word of bits.
 const BLOCK: usize = 64;
@@ -30,8 +31,8 @@ pub struct Level {
     pub heads: Vec<u32>,
     /// Which cells hold any, a bit for each: small enough to stay near the processor.
     occupied: Vec<u64>,
-    /// What one block further along an axis adds to a cell's number.
-    strides: [u32; 3],
+    /// What one block further along an axis adds to the number of a block.
+    pub strides: [u32; 3],
     /// Spheres in it.
     pub population: u32,
     /// Along each axis the velocities of its spheres lie between these two [m/s].
@@ -54,7 +55,7 @@ impl Level {
             width: width(0).min(width(1)).min(width(2)),
             heads: vec![NONE; blocks * BLOCK],
             occupied: vec![0; blocks],
-            strides: [BLOCK as u32, BLOCK as u32 * bx, BLOCK as u32 * bx * by],
+            strides: [1, bx, bx * by],
             population: 0,
             velocities: NO_VELOCITIES,
         }
@@ -71,13 +72,6 @@ impl Level {
         let (count, by) = (finer.counts[axis], self.doublings - finer.doublings);
         let (round, within) = (along.div_euclid(count), along.rem_euclid(count));
         round * self.counts[axis] + (within >> by).min(self.counts[axis] - 1)
-    }
-
-    /// What a coordinate adds to the number of a cell. Cells are numbered in blocks of 4 x 4 x 4, so that neighbours
-    /// are near one another in memory.
-    #[inline(always)]
-    pub fn part(&self, axis: usize, along: u32) -> u32 {
-        (along >> 2) * self.strides[axis] + ((along & 3) << (2 * axis))
     }
 
     /// Empties all cells.
@@ -106,6 +100,23 @@ impl Level {
         }
     }
 
+    /// Fetches from memory which cells near one are occupied: those of its block and of the blocks beyond the faces,
+    /// edges and corners that it is near.
+    #[inline]
+    pub fn fetch_words(&self, flat: u32) {
+        let block = flat as usize / BLOCK;
+        // The nearer neighbour along y and z; along x it shares the line.
+        let beside = |axis: usize| {
+            let stride = self.strides[axis] as usize;
+            if (flat >> (2 * axis)) & 2 == 0 { block.wrapping_sub(stride) } else { block + stride }
+        };
+        let (y, z) = (beside(1), beside(2));
+        let both = y.wrapping_add(z).wrapping_sub(block);
+        for word in [block, y, z, both] {
+            prefetch(&self.occupied, word);
+        }
+    }
+
     /// Words of bits that say which cells hold any.
     pub fn words(&self) -> usize {
         self.occupied.len()
@@ -123,10 +134,39 @@ impl Level {
         }
     }
 
+    /// Visits the cells that hold any, in the blocks that spans along the three axes cross in: their numbers, and the edges
+    /// of the volume to add to positions there.
+    #[inline(always)]
+    pub fn each_occupied<S>(&self, [x, y, z]: [S; 3], mut visit: impl FnMut(usize, [i8; 3]))
+    where
+        S: Iterator<Item = Span> + Clone,
+    {
+        for z in z {
+            for y in y.clone() {
+                let (row, bits) = (y.block + z.block, y.bits & z.bits);
+                for x in x.clone() {
+                    let block = (row + x.block) as usize;
+                    let mut left = self.occupied[block] & bits & x.bits;
+                    while left != 0 {
+                        visit(block * BLOCK + left.trailing_zeros() as usize, [x.image, y.image, z.image]);
+                        left &= left - 1;
+                    }
+                }
+            }
+        }
+    }
+
     /// Whether a cell holds any sphere.
     #[inline(always)]
     pub fn is_occupied(&self, flat: u32) -> bool {
         self.occupied[flat as usize / BLOCK] >> (flat as usize % BLOCK) & 1 == 1
+    }
+
+    /// What a coordinate adds to the number of a cell. Cells are numbered in blocks of 4 x 4 x 4, so that neighbours
+    /// are near one another in memory.
+    #[inline(always)]
+    pub fn part(&self, axis: usize, along: u32) -> u32 {
+        (along >> 2) * self.strides[axis] * BLOCK as u32 + ((along & 3) << (2 * axis))
     }
 
     /// Number of a cell.

@@ -21,6 +21,7 @@ mod pieces;
 mod queue;
 mod search;
 mod simulation;
+mod spans;
 mod spheres;
 mod time_stepped;
 mod types;

@@ -11,12 +11,16 @@
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BinaryHeap};
 
+use crate::math::prefetch;
+
 use super::agenda::{Agenda, NONE};
 
 /// Events that a bin should hold when its time comes.
 const PER_BIN: f64 = 6.0;
 /// Events that fit into a bin; more spill over.
 const ROOM: usize = 15;
+/// How many bins before its turn a bin is fetched from memory.
+const BINS_AHEAD: usize = 8;
 /// Code of the heap in [`Agenda::bin`].
 const HEAP: u32 = NONE - 1;
 /// Code of the list of what is due after the epoch.
@@ -60,6 +64,8 @@ struct Bin {
 /// How soon a sphere will be needed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Soon {
+    /// After three more bins.
+    Someday,
     /// After two more bins.
     Later,
     /// After one more bin.
@@ -75,6 +81,8 @@ pub struct Queue {
     /// Spheres that found no room in their bin.
     spilled: BTreeMap<u32, Vec<u32>>,
     far: Vec<u32>,
+    /// Spheres and their bins, which come from memory meanwhile; they are put there before any bin is opened.
+    pending: Vec<(u32, u32)>,
     start: f64,
     per_second: f64,
     current: usize,
@@ -83,8 +91,8 @@ pub struct Queue {
 }
 
 impl Queue {
-    /// Files all spheres anew; `ids` gives their names.
-    pub fn rebuild(&mut self, now: f64, agendas: &mut [Agenda], ids: impl Fn(u32) -> u32) {
+    /// Files all spheres anew.
+    pub fn rebuild(&mut self, now: f64, agendas: &mut [Agenda]) {
         let finite = || agendas.iter().map(Agenda::due).filter(|time| time.is_finite());
         let count = finite().count().max(1) as f64;
         let mean = finite().map(|time| time - now).sum::<f64>() / count;
@@ -94,19 +102,21 @@ impl Queue {
         self.spilled.clear();
         self.heap.clear();
         self.far.clear();
+        self.pending.clear();
         self.start = now;
         self.per_second = if mean > 0.0 { count / (PER_BIN * mean) } else { f64::MAX };
         self.current = 0;
         self.taken = 0;
         for sphere in 0..agendas.len() as u32 {
             agendas[sphere as usize].bin = NONE;
-            self.file(agendas, sphere, &ids);
+            self.file(agendas, sphere);
+            self.put_pending();
         }
     }
 
     /// Files a sphere under the time that its agenda says, wherever it was filed before.
     #[inline]
-    pub fn file(&mut self, agendas: &mut [Agenda], sphere: u32, ids: impl Fn(u32) -> u32) {
+    pub fn file(&mut self, agendas: &mut [Agenda], sphere: u32) {
         let agenda = &mut agendas[sphere as usize];
         let time = agenda.due();
         if time == f64::INFINITY {
@@ -116,12 +126,13 @@ impl Queue {
         let bin = self.bin_of(time);
         if bin <= self.current {
             agenda.bin = HEAP;
-            self.heap.push(Entry { time, id: ids(sphere), sphere });
+            self.heap.push(Entry { time, id: agenda.id, sphere });
         } else if bin < self.bins.len() {
             // Where it is in this bin already, it need not be put there again.
             if agenda.bin != bin as u32 {
                 agenda.bin = bin as u32;
-                self.put(bin, sphere);
+                prefetch(&self.bins, bin);
+                self.pending.push((bin as u32, sphere));
             }
         } else if agenda.bin != FAR {
             agenda.bin = FAR;
@@ -136,7 +147,6 @@ impl Queue {
         &mut self,
         agendas: &mut [Agenda],
         until: f64,
-        ids: impl Fn(u32) -> u32,
         announce: impl Fn(Soon, &[Agenda], u32),
     ) -> Option<(f64, u32)> {
         loop {
@@ -154,7 +164,7 @@ impl Queue {
                 self.taken += 1;
                 return Some((first.time, first.sphere));
             }
-            if !self.open_next_bin(agendas, &ids, &announce) {
+            if !self.open_next_bin(agendas, &announce) {
                 return None;
             }
         }
@@ -178,20 +188,24 @@ impl Queue {
         }
     }
 
+    /// Puts the spheres that are pending into their bins.
+    fn put_pending(&mut self) {
+        let mut pending = std::mem::take(&mut self.pending);
+        pending.drain(..).for_each(|(bin, sphere)| self.put(bin as usize, sphere));
+        self.pending = pending;
+    }
+
     /// Moves the spheres of the next bin that has any into the heap; false where none is left.
-    fn open_next_bin(
-        &mut self,
-        agendas: &mut [Agenda],
-        ids: &impl Fn(u32) -> u32,
-        announce: &impl Fn(Soon, &[Agenda], u32),
-    ) -> bool {
+    fn open_next_bin(&mut self, agendas: &mut [Agenda], announce: &impl Fn(Soon, &[Agenda], u32)) -> bool {
+        self.put_pending();
         loop {
             self.current += 1;
+            prefetch(&self.bins, self.current + BINS_AHEAD);
             if self.current >= self.bins.len() && !self.begin_epoch(agendas) {
                 self.current = self.bins.len();
                 return false;
             }
-            for (soon, ahead) in [(Soon::Later, 2), (Soon::Next, 1), (Soon::Now, 0)] {
+            for (soon, ahead) in [(Soon::Someday, 3), (Soon::Later, 2), (Soon::Next, 1), (Soon::Now, 0)] {
                 if let Some(bin) = self.bins.get(self.current + ahead) {
                     bin.spheres[..bin.count as usize]
                         .iter()
@@ -200,11 +214,11 @@ impl Queue {
             }
             let bin = std::mem::take(&mut self.bins[self.current]);
             for &sphere in &bin.spheres[..bin.count as usize] {
-                self.open(agendas, sphere, ids);
+                self.open(agendas, sphere);
             }
             if bin.count as usize == ROOM {
                 for sphere in self.spilled.remove(&(self.current as u32)).unwrap_or_default() {
-                    self.open(agendas, sphere, ids);
+                    self.open(agendas, sphere);
                 }
             }
             if !self.heap.is_empty() {
@@ -215,11 +229,11 @@ impl Queue {
 
     /// Puts a sphere of the bin that is being opened into the heap, if it still belongs to it.
     #[inline]
-    fn open(&mut self, agendas: &mut [Agenda], sphere: u32, ids: &impl Fn(u32) -> u32) {
+    fn open(&mut self, agendas: &mut [Agenda], sphere: u32) {
         let agenda = &mut agendas[sphere as usize];
         if agenda.bin == self.current as u32 {
             agenda.bin = HEAP;
-            self.heap.push(Entry { time: agenda.due(), id: ids(sphere), sphere });
+            self.heap.push(Entry { time: agenda.due(), id: agenda.id, sphere });
         }
     }
 

@@ -65,6 +65,8 @@ pub fn time_to_meet(distance: Vec3, velocity: Vec3, reach: f64, limit: f64) -> f
 
 /// A sphere does not look into more cells than this for smaller ones, if it need not.
 const MOST_WORK: u64 = 400;
+/// Its own radii that whoever is fastest comes nearer in the first look: the most, and what is looked at in any case.
+const FIRST_LOOK: [f64; 2] = [4.0, 0.5];
 /// Edges of the volume that such a look may span at the most.
 const FARTHEST: f64 = 2.0;
 
@@ -167,7 +169,7 @@ impl<'a> Seeker<'a> {
     #[inline]
     fn look_at_smaller(&mut self, scratch: &mut Vec<Candidate>) {
         let finer = self.agendas[self.sphere as usize].level as usize + 1;
-        if self.grid.levels().iter().skip(finer).any(|level| level.population > 0) {
+        if self.grid.populated(finer).next().is_some() {
             self.look_at_finer_levels(finer, scratch);
         }
     }
@@ -176,16 +178,18 @@ impl<'a> Seeker<'a> {
         let grid = self.grid;
         let (own, crossing) =
             (&self.motion[self.sphere as usize], self.agendas[self.sphere as usize].crossing);
-        let levels =
-            || grid.levels().iter().enumerate().skip(finer).filter(|(_, level)| level.population > 0);
+        let levels = || grid.populated(finer);
         let speed_of = |(_, level): (usize, &Level)| View::new(own, self.now, level).speed();
         let speed = levels().map(speed_of).fold(0.0, f64::max);
         if speed == 0.0 {
             return;
         }
         let farthest = FARTHEST * grid.shortest_edge() / speed;
-        // The time in which the block that has to be looked at grows by half: cheapest for each second looked ahead.
-        let mut horizon = (0.5 * own.radius / speed).min(farthest);
+        let [most, least] = FIRST_LOOK.map(|radii| (radii * own.radius / speed).min(farthest));
+        let mut horizon = most;
+        while horizon > least && self.work(finer, horizon) > MOST_WORK {
+            horizon = (0.5 * horizon).max(least);
+        }
         loop {
             let ahead = horizon.min((self.best.time.min(crossing) - self.now).max(0.0));
             for (number, level) in levels() {
@@ -197,17 +201,22 @@ impl<'a> Seeker<'a> {
                 return;
             }
             let next = 2.0 * horizon;
-            let work = |(number, level): (usize, &Level)| {
-                let block = View::new(own, self.now, level).block(next);
-                grid.cells_within(number, self.in_cells(block)).min(work_of_all(level))
-            };
-            let work: u64 = levels().map(work).sum();
-            if work > MOST_WORK || next > farthest {
+            if self.work(finer, next) > MOST_WORK || next > farthest {
                 self.best = Meeting { time: self.now + horizon, ..Meeting::NEVER };
                 return;
             }
             horizon = next;
         }
+    }
+
+    /// What looking ahead for a time [s] costs in all levels from the number `finer` on, in cells.
+    fn work(&self, finer: usize, ahead: f64) -> u64 {
+        let own = &self.motion[self.sphere as usize];
+        let of = |(number, level): (usize, &Level)| {
+            let block = View::new(own, self.now, level).block(ahead);
+            self.grid.cells_within(number, self.in_cells(block)).min(work_of_all(level))
+        };
+        self.grid.populated(finer).map(of).sum()
     }
 
     /// A block [m] less what the cells have flown.
