@@ -40,11 +40,19 @@ pub(crate) enum Verb {
         search: bool,
     },
     /// Run a scenario into a folder
-    Run(Orders),
+    Run(RunOrders),
+    /// Watch a run that goes on: a dashboard in the terminal, from the run's folder alone
+    #[cfg(feature = "watch")]
+    Watch {
+        /// The folder of the run
+        folder: PathBuf,
+    },
     /// Search for the conditions that do something best, into a folder
     Search(Orders),
     /// Study how an outcome depends on the conditions, into a folder
     Study(Orders),
+    /// Draw a run: a picture, numbered pictures or a movie
+    Render(Box<crate::render::Wishes>),
     /// Go on with a run from its newest sound checkpoint, or with a search or study
     Resume {
         /// The folder
@@ -53,6 +61,17 @@ pub(crate) enum Verb {
         #[arg(long, value_parser = clap::value_parser!(u32).range(1..=4096))]
         threads: Option<u32>,
     },
+}
+
+/// What to run, and what to see meanwhile.
+#[derive(Args, Debug)]
+pub(crate) struct RunOrders {
+    #[command(flatten)]
+    pub orders: Orders,
+    /// Show a dashboard in the terminal meanwhile, as `agglo watch` does
+    #[cfg(feature = "watch")]
+    #[arg(long)]
+    pub watch: bool,
 }
 
 /// What to run, search or study.

@@ -6,8 +6,11 @@ mod arguments;
 mod explain;
 mod progress;
 mod read;
+mod render;
 mod run;
 mod search;
+#[cfg(feature = "watch")]
+mod watch;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -47,6 +50,9 @@ fn main() -> ExitCode {
         Verb::Run(orders) => run::run(&orders),
         Verb::Search(orders) => search::conduct(&orders, Kind::Search),
         Verb::Study(orders) => search::conduct(&orders, Kind::Study),
+        #[cfg(feature = "watch")]
+        Verb::Watch { folder } => watch::watch(&folder),
+        Verb::Render(wishes) => render::render(&wishes),
         Verb::Resume { folder, threads } if agglo::search::campaign::is_one(&folder) => {
             search::resume(&folder, threads)
         }

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::io::{self, IsTerminal, Write};
 use std::time::{Duration, Instant};
 
+use agglo::render::FilmProgress;
 use agglo::run::Progress;
 use agglo::scenario::readable;
 use agglo::search::campaign::CampaignProgress;
@@ -22,8 +23,11 @@ pub(crate) struct Display {
     /// Nothing before the first report: a resumed run does not begin at zero.
     pace: Option<Pace>,
     last_line: Instant,
+    /// When the first picture was begun.
+    drawing: Option<Instant>,
     warnings: usize,
     shown: BTreeSet<String>,
+    held: Vec<String>,
 }
 
 impl Display {
@@ -42,19 +46,27 @@ impl Display {
             started: now,
             pace: None,
             last_line: now,
+            drawing: None,
             warnings: 0,
             shown: BTreeSet::new(),
+            held: Vec::new(),
+        }
+    }
+
+    /// Takes note of a report that something else shows; its warnings are shown later.
+    pub(crate) fn note(&mut self, progress: &Progress) {
+        for warning in &progress.warnings {
+            self.warnings += 1;
+            if self.shown.insert(warning.clone()) {
+                self.held.push(format!("warning: {warning}"));
+            }
         }
     }
 
     /// Shows a report; warnings go above the bar, each wording once.
     pub(crate) fn show(&mut self, progress: &Progress) {
-        for warning in &progress.warnings {
-            self.warnings += 1;
-            if self.shown.insert(warning.clone()) {
-                self.line(&format!("warning: {warning}"));
-            }
-        }
+        self.note(progress);
+        self.release();
         let wall = self.started.elapsed().as_secs_f64();
         let pace = self.pace.get_or_insert_with(|| Pace::from(progress, wall));
         pace.note(progress, wall);
@@ -82,6 +94,26 @@ impl Display {
         }
     }
 
+    /// Shows how far pictures are.
+    pub(crate) fn show_film(&mut self, progress: FilmProgress) {
+        let (done, all, state) = match progress {
+            FilmProgress::Looking(done, all) => (done, all, format!("{done} of {all} frames looked through")),
+            FilmProgress::Drawing(done, all) => {
+                let passed = self.drawing.get_or_insert_with(Instant::now).elapsed().as_secs_f64();
+                let left = (done > 0).then(|| clock(passed / done as f64 * (all - done) as f64));
+                (done, all, format!("{done} of {all} pictures, {} left", left.unwrap_or("?".to_owned())))
+            }
+        };
+        let part = done as f64 / all.max(1) as f64;
+        if self.on_terminal {
+            self.bar.set_position((PARTS * part) as u64);
+            self.bar.set_message(state);
+        } else if self.last_line.elapsed() >= BETWEEN_LINES {
+            self.last_line = Instant::now();
+            self.line(&format!("{:>3.0} %  {state}", 100.0 * part));
+        }
+    }
+
     fn line(&self, text: &str) {
         if self.on_terminal {
             self.bar.println(text);
@@ -91,8 +123,22 @@ impl Display {
         }
     }
 
+    /// Takes the bar away and says how long it took.
+    pub(crate) fn wall(self) -> String {
+        self.bar.finish_and_clear();
+        clock(self.started.elapsed().as_secs_f64())
+    }
+
+    /// Shows the warnings that were held back.
+    fn release(&mut self) {
+        for line in std::mem::take(&mut self.held) {
+            self.line(&line);
+        }
+    }
+
     /// Takes the bar away and says how many warnings there were, and how long it took.
-    pub(crate) fn finish(self) -> String {
+    pub(crate) fn finish(mut self) -> String {
+        self.release();
         self.bar.finish_and_clear();
         let warnings = match self.warnings {
             0 => "no warnings".to_owned(),
@@ -103,7 +149,8 @@ impl Display {
     }
 }
 
-fn part(progress: &Progress) -> f64 {
+/// Part of the simulated time that has passed.
+pub(crate) fn part(progress: &Progress) -> f64 {
     if progress.end > 0.0 { (progress.time / progress.end).clamp(0.0, 1.0) } else { 0.0 }
 }
 
@@ -112,7 +159,7 @@ fn part(progress: &Progress) -> f64 {
 /// Simulated time by itself is a poor guide to the time that is left: steps are short while rays fly, and impacts
 /// become rare as hard spheres grow. The last seconds tell more than the whole run.
 #[derive(Clone, Copy, Debug)]
-struct Pace {
+pub(crate) struct Pace {
     last: (f64, f64, u64),
     /// Sums of wall time [s], simulated time [s] and steps, each weighted by its age.
     sums: [f64; 3],
@@ -123,12 +170,12 @@ impl Pace {
     const MEMORY: f64 = 8.0;
 
     /// Begins at a report at the wall time `wall` [s].
-    fn from(progress: &Progress, wall: f64) -> Self {
+    pub(crate) fn from(progress: &Progress, wall: f64) -> Self {
         Self { last: (wall, progress.time, progress.step), sums: [0.0; 3] }
     }
 
     /// Takes a report at the wall time `wall` [s] into account.
-    fn note(&mut self, progress: &Progress, wall: f64) {
+    pub(crate) fn note(&mut self, progress: &Progress, wall: f64) {
         let (before, time, step) = self.last;
         let passed = wall - before;
         let parts = [passed, progress.time - time, progress.step.saturating_sub(step) as f64];
@@ -156,7 +203,7 @@ impl Pace {
 }
 
 /// "0.310 of 2 s, 812 steps/s, 1:02 left, pulse 2 of 4".
-fn state(progress: &Progress, pace: &Pace) -> String {
+pub(crate) fn state(progress: &Progress, pace: &Pace) -> String {
     let left = pace.left(progress).map_or("?".to_owned(), clock);
     let rate = pace.steps();
     let rate = if rate >= 10.0 { format!("{rate:.0}") } else { format!("{rate:.1}") };

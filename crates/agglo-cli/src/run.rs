@@ -5,22 +5,37 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use agglo::run::{Ending, Observer, RunError, Summary};
+use agglo::run::{Ending, Observer, Progress, RunError, Summary};
 use agglo::scenario::readable;
 
-use crate::arguments::Orders;
+use crate::arguments::{Orders, RunOrders};
 use crate::progress::Display;
 use crate::{Failure, print, read};
 
 /// Runs a scenario into a folder.
-pub(crate) fn run(orders: &Orders) -> Result<(), Failure> {
+pub(crate) fn run(run_orders: &RunOrders) -> Result<(), Failure> {
+    let orders = &run_orders.orders;
     read::refuse_other_kind(&orders.scenario, read::Kind::Scenario)?;
     let settings = settings(orders);
     let read = read::scenario(&orders.scenario, &settings)?;
     let folder = orders.output.clone().unwrap_or_else(|| default_folder(&orders.scenario));
     refuse_occupied(&folder)?;
     use_threads(orders.threads)?;
-    go(&folder, |observer| agglo::run::run(&read.scenario, &read.base, &folder, observer))
+    let beside = |stop| companion(run_orders, &folder, stop);
+    go(&folder, beside, |observer| agglo::run::run(&read.scenario, &read.base, &folder, observer))
+}
+
+/// The dashboard, where it is wanted and there is a terminal for it.
+#[cfg(feature = "watch")]
+fn companion(orders: &RunOrders, folder: &Path, stop: Arc<AtomicBool>) -> Option<Box<dyn Companion>> {
+    let is_shown = orders.watch && std::io::IsTerminal::is_terminal(&std::io::stdout());
+    is_shown.then(|| -> Box<dyn Companion> { Box::new(crate::watch::Guest::new(folder, stop)) })
+}
+
+/// This program was built without the dashboard.
+#[cfg(not(feature = "watch"))]
+fn companion(_: &RunOrders, _: &Path, _: Arc<AtomicBool>) -> Option<Box<dyn Companion>> {
+    None
 }
 
 /// Goes on with the run in a folder.
@@ -33,7 +48,7 @@ pub(crate) fn resume(folder: &Path, threads: Option<u32>) -> Result<(), Failure>
         return print(&format!("{}\nthe run in {shown} has finished already", table(&summary)));
     }
     use_threads(threads)?;
-    go(folder, |observer| agglo::run::resume(folder, observer))
+    go(folder, |_| None, |observer| agglo::run::resume(folder, observer))
 }
 
 /// The settings of the command line, the seed among them.
@@ -70,19 +85,38 @@ pub(crate) fn use_threads(threads: Option<u32>) -> Result<(), Failure> {
         .map_err(|error| Failure::failed(format!("error: cannot start {threads} threads: {error}")))
 }
 
+/// What shows a run's progress in place of the bar.
+pub(crate) trait Companion: Send {
+    /// Tells of progress; false once nobody looks any more.
+    fn tell(&mut self, progress: &Progress) -> bool;
+
+    /// Gives the terminal back.
+    fn close(self: Box<Self>) -> std::io::Result<()>;
+}
+
 /// Runs with a display, stops at Ctrl-C, and says how it ended.
 fn go(
     folder: &Path,
+    beside: impl FnOnce(Arc<AtomicBool>) -> Option<Box<dyn Companion>>,
     work: impl FnOnce(&mut Observer<'_>) -> Result<Ending, RunError>,
 ) -> Result<(), Failure> {
     let stop = listen()?;
     let mut display = Display::new();
+    let mut companion = beside(Arc::clone(&stop));
     let outcome = work(&mut |progress| {
-        display.show(progress);
+        if companion.as_mut().is_some_and(|companion| companion.tell(progress)) {
+            display.note(progress);
+        } else {
+            display.show(progress);
+        }
         if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
+    let closed = companion.map_or(Ok(()), Companion::close);
     let closing = display.finish();
     let shown = folder.display();
+    if let Err(error) = closed {
+        print(&format!("the dashboard could not be shown: {error}"))?;
+    }
     match outcome {
         Ok(Ending::Finished(summary)) => print(&format!("{}\nin {shown} ({closing})", table(&summary))),
         Ok(Ending::Interrupted(time)) => {
@@ -113,7 +147,8 @@ fn interrupt(asked: &AtomicBool) {
     }
 }
 
-fn table(summary: &Summary) -> String {
+/// The closing table.
+pub(crate) fn table(summary: &Summary) -> String {
     columns(&summary.table())
 }
 

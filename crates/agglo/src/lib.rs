@@ -27,4 +27,7 @@ pub mod run;
 pub mod scenario;
 
 pub mod plot;
+#[cfg(feature = "render")]
+pub mod render;
 pub mod search;
+pub mod watch;

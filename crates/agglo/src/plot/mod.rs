@@ -14,7 +14,7 @@ mod pairs;
 mod panel;
 mod parallel;
 mod refinement;
-mod scale;
+pub(crate) mod scale;
 mod scatter;
 mod svg;
 #[cfg(test)]

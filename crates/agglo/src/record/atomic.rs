@@ -7,7 +7,7 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
-use tempfile::NamedTempFile;
+use tempfile::{NamedTempFile, TempPath};
 
 use super::RecordError;
 
@@ -50,6 +50,14 @@ pub(super) fn write_with(
     fill_file().map_err(RecordError::file("write", path))?;
     temporary.persist(path).map_err(|error| RecordError::file("write", path)(error.error))?;
     if durability == Durability::Power { sync_folder(folder) } else { Ok(()) }
+}
+
+/// A temporary file beside `path` for another program to write, which then can take its place; it goes when dropped.
+///
+/// # Errors
+/// [`RecordError::File`].
+pub fn beside(path: &Path) -> Result<TempPath, RecordError> {
+    Ok(new_temporary(folder_of(path)).map_err(RecordError::file("write", path))?.into_temp_path())
 }
 
 fn folder_of(path: &Path) -> &Path {

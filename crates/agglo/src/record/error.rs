@@ -53,6 +53,14 @@ pub enum RecordError {
         /// Why.
         reason: String,
     },
+    /// A file that is not whole.
+    #[error("cannot read {path}: {reason}", path = .path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
     /// No sound checkpoint.
     #[error("no usable checkpoint in {dir}{}", list(.refused), dir = .dir.display())]
     NoCheckpoint {

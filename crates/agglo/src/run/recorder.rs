@@ -108,6 +108,14 @@ impl Recorder {
         self.timers.checkpoints.is_due(time)
     }
 
+    /// Hands all rows to the operating system, for those who look at the tables while the run goes on.
+    ///
+    /// # Errors
+    /// [`RecordError`] where a file cannot be written.
+    pub fn flush(&mut self) -> Result<(), RecordError> {
+        self.tables.flush()
+    }
+
     /// Puts all rows onto the disk.
     ///
     /// # Errors

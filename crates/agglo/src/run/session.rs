@@ -127,8 +127,11 @@ impl<J: Job> Session<J> {
             if self.recorder.checkpoint_is_due(self.job.time()) {
                 self.save()?;
             }
-            if self.told.elapsed() >= TELL_EVERY && self.tell(observer).is_break() {
-                return self.interrupted();
+            if self.told.elapsed() >= TELL_EVERY {
+                self.recorder.flush()?;
+                if self.tell(observer).is_break() {
+                    return self.interrupted();
+                }
             }
         }
         self.finish(observer)

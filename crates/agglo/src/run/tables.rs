@@ -47,6 +47,11 @@ impl Tables {
         TablesState { positions: self.series.iter().map(Series::position).collect() }
     }
 
+    /// Hands all rows to the operating system.
+    pub fn flush(&mut self) -> Result<(), RecordError> {
+        self.series.iter_mut().try_for_each(Series::flush)
+    }
+
     /// Puts all rows onto the disk.
     pub fn sync(&mut self) -> Result<(), RecordError> {
         self.series.iter_mut().try_for_each(Series::sync)

@@ -5,9 +5,11 @@
 
 mod collection;
 mod polydata;
+mod read;
 
 pub use collection::Collection;
 pub use polydata::{Cells, Field, PolyData};
+pub use read::{FieldValues, Frame};
 
 use std::path::Path;
 

@@ -1,0 +1,105 @@
+//! The verb: pictures or a movie of a run.
+
+use std::ops::{ControlFlow, RangeInclusive};
+use std::path::Path;
+
+use super::error::RenderError;
+use super::output::Output;
+use super::reel::Reel;
+use super::scene::Background;
+use super::studio::{Options, Studio};
+
+/// Which frames are shown and how fast.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shots {
+    /// The first and last frame, from 0; all if left out.
+    pub frames: Option<RangeInclusive<usize>>,
+    /// Every how many-th frame.
+    pub every: usize,
+    /// Frames in a second of a movie.
+    pub rate: f64,
+}
+
+impl Default for Shots {
+    fn default() -> Self {
+        Self { frames: None, every: 1, rate: 25.0 }
+    }
+}
+
+/// What is made: where, of which frames, how it looks.
+#[derive(Clone, Debug)]
+pub struct Film {
+    /// Where pictures go.
+    pub output: Output,
+    /// Which frames.
+    pub shots: Shots,
+    /// How they look.
+    pub options: Options,
+}
+
+/// What an observer is told.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FilmProgress {
+    /// So many of all frames were looked through.
+    Looking(usize, usize),
+    /// So many of all pictures are done.
+    Drawing(usize, usize),
+}
+
+/// How it ended without an error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FilmEnding {
+    /// So many pictures were drawn.
+    Finished(usize),
+    /// The observer asked to stop after so many; an unfinished movie is gone, finished pictures stay.
+    Interrupted(usize),
+}
+
+/// Draws the run in `dir`. A single picture is that of the last frame that is asked for.
+///
+/// # Errors
+/// [`RenderError`].
+pub fn film(
+    dir: &Path,
+    film: Film,
+    observer: &mut dyn FnMut(FilmProgress) -> ControlFlow<()>,
+) -> Result<FilmEnding, RenderError> {
+    let Film { output, shots, mut options } = film;
+    if output.is_movie() && options.background == Background::Transparent {
+        return Err(RenderError::TransparentMovie);
+    }
+    let reel = Reel::open(dir)?;
+    let mut numbers = numbers(&reel, &shots)?;
+    options.size = output.fitting(options.size);
+    let size = options.size;
+    let look = &mut |done| observer(FilmProgress::Looking(done, numbers.len())).is_continue();
+    let Some(studio) = Studio::prepare(reel, options, &numbers, look)? else {
+        return Ok(FilmEnding::Interrupted(0));
+    };
+    if output.is_single() {
+        numbers.drain(..numbers.len() - 1);
+    }
+    let mut sink = output.open(size, shots.rate)?;
+    for (done, &number) in numbers.iter().enumerate() {
+        if observer(FilmProgress::Drawing(done, numbers.len())).is_break() {
+            return Ok(FilmEnding::Interrupted(done));
+        }
+        sink.take(&studio.picture(number)?)?;
+    }
+    sink.finish()?;
+    Ok(FilmEnding::Finished(numbers.len()))
+}
+
+/// Numbers of the frames that are asked for; at least one.
+fn numbers(reel: &Reel, shots: &Shots) -> Result<Vec<usize>, RenderError> {
+    let (last, asked) = (reel.len() - 1, shots.frames.clone().unwrap_or(0..=reel.len() - 1));
+    if asked.is_empty() || *asked.end() > last {
+        let asked = if asked.start() == asked.end() {
+            asked.start().to_string()
+        } else {
+            format!("{}..{}", asked.start(), asked.end())
+        };
+        return Err(RenderError::FrameRange { dir: reel.dir().to_owned(), asked, count: reel.len() });
+    }
+    Ok(asked.step_by(shots.every.max(1)).collect())
+}

@@ -1,0 +1,111 @@
+//! Colour maps for values and colours for names.
+
+use super::image::light_of;
+use super::solid::Light;
+
+/// A colour map: equal steps of the value look equally far apart, in grey and to the colour-blind too.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Map {
+    /// From violet over green to yellow.
+    Viridis,
+    /// From blue over grey to yellow.
+    Cividis,
+    /// From violet over red to yellow, like glowing matter.
+    Inferno,
+}
+
+/// Every fifteenth of the 256 colours of a map.
+type Table = [u32; 18];
+
+/// Source: S. van der Walt and N. Smith (2015), public domain (CC0).
+const VIRIDIS: Table = [
+    0x44_0154, 0x48_1769, 0x47_2a7a, 0x43_3d84, 0x3d_4e8a, 0x35_5e8d, 0x2e_6d8e, 0x29_7b8e, 0x23_898e,
+    0x1f_978b, 0x21_a585, 0x2e_b37c, 0x46_c06f, 0x65_cb5e, 0x89_d548, 0xb0_dd2f, 0xd8_e219, 0xfd_e725,
+];
+/// Source: J. R. Nuñez, C. R. Anderson and R. S. Renslow, *PLoS ONE* 13, e0199239 (2018), public domain (CC0).
+const CIVIDIS: Table = [
+    0x00_224e, 0x00_2d68, 0x16_3770, 0x2e_416d, 0x3f_4c6c, 0x4e_566c, 0x5c_616e, 0x69_6b71, 0x76_7676,
+    0x83_8179, 0x92_8c78, 0xa0_9875, 0xaf_a471, 0xbf_b06b, 0xcf_bd62, 0xdf_ca57, 0xf0_d846, 0xfe_e838,
+];
+/// Source: S. van der Walt and N. Smith (2015), public domain (CC0).
+const INFERNO: Table = [
+    0x00_0004, 0x0a_0722, 0x1e_0c45, 0x38_0962, 0x51_0e6c, 0x69_166e, 0x80_1f6c, 0x98_2766, 0xb0_315b,
+    0xc6_3d4d, 0xd9_4d3d, 0xe9_612b, 0xf4_7918, 0xfa_9407, 0xfc_b014, 0xf8_cd37, 0xf2_ea69, 0xfc_ffa4,
+];
+
+/// How many colours of names there are.
+pub(super) const NAMES: usize = 7;
+
+/// Colours of names, in their order.
+///
+/// Source: M. Okabe and K. Ito, *Color universal design* (2008).
+const NAMED: [u32; NAMES] = [0x00_72b2, 0xe6_9f00, 0x00_9e73, 0xcc_79a7, 0x56_b4e9, 0xd5_5e00, 0xf0_e442];
+/// What has no name of its own.
+const PLAIN: u32 = 0xbd_bdbd;
+
+impl Map {
+    /// All of them by their words.
+    pub const WORDS: [(&'static str, Self); 3] =
+        [("viridis", Self::Viridis), ("cividis", Self::Cividis), ("inferno", Self::Inferno)];
+
+    /// The table and where it begins: the black end of inferno cannot be told from shade and is left out.
+    fn table(self) -> (&'static Table, f64) {
+        match self {
+            Self::Viridis => (&VIRIDIS, 0.0),
+            Self::Cividis => (&CIVIDIS, 0.0),
+            Self::Inferno => (&INFERNO, 0.15),
+        }
+    }
+
+    /// The colour for a part from 0 to 1 of a range of values, as red, green and blue, a byte each.
+    pub fn color(self, part: f64) -> u32 {
+        let (table, begin) = self.table();
+        let part = if part.is_nan() { 0.0 } else { part.clamp(0.0, 1.0) };
+        let place = (begin + (1.0 - begin) * part) * (table.len() - 1) as f64;
+        let below = (place as usize).min(table.len() - 2);
+        let share = place - below as f64;
+        let channel = |shift: u32| {
+            let at = |index: usize| f64::from(table[index] >> shift & 0xff);
+            (((1.0 - share) * at(below) + share * at(below + 1)).round() as u32) << shift
+        };
+        channel(16) | channel(8) | channel(0)
+    }
+
+    /// The same as light.
+    pub fn light(self, part: f64) -> Light {
+        light_of(self.color(part))
+    }
+}
+
+/// The colour of a name by its number; plain grey without one.
+pub(super) fn named(number: Option<usize>) -> u32 {
+    number.map_or(PLAIN, |number| NAMED[number % NAMES])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Lightness as the eye sees it (CIE L*) rises evenly: so the maps can be read in grey and with any kind of
+    /// colour vision. A step of a hundredth is 0.6 to 0.8 of L*, half and twice of which are let pass.
+    #[test]
+    fn maps_get_lighter_evenly() {
+        for (word, map) in Map::WORDS {
+            let lightness = |step: i32| {
+                let [r, g, b] = map.light(f64::from(step) / 100.0).map(f64::from);
+                116.0 * (0.2126 * r + 0.7152 * g + 0.0722 * b).cbrt() - 16.0
+            };
+            let mean = (lightness(100) - lightness(0)) / 20.0;
+            for step in (5..=100).step_by(5) {
+                let rise = lightness(step) - lightness(step - 5);
+                assert!(rise > 0.5 * mean && rise < 2.0 * mean, "{word} {step}: {rise} and not {mean}");
+            }
+        }
+    }
+
+    #[test]
+    fn beyond_the_ends_are_the_ends() {
+        assert_eq!((Map::Viridis.color(-1.0), Map::Viridis.color(2.0)), (0x44_0154, 0xfd_e725));
+        assert_eq!(Map::Cividis.color(f64::NAN), Map::Cividis.color(0.0));
+    }
+}

@@ -1,0 +1,35 @@
+//! Pictures and movies of runs: a ray tracer for spheres, without a screen.
+//!
+//! Grains are shown as they are: true sizes and places, in perspective, from one place for all frames. Light from the whole sky
+//! and from a sun over the photographer's left shoulder shows which grains lie deep inside and which touch. Nothing is
+//! drawn at random, so pictures have no noise, and the same frame gives the same bits for any number of threads.
+//!
+//! What this does not do: it reads what a run has written and computes nothing of the run itself.
+
+mod bvh;
+mod camera;
+mod error;
+mod film;
+mod image;
+mod light;
+mod map;
+mod output;
+mod overlay;
+mod quantity;
+mod reel;
+mod scene;
+mod solid;
+mod studio;
+mod text;
+
+pub use camera::{Camera, Side};
+pub use error::RenderError;
+pub use film::{Film, FilmEnding, FilmProgress, Shots, film};
+pub use image::Image;
+pub use map::Map;
+pub use output::Output;
+pub use quantity::{Coloring, Quantity};
+pub use reel::Reel;
+pub use scene::{Background, Ground, Scene};
+pub use solid::{Light, Line, Sphere};
+pub use studio::{Options, Studio, View};

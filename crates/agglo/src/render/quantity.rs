@@ -1,0 +1,80 @@
+//! What grains can be coloured by.
+
+use super::map::Map;
+use crate::record::frames::{FieldValues, Frame};
+
+/// How values become colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coloring {
+    /// By a map over a range of values.
+    Values(Map),
+    /// A colour for each cluster; the heaviest has the first, single grains are grey.
+    Clusters,
+    /// A colour for each material.
+    Materials,
+}
+
+/// Something that grains can be coloured by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quantity {
+    /// Its word in the terminal.
+    pub word: &'static str,
+    /// Its name in the legend.
+    pub title: &'static str,
+    /// Its unit.
+    pub unit: &'static str,
+    /// The field in frames.
+    pub field: &'static str,
+    /// How its values become colours.
+    pub coloring: Coloring,
+    /// Whether a few grains have values far beyond the others', so that the range leaves the uppermost hundredth out.
+    pub has_outliers: bool,
+}
+
+const fn values(
+    word: &'static str,
+    title: &'static str,
+    unit: &'static str,
+    field: &'static str,
+    map: Map,
+) -> Quantity {
+    Quantity { word, title, unit, field, coloring: Coloring::Values(map), has_outliers: false }
+}
+
+/// All of them.
+const QUANTITIES: [Quantity; 10] = [
+    Quantity { has_outliers: true, ..values("speed", "Speed", "m/s", "velocity_m_s", Map::Viridis) },
+    values("temperature", "Temperature", "K", "temperature_k", Map::Inferno),
+    Quantity { coloring: Coloring::Clusters, ..values("cluster", "Cluster", "", "cluster", Map::Viridis) },
+    Quantity {
+        has_outliers: true,
+        ..values("absorbed_power", "Absorbed power", "W", "absorbed_power_w", Map::Inferno)
+    },
+    values("size", "Radius", "m", "radius_m", Map::Cividis),
+    values("id", "Grain", "", "id", Map::Viridis),
+    Quantity {
+        coloring: Coloring::Materials,
+        ..values("material", "Material", "", "material", Map::Viridis)
+    },
+    values("primaries", "Primaries", "", "primaries", Map::Viridis),
+    values("charge", "Charge", "C", "charge_c", Map::Viridis),
+    Quantity { has_outliers: true, ..values("spin", "Spin", "rad/s", "spin_rad_s", Map::Viridis) },
+];
+
+impl Quantity {
+    /// The quantities that a frame holds, the most telling first.
+    pub fn all_in(frame: &Frame) -> impl Iterator<Item = Self> {
+        QUANTITIES.into_iter().filter(|quantity| frame.field(quantity.field).is_some())
+    }
+
+    /// A value for each grain [n] in SI units, of a vector its length; nothing where the frame does not have it.
+    pub fn of(&self, frame: &Frame) -> Option<Vec<f64>> {
+        Some(match frame.field(self.field)? {
+            FieldValues::Integers(values) => values.iter().copied().map(f64::from).collect(),
+            FieldValues::Scalars(values) => values.clone(),
+            FieldValues::Vectors(values) => {
+                values.iter().map(|[x, y, z]| (x * x + y * y + z * z).sqrt()).collect()
+            }
+        })
+    }
+}

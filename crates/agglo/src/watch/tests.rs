@@ -1,0 +1,72 @@
+//! Small runs followed from their folders.
+
+use std::ops::ControlFlow;
+
+use super::*;
+use crate::run::run;
+
+const SOFT: &str = r#"
+    version = 1
+    title = "two grains"
+    time.end = "1 ms"
+    [engine.verlet]
+    [materials.glass]
+    density = "2500 kg/m3"
+    sound_speed = "5000 m/s"
+    youngs_modulus = "1 MPa"
+    poisson_ratio = 0.2
+    [[grains]]
+    material = "glass"
+    velocity = ["0.3 m/s", "0 m/s", "0 m/s"]
+    size.constant.radius = "0.1 mm"
+    placement.list.positions = [["0 m", "0 m", "0 m"], ["1 mm", "0 m", "0 m"]]
+    [contact.normal.hertz]
+"#;
+
+fn last_row(path: &Path) -> Vec<(String, f64)> {
+    let text = std::fs::read_to_string(path).unwrap();
+    let columns = text.lines().next().unwrap().split(',').map(str::to_owned);
+    columns.zip(text.lines().last().unwrap().split(',').map(|word| word.parse().unwrap())).collect()
+}
+
+/// Each figure is the number in the last row of the column that it names, and each curve ends there.
+#[test]
+fn figures_are_those_of_the_last_rows() {
+    let folder = tempfile::tempdir().unwrap();
+    let dir = folder.path().join("run");
+    let scenario = Scenario::from_toml(SOFT).unwrap_or_else(|faults| panic!("{faults}"));
+    run(&scenario, folder.path(), &dir, &mut |_| ControlFlow::Continue(())).unwrap();
+    let mut follower = Follower::open(&dir).unwrap();
+    assert_eq!((follower.title(), follower.end(), follower.steps_are()), ("two grains", 1e-3, "steps"));
+    let sight = follower.look().unwrap();
+    assert!(sight.summary.is_some() && (sight.time - 1e-3).abs() < 1e-5);
+    assert!(sight.figures.len() >= 8);
+    for figure in &sight.figures {
+        let (table, column) = figure.column;
+        let row = last_row(&dir.join("series").join(format!("{table}.csv")));
+        let wanted = row.iter().find(|(name, _)| name == column).unwrap().1;
+        assert_eq!(figure.value.to_bits(), wanted.to_bits(), "{}", figure.name);
+        let shown = sight.curves.iter().find(|curve| curve.name == figure.name);
+        assert!(shown.is_none_or(|curve| curve.points.last().unwrap().1 == wanted));
+    }
+    let speed = sight.figures.iter().find(|figure| figure.name == "mean speed").unwrap();
+    assert_eq!(speed.text(), "300 mm/s");
+    // There are no beams, so nothing is told of rays.
+    assert!(sight.figures.iter().all(|figure| !figure.name.contains("ray")));
+    assert_eq!(
+        sight.curves.iter().map(|curve| curve.name).collect::<Vec<_>>(),
+        ["dispersion degree", "mean speed"]
+    );
+}
+
+#[test]
+fn a_run_that_has_just_begun_has_no_figures() {
+    let folder = tempfile::tempdir().unwrap();
+    let missing = Follower::open(folder.path()).unwrap_err().to_string();
+    assert!(missing.ends_with("scenario.toml") && missing.contains("holds no run"), "{missing}");
+    std::fs::write(folder.path().join("scenario.toml"), SOFT).unwrap();
+    let sight = Follower::open(folder.path()).unwrap().look().unwrap();
+    assert!(sight.figures.is_empty() && sight.summary.is_none() && sight.time == 0.0);
+    std::fs::write(folder.path().join("scenario.toml"), "version = 1\nvelocity = 2\n").unwrap();
+    assert!(matches!(Follower::open(folder.path()), Err(WatchError::Scenario { .. })));
+}
