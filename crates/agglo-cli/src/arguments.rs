@@ -53,6 +53,16 @@ pub(crate) enum Verb {
     Study(Orders),
     /// Draw a run: a picture, numbered pictures or a movie
     Render(Box<crate::render::Wishes>),
+    /// Write report.html into the folder of a run, search or study: replay, charts, figures; opens offline
+    Report {
+        /// The folder
+        folder: PathBuf,
+    },
+    /// Print what to cite for the laws of a run
+    Cite {
+        /// The run's folder
+        folder: PathBuf,
+    },
     /// Go on with a run from its newest sound checkpoint, or with a search or study
     Resume {
         /// The folder
@@ -60,6 +70,9 @@ pub(crate) enum Verb {
         /// Number of threads; all processors if left out
         #[arg(long, value_parser = clap::value_parser!(u32).range(1..=4096))]
         threads: Option<u32>,
+        /// Write no report.html at the end
+        #[arg(long)]
+        no_report: bool,
     },
 }
 
@@ -89,6 +102,9 @@ pub(crate) struct Orders {
     /// Number of threads; all processors if left out
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=4096))]
     pub threads: Option<u32>,
+    /// Write no report.html at the end
+    #[arg(long)]
+    pub no_report: bool,
     /// Seed of all random numbers instead of the file's
     #[arg(long)]
     pub seed: Option<u64>,

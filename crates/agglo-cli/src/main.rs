@@ -7,6 +7,7 @@ mod explain;
 mod progress;
 mod read;
 mod render;
+mod report;
 mod run;
 mod search;
 #[cfg(feature = "watch")]
@@ -47,16 +48,18 @@ fn main() -> ExitCode {
         Verb::Check { scenario, settings } => check(&scenario, &settings),
         Verb::Explain { law } => explain::explain(law.as_deref()),
         Verb::Schema { search } => print(&format!("{:#}", if search { campaign_schema() } else { schema() })),
+        Verb::Report { folder } => report::report(&folder),
+        Verb::Cite { folder } => report::cite(&folder),
         Verb::Run(orders) => run::run(&orders),
         Verb::Search(orders) => search::conduct(&orders, Kind::Search),
         Verb::Study(orders) => search::conduct(&orders, Kind::Study),
         #[cfg(feature = "watch")]
         Verb::Watch { folder } => watch::watch(&folder),
         Verb::Render(wishes) => render::render(&wishes),
-        Verb::Resume { folder, threads } if agglo::search::campaign::is_one(&folder) => {
-            search::resume(&folder, threads)
+        Verb::Resume { folder, threads, no_report } if agglo::search::campaign::is_one(&folder) => {
+            search::resume(&folder, threads, !no_report)
         }
-        Verb::Resume { folder, threads } => run::resume(&folder, threads),
+        Verb::Resume { folder, threads, no_report } => run::resume(&folder, threads, !no_report),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -10,7 +10,7 @@ use agglo::scenario::readable;
 
 use crate::arguments::{Orders, RunOrders};
 use crate::progress::Display;
-use crate::{Failure, print, read};
+use crate::{Failure, print, read, report};
 
 /// Runs a scenario into a folder.
 pub(crate) fn run(run_orders: &RunOrders) -> Result<(), Failure> {
@@ -22,7 +22,9 @@ pub(crate) fn run(run_orders: &RunOrders) -> Result<(), Failure> {
     refuse_occupied(&folder)?;
     use_threads(orders.threads)?;
     let beside = |stop| companion(run_orders, &folder, stop);
-    go(&folder, beside, |observer| agglo::run::run(&read.scenario, &read.base, &folder, observer))
+    go(&folder, beside, !orders.no_report, |observer| {
+        agglo::run::run(&read.scenario, &read.base, &folder, observer)
+    })
 }
 
 /// The dashboard, where it is wanted and there is a terminal for it.
@@ -39,7 +41,7 @@ fn companion(_: &RunOrders, _: &Path, _: Arc<AtomicBool>) -> Option<Box<dyn Comp
 }
 
 /// Goes on with the run in a folder.
-pub(crate) fn resume(folder: &Path, threads: Option<u32>) -> Result<(), Failure> {
+pub(crate) fn resume(folder: &Path, threads: Option<u32>, reports: bool) -> Result<(), Failure> {
     if !folder.is_dir() {
         return Err(Failure::bad_input(format!("error: there is no folder {}", folder.display())));
     }
@@ -48,7 +50,7 @@ pub(crate) fn resume(folder: &Path, threads: Option<u32>) -> Result<(), Failure>
         return print(&format!("{}\nthe run in {shown} has finished already", table(&summary)));
     }
     use_threads(threads)?;
-    go(folder, |_| None, |observer| agglo::run::resume(folder, observer))
+    go(folder, |_| None, reports, |observer| agglo::run::resume(folder, observer))
 }
 
 /// The settings of the command line, the seed among them.
@@ -94,10 +96,11 @@ pub(crate) trait Companion: Send {
     fn close(self: Box<Self>) -> std::io::Result<()>;
 }
 
-/// Runs with a display, stops at Ctrl-C, and says how it ended.
+/// Runs with a display, stops at Ctrl-C, writes the report of what finished, and says how it ended.
 fn go(
     folder: &Path,
     beside: impl FnOnce(Arc<AtomicBool>) -> Option<Box<dyn Companion>>,
+    reports: bool,
     work: impl FnOnce(&mut Observer<'_>) -> Result<Ending, RunError>,
 ) -> Result<(), Failure> {
     let stop = listen()?;
@@ -118,7 +121,10 @@ fn go(
         print(&format!("the dashboard could not be shown: {error}"))?;
     }
     match outcome {
-        Ok(Ending::Finished(summary)) => print(&format!("{}\nin {shown} ({closing})", table(&summary))),
+        Ok(Ending::Finished(summary)) => {
+            let page = if reports { report::at_the_end(folder) } else { String::new() };
+            print(&format!("{}\nin {shown} ({closing}){page}", table(&summary)))
+        }
         Ok(Ending::Interrupted(time)) => {
             let time = readable(time, "s");
             let message =

@@ -14,7 +14,7 @@ use crate::arguments::Orders;
 use crate::progress::Display;
 use crate::read::{self, Kind};
 use crate::run::{columns, default_folder, listen, refuse_occupied, settings, use_threads};
-use crate::{Failure, print};
+use crate::{Failure, print, report};
 
 /// Conducts a search or study into a folder.
 pub(crate) fn conduct(orders: &Orders, kind: Kind) -> Result<(), Failure> {
@@ -24,17 +24,17 @@ pub(crate) fn conduct(orders: &Orders, kind: Kind) -> Result<(), Failure> {
     refuse_occupied(&folder)?;
     use_threads(orders.threads)?;
     let threads = threads(orders.threads);
-    go(&folder, |observer| campaign::run(&campaign, &base, &folder, threads, observer))
+    go(&folder, !orders.no_report, |observer| campaign::run(&campaign, &base, &folder, threads, observer))
 }
 
 /// Goes on with the search or study in a folder.
-pub(crate) fn resume(folder: &Path, threads_wanted: Option<u32>) -> Result<(), Failure> {
+pub(crate) fn resume(folder: &Path, threads_wanted: Option<u32>, reports: bool) -> Result<(), Failure> {
     if let Some(summary) = campaign::finished(folder) {
         let shown = folder.display();
         return print(&format!("{}\nwhat is in {shown} has finished already", columns(&summary.table())));
     }
     use_threads(threads_wanted)?;
-    go(folder, |observer| campaign::resume(folder, threads(threads_wanted), observer))
+    go(folder, reports, |observer| campaign::resume(folder, threads(threads_wanted), observer))
 }
 
 fn threads(wanted: Option<u32>) -> usize {
@@ -42,9 +42,10 @@ fn threads(wanted: Option<u32>) -> usize {
     wanted.map_or_else(all, |threads| threads as usize)
 }
 
-/// Conducts with a display, stops at Ctrl-C, and says how it ended.
+/// Conducts with a display, stops at Ctrl-C, writes the reports of what finished, and says how it ended.
 fn go(
     folder: &Path,
+    reports: bool,
     work: impl FnOnce(&mut CampaignObserver<'_>) -> Result<CampaignEnding, CampaignError>,
 ) -> Result<(), Failure> {
     let stop = listen()?;
@@ -56,7 +57,7 @@ fn go(
     let closing = display.finish();
     let shown = folder.display();
     match outcome {
-        Ok(CampaignEnding::Finished(summary)) => print(&finished(&summary, folder)),
+        Ok(CampaignEnding::Finished(summary)) => print(&finished(&summary, folder, reports)),
         Ok(CampaignEnding::Interrupted) => Err(Failure::failed(format!(
             "stopped ({closing}); all simulations that ended are kept, `agglo resume {shown}` goes on from there"
         ))),
@@ -66,11 +67,16 @@ fn go(
     }
 }
 
-fn finished(summary: &CampaignSummary, folder: &Path) -> String {
+fn finished(summary: &CampaignSummary, folder: &Path, reports: bool) -> String {
+    let page = |of: &Path| if reports { report::at_the_end(of) } else { String::new() };
     let run = folder.join("best");
-    let best =
-        if run.is_dir() { format!("; the best one's run in {}", run.display()) } else { String::new() };
-    format!("{}\nin {}{best}", columns(&summary.table()), folder.display())
+    let best = if run.is_dir() {
+        let shown = run.display();
+        format!("\nthe best one's run in {shown}{}", page(&run))
+    } else {
+        String::new()
+    };
+    format!("{}\nin {}{}{best}", columns(&summary.table()), folder.display(), page(folder))
 }
 
 /// Checks a search or study and says what it would do.

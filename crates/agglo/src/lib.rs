@@ -26,8 +26,11 @@ pub mod record;
 pub mod run;
 pub mod scenario;
 
+pub mod search;
+
 pub mod plot;
 #[cfg(feature = "render")]
 pub mod render;
-pub mod search;
+#[cfg(feature = "report")]
+pub mod report;
 pub mod watch;

@@ -156,6 +156,10 @@ pub fn results(run: &Path) -> BTreeMap<String, Vec<u8>> {
             let text = String::from_utf8(content.clone()).unwrap();
             let kept = |line: &&str| !line.contains("\"wall_s\"") && !line.contains("\"threads\"");
             *content = text.lines().filter(kept).collect::<Vec<_>>().join("\n").into_bytes();
+        } else if name == "report.html" {
+            let text = String::from_utf8(content.clone()).unwrap();
+            let kept = |line: &&str| !line.starts_with("<tr><td>wall time</td>");
+            *content = text.lines().filter(kept).collect::<Vec<_>>().join("\n").into_bytes();
         } else if name.starts_with("checkpoints/") {
             content.truncate(content.len() - AFTER_THE_STATE);
         }

@@ -12,6 +12,7 @@ mod hard;
 mod killed;
 mod output;
 mod pictures;
+mod report;
 mod shipped;
 mod summary;
 mod trouble;

@@ -95,6 +95,10 @@ fn results(folder: &Path) -> BTreeMap<String, Vec<u8>> {
             let text = String::from_utf8(content.clone()).unwrap();
             let kept = |line: &&str| !line.contains("\"wall_s\"") && !line.contains("\"threads\"");
             *content = text.lines().filter(kept).collect::<Vec<_>>().join("\n").into_bytes();
+        } else if name.ends_with("report.html") {
+            let text = String::from_utf8(content.clone()).unwrap();
+            let kept = |line: &&str| !line.starts_with("<tr><td>wall time</td>");
+            *content = text.lines().filter(kept).collect::<Vec<_>>().join("\n").into_bytes();
         } else if name.contains("checkpoints/") {
             content.truncate(content.len() - AFTER_THE_STATE);
         }

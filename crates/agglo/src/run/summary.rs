@@ -26,6 +26,22 @@ impl Summary {
         serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
     }
 
+    /// Warnings, with how often each came up.
+    pub fn warnings(&self) -> &BTreeMap<String, u64> {
+        match self {
+            Self::Soft(summary) => &summary.warnings,
+            Self::Hard(summary) => &summary.warnings,
+        }
+    }
+
+    /// Version of agglo that wrote it.
+    pub fn version(&self) -> &str {
+        match self {
+            Self::Soft(summary) => &summary.version,
+            Self::Hard(summary) => &summary.version,
+        }
+    }
+
     /// The summary as rows of a table: what, how much.
     pub fn table(&self) -> Vec<(String, String)> {
         match self {

@@ -1,0 +1,169 @@
+//! What the folder of a search or study holds, and what of it cannot be used.
+
+use std::path::{Path, PathBuf};
+
+use crate::report::folder::{not_understood, why};
+use crate::report::sheet::Sheet;
+use crate::scenario::{LoadError, Scenario};
+use crate::search::campaign::CampaignSummary;
+use crate::search::{Campaign, Objective};
+
+/// What the folder of a search or study holds.
+#[derive(Debug, Default)]
+pub struct Folder {
+    /// The folder.
+    pub root: PathBuf,
+    /// The resolved search or study.
+    pub campaign: Option<Campaign>,
+    /// Its text.
+    pub campaign_text: String,
+    /// The scenario that is varied.
+    pub scenario: Option<Scenario>,
+    /// What it came to.
+    pub summary: Option<CampaignSummary>,
+    /// Candidates.
+    pub evaluations: Sheet,
+    /// Generations.
+    pub generations: Sheet,
+    /// The best candidates.
+    pub best: Sheet,
+    /// Candidates that failed.
+    pub failures: Sheet,
+    /// Of a study: means of each candidate.
+    pub measures: Sheet,
+    /// Of a study of refinement: what it says.
+    pub refinement: Sheet,
+    /// Of a study of sensitivity: what it says.
+    pub sensitivity: Sheet,
+    /// What is missing, cut or damaged.
+    pub notes: Vec<String>,
+}
+
+impl Folder {
+    /// Reads what is there.
+    pub fn read(root: &Path) -> Self {
+        let mut folder = Self { root: root.to_owned(), ..Self::default() };
+        folder.read_campaign();
+        folder.read_summary();
+        folder.evaluations = folder.sheet("evaluations.csv", true);
+        folder.generations = folder.sheet("generations.csv", true);
+        // What is written at the end is not missed before it.
+        let has_ended = folder.summary.is_some();
+        folder.best = folder.sheet("best.csv", has_ended);
+        folder.failures = folder.sheet("failures.csv", false);
+        folder.measures = folder.sheet("measures.csv", has_ended && folder.is_study());
+        // An objective that is a column as well has its rows twice.
+        folder.refinement = folder.sheet("refinement.csv", false).once();
+        folder.sensitivity = folder.sheet("sensitivity.csv", false).once();
+        folder
+    }
+
+    /// Whether it is a study and no search.
+    pub fn is_study(&self) -> bool {
+        self.campaign.as_ref().is_some_and(|campaign| campaign.plan.is_some())
+    }
+
+    /// Names of the costs' columns.
+    pub fn costs(&self) -> Vec<&str> {
+        let is_cost = |name: &&String| *name == "cost" || name.strip_prefix("cost_").is_some_and(is_number);
+        self.evaluations.names.iter().filter(is_cost).map(String::as_str).collect()
+    }
+
+    /// Names of the parameters' columns.
+    pub fn parameters(&self) -> Vec<&str> {
+        // They follow the last error of a cost, and precede the outcomes.
+        let names = &self.evaluations.names;
+        let Some(last) = names.iter().rposition(|name| name.ends_with("_standard_error")) else {
+            return Vec::new();
+        };
+        let count = match (&self.campaign, &self.summary) {
+            (Some(campaign), _) => campaign.parameters.len(),
+            (None, Some(summary)) => summary.best.as_ref().map_or(0, |best| best.parameters.0.len()),
+            (None, None) => 0,
+        };
+        names.iter().skip(last + 1).take(count).map(String::as_str).collect()
+    }
+
+    /// Names of the outcomes' columns.
+    pub fn outcomes(&self) -> Vec<&str> {
+        let fixed = self.evaluations.names.iter().rposition(|name| name.ends_with("_standard_error"));
+        let before = fixed.map_or(0, |last| last + 1) + self.parameters().len();
+        self.evaluations.names.iter().skip(before).map(String::as_str).collect()
+    }
+
+    /// What the costs stand for: "pi", "-(grains)" where it is to be large.
+    pub fn goals(&self) -> Vec<String> {
+        let known = self.campaign.iter().flat_map(|campaign| &campaign.objectives);
+        let goal = |objective: &Objective| match objective {
+            Objective::Minimise(formula) => formula.clone(),
+            Objective::Maximise(formula) => format!("-({formula})"),
+        };
+        let mut goals: Vec<String> = known.map(goal).collect();
+        let costs = self.costs();
+        if goals.len() != costs.len() {
+            goals = costs.into_iter().map(str::to_owned).collect();
+        }
+        goals
+    }
+
+    fn read_campaign(&mut self) {
+        let path = self.root.join("search.toml");
+        let loaded = Campaign::load(&path);
+        let text = std::fs::read(&path).unwrap_or_default();
+        self.campaign_text = String::from_utf8_lossy(&text).into_owned();
+        match loaded {
+            Ok(campaign) => self.campaign = Some(campaign),
+            Err(LoadError::Faulty { faults, .. }) => {
+                let first = faults.iter().next().map(ToString::to_string).unwrap_or_default();
+                self.notes.push(format!(
+                    "search.toml is damaged or of another version ({first}): it is shown as it is"
+                ));
+            }
+            Err(LoadError::Unreadable { cause, .. }) => {
+                self.notes.push(format!("search.toml {}", why(&cause)));
+            }
+        }
+        match Scenario::load(&self.root.join("scenario.toml")) {
+            Ok(scenario) => self.scenario = Some(scenario),
+            Err(_) => self.notes.push(
+                "scenario.toml is missing or damaged: what to cite for its laws is not known".to_owned(),
+            ),
+        }
+    }
+
+    fn read_summary(&mut self) {
+        match std::fs::read_to_string(self.root.join("summary.json")) {
+            Ok(text) => match serde_json::from_str(&text) {
+                Ok(summary) => self.summary = Some(summary),
+                Err(_) => self.notes.push(not_understood(&text)),
+            },
+            Err(_) => self.notes.push("summary.json is missing: the work has not finished".to_owned()),
+        }
+    }
+
+    fn sheet(&mut self, name: &str, is_due: bool) -> Sheet {
+        let path = self.root.join(name);
+        if !path.exists() {
+            if is_due {
+                self.notes.push(format!("{name} is missing: what it shows is left out"));
+            }
+            return Sheet::default();
+        }
+        match Sheet::read(&path) {
+            Ok(sheet) => {
+                if sheet.dropped > 0 {
+                    self.notes.push(format!("{name} is cut or damaged: rows left out: {}", sheet.dropped));
+                }
+                sheet
+            }
+            Err(reason) => {
+                self.notes.push(format!("{name} cannot be used: {reason}"));
+                Sheet::default()
+            }
+        }
+    }
+}
+
+fn is_number(text: &str) -> bool {
+    text.parse::<u32>().is_ok()
+}

@@ -1,0 +1,76 @@
+//! The page of a search or study.
+
+mod charts;
+mod folder;
+mod study;
+mod tables;
+#[cfg(test)]
+mod tests;
+
+use std::path::Path;
+
+use super::cite::citations;
+use super::listing::{listing, plain};
+use super::{Listing, Report};
+use crate::scenario::Scenario;
+use crate::search::campaign::CampaignSummary as Summary;
+use folder::Folder;
+
+/// The report of the folder of a search or study.
+pub fn report(dir: &Path) -> Report {
+    let folder = Folder::read(dir);
+    let title = folder.campaign.as_ref().map(|campaign| campaign.title.clone()).unwrap_or_default();
+    // What a study is for comes first.
+    let mut charts = study::charts(&folder);
+    charts.extend(charts::charts(&folder));
+    let run = dir.join("best/report.html").is_file();
+    let what = "The run of the best candidate: its replay and charts";
+    Report {
+        kind: if folder.is_study() { "A study" } else { "A search" }.to_owned(),
+        title: if title.is_empty() { "A search or study without a title".to_owned() } else { title },
+        story: story(&folder),
+        notes: folder.notes.clone(),
+        replay: None,
+        links: run.then(|| ["best/report.html".to_owned(), what.to_owned()]).into_iter().collect(),
+        charts,
+        tables: tables::tables(&folder),
+        files: files(&folder),
+        citations: folder.scenario.as_ref().map(citations).unwrap_or_default(),
+    }
+}
+
+/// What it came to, in words.
+fn story(folder: &Folder) -> String {
+    let Some(summary) = &folder.summary else {
+        let count = folder.evaluations.rows.len();
+        return format!("It has not finished; {count} candidates are written down so far.");
+    };
+    let parameters = folder.parameters().len();
+    let space = if parameters == 1 { "1 parameter".to_owned() } else { format!("{parameters} parameters") };
+    let what = if folder.is_study() { "The study" } else { "The search" };
+    let Summary { evaluations, runs, .. } = summary;
+    let mut words = vec![format!("{what} tried {evaluations} candidates over {space} in {runs} runs.")];
+    // The first row of the summary's table is the best candidate, if there is one.
+    if summary.best.is_some() {
+        words.extend(summary.table().first().map(|(_, best)| format!("The best has {best}.")));
+    }
+    if !summary.front.is_empty() {
+        words.push(format!("{} candidates are beaten by no other in every cost.", summary.front.len()));
+    }
+    words.join(" ")
+}
+
+fn files(folder: &Folder) -> Vec<Listing> {
+    let mut files = vec![Listing {
+        title: if folder.is_study() { "The study" } else { "The search" }.to_owned(),
+        lines: plain(&folder.campaign_text),
+    }];
+    if let Ok(text) = std::fs::read_to_string(folder.root.join("best/scenario.toml")) {
+        let lines = match Scenario::from_toml(&text) {
+            Ok(scenario) => listing(&scenario, &text),
+            Err(_) => plain(&text),
+        };
+        files.push(Listing { title: "The best candidate's scenario".to_owned(), lines });
+    }
+    files
+}

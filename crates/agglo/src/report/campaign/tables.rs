@@ -1,0 +1,134 @@
+//! Tables of searches and studies.
+
+use super::folder::Folder;
+use crate::report::Figures;
+use crate::report::sheet::Sheet;
+use crate::scenario::readable;
+
+/// Rows of failures at the most.
+const MOST_FAILURES: usize = 50;
+
+/// The tables; those without data are left out.
+pub fn tables(folder: &Folder) -> Vec<Figures> {
+    let best = [parameters(folder), outcomes(folder)];
+    let studied = [
+        whole(&folder.refinement, "What refinement says", "From refinement.csv."),
+        whole(&folder.sensitivity, "Sensitivity", "From sensitivity.csv."),
+    ];
+    let tables = best.into_iter().chain(studied).chain([figures(folder), failures(folder)]);
+    tables.flatten().chain([again(folder)]).collect()
+}
+
+/// The parameters of the best candidates ([B], tables 1 and 2).
+fn parameters(folder: &Folder) -> Option<Figures> {
+    if folder.is_study() {
+        return None;
+    }
+    let columns = [&["rank", "evaluation"][..], &folder.parameters()].concat();
+    picked(
+        &folder.best,
+        &columns,
+        "The best candidates: their parameters",
+        "In SI units; the letters after the last underscores are the units. From best.csv.",
+    )
+}
+
+/// What the best candidates come to ([B], table 3).
+fn outcomes(folder: &Folder) -> Option<Figures> {
+    if folder.is_study() {
+        return None;
+    }
+    let mut sheet = folder.best.clone();
+    let at = sheet.place("evaluation")?;
+    let outcomes = folder.outcomes();
+    sheet.names.extend(outcomes.iter().map(|name| (*name).to_owned()));
+    let key = folder.evaluations.place("evaluation")?;
+    for row in &mut sheet.rows {
+        let found = folder.evaluations.rows.iter().find(|other| other[key] == row[at]);
+        let entry = |name: &&str| Some(found?[folder.evaluations.place(name)?].clone());
+        row.extend(outcomes.iter().map(|name| entry(name).unwrap_or_default()));
+    }
+    let fixed = ["rank", "cost", "cost_standard_error", "starts", "search_cost", "search_starts"];
+    picked(
+        &sheet,
+        &[&fixed[..], &outcomes].concat(),
+        "The best candidates: what they come to",
+        "Means over starts that the search had not seen, where they were run again; search_cost is what the search saw. \
+         From best.csv and evaluations.csv.",
+    )
+}
+
+fn whole(sheet: &Sheet, title: &str, about: &str) -> Option<Figures> {
+    let columns: Vec<&str> = sheet.names.iter().map(String::as_str).collect();
+    picked(sheet, &columns, title, about)
+}
+
+/// Some columns of a sheet, before the charts.
+fn picked(sheet: &Sheet, columns: &[&str], title: &str, about: &str) -> Option<Figures> {
+    let says_something = |at: &usize| sheet.rows.iter().any(|row| !row[*at].is_empty());
+    let places: Vec<usize> =
+        columns.iter().filter_map(|name| sheet.place(name)).filter(says_something).collect();
+    let rows: Vec<Vec<String>> =
+        sheet.rows.iter().map(|row| places.iter().map(|&at| shown(&row[at])).collect()).collect();
+    if rows.is_empty() {
+        return None;
+    }
+    let head = places.iter().map(|&at| sheet.names[at].clone()).collect();
+    Some(Figures { title: title.to_owned(), about: about.to_owned(), is_first: true, head, rows })
+}
+
+/// An entry as people read it: numbers in four digits.
+fn shown(entry: &str) -> String {
+    entry.parse().map_or_else(|_| entry.to_owned(), |value: f64| readable(value, ""))
+}
+
+fn figures(folder: &Folder) -> Option<Figures> {
+    let rows =
+        folder.summary.as_ref()?.table().into_iter().map(|(what, figure)| vec![what, figure]).collect();
+    Some(Figures { title: "Figures".to_owned(), rows, ..Figures::default() })
+}
+
+fn failures(folder: &Folder) -> Option<Figures> {
+    let sheet = &folder.failures;
+    if sheet.rows.is_empty() {
+        return None;
+    }
+    let count = sheet.rows.len();
+    let about = if count > MOST_FAILURES {
+        format!("The first {MOST_FAILURES} of {count}; failures.csv has all.")
+    } else {
+        String::new()
+    };
+    Some(Figures {
+        title: "Warnings: candidates that could not be run".to_owned(),
+        about,
+        head: sheet.names.clone(),
+        rows: sheet.rows.iter().take(MOST_FAILURES).cloned().collect(),
+        ..Figures::default()
+    })
+}
+
+/// How to run it again: version, seed, command.
+fn again(folder: &Folder) -> Figures {
+    let mut rows = Vec::new();
+    let mut row = |what: &str, value: String| rows.push(vec![what.to_owned(), value]);
+    if let Some(summary) = &folder.summary {
+        row("version", format!("agglo {}", summary.version));
+    }
+    if let Some(campaign) = &folder.campaign {
+        row("seed", campaign.seed.to_string());
+    }
+    let verb = if folder.is_study() { "study" } else { "search" };
+    row("command", format!("agglo {verb} search.toml -o again"));
+    if folder.root.join("best/scenario.toml").is_file() {
+        row("command of the best one's run", "agglo run best/scenario.toml -o best-again".to_owned());
+    }
+    Figures {
+        title: "To run it again".to_owned(),
+        about: "In this folder. The same version, files and seed give the same numbers, to the last bit, on the same \
+                machine and any number of threads."
+            .to_owned(),
+        rows,
+        ..Figures::default()
+    }
+}

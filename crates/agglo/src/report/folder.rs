@@ -1,0 +1,187 @@
+//! What a run's folder holds, and what of it cannot be used.
+
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use crate::run::Summary;
+use crate::scenario::Scenario;
+
+use super::listing::{Line, listing, plain};
+use super::table::Table;
+
+/// What a run's folder holds.
+#[derive(Debug, Default)]
+pub struct Folder {
+    /// The folder.
+    pub root: PathBuf,
+    /// The resolved scenario.
+    pub scenario: Option<Scenario>,
+    /// The resolved scenario's text.
+    pub scenario_text: Option<String>,
+    /// The closing figures.
+    pub summary: Option<Summary>,
+    /// Tables over time, by the name of their file without its ending.
+    pub tables: Vec<(String, Table)>,
+    /// Frames of grains in the order of time.
+    pub frames: Vec<PathBuf>,
+    /// What is missing, cut or damaged.
+    pub notes: Vec<String>,
+}
+
+impl Folder {
+    /// Reads what is there.
+    pub fn read(root: &Path) -> Self {
+        let mut folder = Self { root: root.to_owned(), ..Self::default() };
+        folder.read_scenario();
+        folder.read_summary();
+        folder.read_tables();
+        folder.find_frames();
+        folder
+    }
+
+    /// Whether it is a run's folder at all.
+    pub fn is_a_run(&self) -> bool {
+        self.scenario_text.is_some()
+            || self.summary.is_some()
+            || !self.tables.is_empty()
+            || !self.frames.is_empty()
+    }
+
+    /// The table of that name.
+    pub fn table(&self, name: &str) -> Option<&Table> {
+        self.tables.iter().find(|(known, _)| known == name).map(|(_, table)| table)
+    }
+
+    /// The scenario's lines, with marks of defaults where it can be understood.
+    pub fn lines(&self) -> Vec<Line> {
+        let text = self.scenario_text.as_deref().unwrap_or("");
+        match &self.scenario {
+            Some(scenario) => listing(scenario, text),
+            None => plain(text),
+        }
+    }
+
+    fn read_scenario(&mut self) {
+        let text = match std::fs::read_to_string(self.root.join("scenario.toml")) {
+            Ok(text) => text,
+            Err(error) => {
+                let reason = why(&error);
+                return self.notes.push(format!("scenario.toml {reason}: what was run is not known"));
+            }
+        };
+        match Scenario::from_toml(&text) {
+            Ok(scenario) => self.scenario = Some(scenario),
+            Err(faults) => {
+                let first = faults.iter().next().map(ToString::to_string).unwrap_or_default();
+                self.notes.push(format!(
+                    "scenario.toml is damaged or of another version ({first}): it is shown as it is, without marks of \
+                     defaults, and what to cite is not known"
+                ));
+            }
+        }
+        self.scenario_text = Some(text);
+    }
+
+    fn read_summary(&mut self) {
+        let text = match std::fs::read_to_string(self.root.join("summary.json")) {
+            Ok(text) => text,
+            Err(error) if error.kind() == ErrorKind::NotFound => {
+                return self.notes.push("summary.json is missing: the run has not finished".to_owned());
+            }
+            Err(error) => {
+                let reason = why(&error);
+                return self.notes.push(format!("summary.json {reason}: closing figures are left out"));
+            }
+        };
+        match serde_json::from_str(&text) {
+            Ok(summary) => self.summary = Some(summary),
+            Err(_) => self.notes.push(not_understood(&text)),
+        }
+    }
+
+    fn read_tables(&mut self) {
+        for path in files(&self.root.join("series"), "", ".csv") {
+            let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            match Table::read(&path) {
+                Ok(table) => {
+                    if table.dropped > 0 {
+                        let rows = if table.dropped == 1 {
+                            "1 row is".to_owned()
+                        } else {
+                            format!("{} rows are", table.dropped)
+                        };
+                        self.notes.push(format!("series/{name}.csv is cut or damaged: {rows} left out"));
+                    }
+                    self.tables.push((name, table));
+                }
+                Err(reason) => self.notes.push(format!("series/{name}.csv cannot be used: {reason}")),
+            }
+        }
+        if self.tables.is_empty() {
+            return self.notes.push("there are no tables in series/: charts are left out".to_owned());
+        }
+        // Every run writes these two.
+        for name in ["energy", "steps"] {
+            if self.table(name).is_none() && !self.root.join(format!("series/{name}.csv")).exists() {
+                self.notes.push(format!("series/{name}.csv is missing: its charts are left out"));
+            }
+        }
+    }
+
+    fn find_frames(&mut self) {
+        self.frames = files(&self.root.join("frames"), "grains_", ".vtp");
+        if self.frames.is_empty() {
+            return self.notes.push("there are no frames in frames/: the replay is left out".to_owned());
+        }
+        // Frames are numbered from 0 without gaps.
+        let missing = missing(&self.frames);
+        if !missing.is_empty() {
+            let shown: Vec<String> = missing.iter().take(5).map(ToString::to_string).collect();
+            let more = if missing.len() > 5 { " and more" } else { "" };
+            self.notes.push(format!("frames are missing: {}{more}", shown.join(", ")));
+        }
+    }
+}
+
+/// Numbers that the names of frames leave out.
+fn missing(frames: &[PathBuf]) -> Vec<usize> {
+    let number = |path: &PathBuf| path.file_stem()?.to_str()?.rsplit('_').next()?.parse::<usize>().ok();
+    let there: Vec<usize> = frames.iter().filter_map(number).collect();
+    let end = there.last().map_or(0, |last| last + 1);
+    (0..end).filter(|number| there.binary_search(number).is_err()).collect()
+}
+
+/// Why a file cannot be read, as the end of a sentence.
+pub fn why(error: &std::io::Error) -> String {
+    match error.kind() {
+        ErrorKind::NotFound => "is missing".to_owned(),
+        ErrorKind::InvalidData => "is damaged (it is not text)".to_owned(),
+        _ => format!("cannot be read ({error})"),
+    }
+}
+
+/// What is wrong with the text of a `summary.json`.
+pub fn not_understood(text: &str) -> String {
+    let ours = env!("CARGO_PKG_VERSION");
+    let value: Option<serde_json::Value> = serde_json::from_str(text).ok();
+    match value.as_ref().and_then(|value| value.get("version")?.as_str()) {
+        Some(version) if version != ours => format!(
+            "summary.json is of agglo {version}, which agglo {ours} does not know: closing figures are left out"
+        ),
+        _ => "summary.json is cut or damaged: closing figures are left out".to_owned(),
+    }
+}
+
+/// Files of a folder whose names begin and end so, in the order of their names.
+fn files(folder: &Path, begin: &str, end: &str) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut found: Vec<PathBuf> = entries
+        .map(|entry| entry.path())
+        .filter(|path| {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            name.starts_with(begin) && name.ends_with(end)
+        })
+        .collect();
+    found.sort();
+    found
+}

@@ -1,0 +1,263 @@
+//! The page: one file with everything in it.
+
+use std::io::Write as _;
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use flate2::Compression;
+use flate2::write::DeflateEncoder;
+
+use super::chart::{Chart, Kind};
+use super::{Citation, Figures, Line, Listing, Report};
+
+const STYLE: &str = include_str!("page/page.css");
+/// In the order in which they need each other.
+const SCRIPTS: [&str; 8] = [
+    include_str!("page/colors.js"),
+    include_str!("page/replay_data.js"),
+    include_str!("page/scene.js"),
+    include_str!("page/camera.js"),
+    include_str!("page/pointers.js"),
+    include_str!("page/replay.js"),
+    include_str!("page/charts.js"),
+    include_str!("page/page.js"),
+];
+const STAGE: &str = include_str!("page/replay.html");
+const LICENCES: &str = include_str!("page/licences.html");
+/// Plotly.js as base64 of deflated bytes; see `build.rs`.
+const PLOTLY: &str = include_str!(concat!(env!("OUT_DIR"), "/plotly.min.js.deflate.base64"));
+/// Nothing may be loaded from anywhere; the charts compile some of their drawing as they go.
+const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline' 'unsafe-eval'; style-src 'unsafe-inline'; img-src data: blob:";
+
+/// The text as it may stand in a page.
+pub fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+impl Report {
+    /// The whole page.
+    pub fn page(&self) -> String {
+        let title = escaped(&self.title);
+        let mut page = format!(
+            "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+             <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n\
+             <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n"
+        );
+        let sections = [
+            self.head(),
+            self.notes(),
+            self.links(),
+            self.stage(),
+            self.tables_of(true),
+            self.charts(),
+            self.tables_of(false),
+            self.files.iter().map(file).collect(),
+            self.sources(),
+        ];
+        page.extend(sections);
+        page.push_str("</main>\n");
+        page.push_str(&foot());
+        page.push_str(&self.data());
+        page.push_str("</body>\n</html>\n");
+        page
+    }
+
+    fn head(&self) -> String {
+        let (title, story, kind) = (escaped(&self.title), escaped(&self.story), escaped(&self.kind));
+        format!(
+            "<header>\n<p class=\"soft\">{kind}</p>\n<h1>{title}</h1>\n<p class=\"story\">{story}</p>\n</header>\n<main>\n\
+             <noscript><p class=\"note\">The replay and the charts need JavaScript, which this browser does not \
+             run.</p></noscript>\n"
+        )
+    }
+
+    fn notes(&self) -> String {
+        if self.notes.is_empty() {
+            return String::new();
+        }
+        let item = |note: &String| format!("<li>{}</li>\n", escaped(note));
+        let items: String = self.notes.iter().map(item).collect();
+        format!(
+            "<section class=\"note\" id=\"notes\">\n<p>What is not here, or not whole:</p>\n<ul>\n{items}</ul>\n</section>\n"
+        )
+    }
+
+    fn stage(&self) -> String {
+        let Some(replay) = &self.replay else { return String::new() };
+        let has = |array: &str| replay.plan.frames.iter().any(|frame| frame.arrays.contains_key(array));
+        STAGE
+            .replace("{{bonds}}", &switch("bonds", has("bonds")))
+            .replace("{{rays}}", &switch("rays", has("ray_x")))
+    }
+
+    fn charts(&self) -> String {
+        if self.charts.is_empty() {
+            return String::new();
+        }
+        let cards: String = self.charts.iter().map(card).collect();
+        format!(
+            "<h2>Charts</h2>\n<p class=\"soft\">Point to see figures, drag to zoom, double click to go back, click a \
+             name to hide its line.</p>\n<section id=\"charts\" class=\"charts\">\n{cards}</section>\n"
+        )
+    }
+
+    /// The tables that stand before the charts, or those after them.
+    fn tables_of(&self, first: bool) -> String {
+        self.tables.iter().filter(|table| table.is_first == first).map(table).collect()
+    }
+
+    fn links(&self) -> String {
+        let link = |[place, what]: &[String; 2]| {
+            format!("<p><a href=\"{}\">{}</a></p>\n", escaped(place), escaped(what))
+        };
+        self.links.iter().map(link).collect()
+    }
+
+    fn sources(&self) -> String {
+        let program = escaped(&super::cite::program());
+        let items: String = self.citations.iter().map(source).collect();
+        format!("<h2>What to cite</h2>\n<ul class=\"card sources\">\n<li>{program}</li>\n{items}</ul>\n")
+    }
+
+    /// The data and the scripts at the end of the page.
+    fn data(&self) -> String {
+        let plan = self.replay.as_ref().map(|replay| &replay.plan);
+        let data = serde_json::json!({ "replay": plan, "charts": self.charts });
+        // Within a script only `</` and `<!--` could end it early.
+        let data = data.to_string().replace('<', "\\u003c");
+        let frames = self.replay.as_ref().map_or_else(String::new, |replay| deflated(&replay.bytes));
+        let plotly = if self.charts.is_empty() { "" } else { PLOTLY };
+        format!(
+            "<script type=\"application/json\" id=\"report\">{data}</script>\n\
+             <script type=\"text/plain\" id=\"frames\">{frames}</script>\n\
+             <script type=\"text/plain\" id=\"plotly\">{plotly}</script>\n\
+             <script type=\"module\">\n{}</script>\n",
+            SCRIPTS.join("\n")
+        )
+    }
+}
+
+fn switch(name: &str, is_there: bool) -> String {
+    if is_there {
+        format!("<label><input type=\"checkbox\" data-part=\"{name}\" checked> {name}</label>")
+    } else {
+        String::new()
+    }
+}
+
+fn card(chart: &Chart) -> String {
+    let (id, title, caption) = (escaped(&chart.id), escaped(&chart.title), escaped(&chart.caption));
+    let item = |words: &String| format!("<li>{}</li>", escaped(words));
+    let words: String = chart.words.iter().map(item).collect();
+    let words = if words.is_empty() {
+        words
+    } else {
+        format!("<details><summary>In words</summary><ul>{words}</ul></details>\n")
+    };
+    let class = if chart.kind == Kind::Parallel { "card whole" } else { "card" };
+    format!(
+        "<figure class=\"{class}\">\n<h3>{title}</h3>\n<div class=\"chart\" id=\"chart-{id}\" role=\"img\" \
+         aria-label=\"{title}. {caption}\"></div>\n<figcaption>{caption}</figcaption>\n{words}</figure>\n"
+    )
+}
+
+fn table(table: &Figures) -> String {
+    let head = |name: &String| format!("<th scope=\"col\">{}</th>", escaped(name));
+    let head: String = table.head.iter().map(head).collect();
+    let head = if table.head.is_empty() { head } else { format!("<tr>{head}</tr>\n") };
+    let cell = |cell: &String| format!("<td>{}</td>", escaped(cell));
+    let row = |row: &Vec<String>| {
+        let cells: String = row.iter().map(cell).collect();
+        format!("<tr>{cells}</tr>\n")
+    };
+    let rows: String = table.rows.iter().map(row).collect();
+    let about = match table.about.as_str() {
+        "" => String::new(),
+        about => format!("<p class=\"soft\">{}</p>\n", escaped(about)),
+    };
+    format!(
+        "<h2>{}</h2>\n{about}<div class=\"card wide{}\" tabindex=\"0\"><table>\n{head}{rows}</table></div>\n",
+        escaped(&table.title),
+        if table.is_first { " numbers" } else { "" }
+    )
+}
+
+fn file(file: &Listing) -> String {
+    if file.lines.is_empty() {
+        return String::new();
+    }
+    let lines: String = file.lines.iter().map(line).collect();
+    let title = escaped(&file.title);
+    let any = file.lines.iter().any(|line| line.is_default);
+    let marks = if any { "; defaults are grey and marked <i>default</i>" } else { "" };
+    format!(
+        "<h2>{title}</h2>\n<details class=\"card file\"><summary>Show the file{marks}</summary>\n<pre>{lines}</pre>\
+         </details>\n"
+    )
+}
+
+fn line(line: &Line) -> String {
+    let text = escaped(&line.text);
+    if line.is_default {
+        format!("<span class=\"default\">{text}<i>  default</i></span>\n")
+    } else {
+        format!("<span>{text}</span>\n")
+    }
+}
+
+fn source(citation: &Citation) -> String {
+    let (title, source) = (escaped(citation.title.trim_end_matches('.')), escaped(&citation.source));
+    format!("<li><b>{}</b> ({title}): {source}</li>\n", citation.law)
+}
+
+fn foot() -> String {
+    let version = env!("CARGO_PKG_VERSION");
+    format!(
+        "<footer>\n<p class=\"soft\">Written by agglo {version}. This file asks nothing of the network.</p>\n{LICENCES}\
+         </footer>\n"
+    )
+}
+
+/// Base64 of deflated bytes.
+fn deflated(bytes: &[u8]) -> String {
+    let mut encoder = DeflateEncoder::new(Vec::new(), Compression::fast());
+    // Writing to a vector cannot fail.
+    let packed = encoder.write_all(bytes).and_then(|()| encoder.finish()).unwrap_or_default();
+    STANDARD.encode(packed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_users_write_cannot_break_the_page() {
+        let hostile = "</script><script>alert(1)</script>\" onload=\"x & <!--".to_owned();
+        let report = Report {
+            title: hostile.clone(),
+            story: hostile.clone(),
+            notes: vec![hostile.clone()],
+            tables: vec![Figures {
+                title: hostile.clone(),
+                rows: vec![vec![hostile.clone()]],
+                ..Figures::default()
+            }],
+            charts: vec![Chart { title: hostile.clone(), caption: hostile.clone(), ..Chart::default() }],
+            files: vec![Listing {
+                title: hostile.clone(),
+                lines: vec![Line { text: hostile.clone(), is_default: true }],
+            }],
+            ..Report::default()
+        };
+        let page = report.page();
+        let (shown, data) = page.split_once("<script type=\"application/json\"").unwrap();
+        assert!(!shown.contains("<script>") && !shown.contains("\" onload"));
+        assert!(!data.split_once('>').unwrap().1.split_once("</script>").unwrap().0.contains('<'));
+        assert!(page.contains("&lt;script&gt;alert(1)&lt;/script&gt;"));
+        // Four scripts of our own, and Plotly as a block that has no angle brackets.
+        assert_eq!(page.matches("<script").count(), 4);
+        assert_eq!(page.matches("</script>").count(), 4);
+        assert!(PLOTLY.len() > 1_000_000 && !PLOTLY.contains('<'));
+    }
+}

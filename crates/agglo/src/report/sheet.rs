@@ -1,0 +1,73 @@
+//! Tables of numbers and words, read back.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// A table as it stands in its file.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Sheet {
+    /// Names of the columns.
+    pub names: Vec<String>,
+    /// Rows, each with an entry for every column.
+    pub rows: Vec<Vec<String>>,
+    /// Rows that are cut or damaged and were left out.
+    pub dropped: usize,
+}
+
+impl Sheet {
+    /// Reads a table; rows of another length than the header are left out and counted.
+    ///
+    /// # Errors
+    /// Why it cannot be read.
+    pub fn read(path: &Path) -> Result<Self, String> {
+        // Bytes that are no text become entries that are no numbers.
+        let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
+        let text = String::from_utf8_lossy(&bytes);
+        let mut reader = csv::ReaderBuilder::new().flexible(true).from_reader(text.as_bytes());
+        let names: Vec<String> =
+            reader.headers().map_err(|error| error.to_string())?.iter().map(str::to_owned).collect();
+        if names.is_empty() {
+            return Err("it is empty".to_owned());
+        }
+        let mut rows: Vec<Vec<String>> =
+            reader.records().flatten().map(|row| row.iter().map(str::to_owned).collect()).collect();
+        let all = rows.len();
+        // The last row of a file that does not end its last line may have lost digits.
+        if !text.ends_with('\n') {
+            rows.pop();
+        }
+        rows.retain(|row| row.len() == names.len());
+        Ok(Self { dropped: all - rows.len(), names, rows })
+    }
+
+    /// The place of the column of that name.
+    pub fn place(&self, name: &str) -> Option<usize> {
+        self.names.iter().position(|known| known == name)
+    }
+
+    /// The column of that name.
+    pub fn words(&self, name: &str) -> Option<Vec<&str>> {
+        let at = self.place(name)?;
+        Some(self.rows.iter().map(|row| row[at].as_str()).collect())
+    }
+
+    /// The column of that name as numbers; an entry that is none is NaN.
+    pub fn numbers(&self, name: &str) -> Option<Vec<f64>> {
+        Some(self.words(name)?.into_iter().map(|entry| entry.parse().unwrap_or(f64::NAN)).collect())
+    }
+
+    /// The same with each row once.
+    #[must_use]
+    pub fn once(mut self) -> Self {
+        let mut seen = BTreeSet::new();
+        self.rows.retain(|row| seen.insert(row.clone()));
+        self
+    }
+
+    /// Keeps the rows that have this word in this column; all where there is no such column.
+    pub fn keep(&mut self, name: &str, word: &str) {
+        if let Some(at) = self.place(name) {
+            self.rows.retain(|row| row[at] == word);
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! What happened, in plain words.
+
+use crate::run::{HardSummary, SoftSummary, Summary};
+use crate::scenario::readable;
+
+/// A few sentences on what a run came to.
+pub fn story(summary: &Summary) -> String {
+    match summary {
+        Summary::Soft(summary) => soft(summary),
+        Summary::Hard(summary) => hard(summary),
+    }
+}
+
+fn soft(summary: &SoftSummary) -> String {
+    let mut words =
+        vec![format!("{} were followed for {}.", grains(summary.grains as u64), time(summary.time_s))];
+    let rays: u64 = summary.pulses.iter().map(|pulse| pulse.rays).sum();
+    if rays > 0 {
+        let [launched, absorbed]: [f64; 2] = [
+            summary.pulses.iter().map(|pulse| pulse.power_in).sum(),
+            summary.pulses.iter().map(|pulse| pulse.power_absorbed).sum(),
+        ];
+        let pulses = counted(summary.pulses.len() as u64, "acoustic pulse");
+        let part = percent(absorbed / launched);
+        words.push(format!(
+            "{pulses} of {rays} rays in all hit them; the grains took up {part} of the power."
+        ));
+    }
+    if summary.bonds_start > 0 {
+        let broken = summary.bonds_start.saturating_sub(summary.bonds_end);
+        let part = percent(broken as f64 / summary.bonds_start as f64);
+        words.push(format!("Of {} bonds {broken} broke ({part}).", summary.bonds_start));
+    }
+    let clusters = &summary.clusters;
+    words.push(match clusters.count {
+        1 => "At the end they are one cluster.".to_owned(),
+        count => format!(
+            "At the end they are {count} clusters, the largest with {} of the mass: a dispersion degree of {:.3}.",
+            percent(clusters.largest_fraction),
+            summary.dispersion_degree
+        ),
+    });
+    words.push(drift(summary.energy.balance.drift_relative));
+    words.join(" ")
+}
+
+fn hard(summary: &HardSummary) -> String {
+    let mut words = vec![format!(
+        "{} moved for {} and met {} times: {}, {} and {}.",
+        grains(summary.grains_start),
+        time(summary.time_s),
+        summary.impacts,
+        counted(summary.bounces, "bounce"),
+        counted(summary.merges, "merge"),
+        counted(summary.fragmentations, "breakage"),
+    )];
+    words.push(format!(
+        "{} are left, in the mean {:.3} times as large as at the start.",
+        grains(summary.grains_end),
+        summary.radius_ratio
+    ));
+    if summary.largest_primaries > 1 {
+        words.push(format!(
+            "The largest holds {} of the first grains, {} of the mass.",
+            summary.largest_primaries,
+            percent(summary.largest_fraction)
+        ));
+    }
+    words.push(format!(
+        "Their mean temperature is {} (the hottest has {}).",
+        readable(summary.temperature_mean, "K"),
+        readable(summary.temperature_highest, "K")
+    ));
+    words.push(drift(summary.energy.drift_relative));
+    words.join(" ")
+}
+
+fn grains(count: u64) -> String {
+    counted(count, "grain")
+}
+
+fn counted(count: u64, what: &str) -> String {
+    if count == 1 { format!("1 {what}") } else { format!("{count} {what}s") }
+}
+
+fn time(seconds: f64) -> String {
+    readable(seconds, "s")
+}
+
+fn percent(part: f64) -> String {
+    format!("{:.1} %", 100.0 * part)
+}
+
+fn drift(relative: f64) -> String {
+    format!("Energy is accounted for to {:.1e} of all there was.", relative.abs())
+}

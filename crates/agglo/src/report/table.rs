@@ -1,0 +1,74 @@
+//! Tables of a run, read back as columns.
+
+use std::path::Path;
+
+use super::sheet::Sheet;
+
+/// A table of numbers.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
+    /// Names of the columns, with their units: `time_s`.
+    pub names: Vec<String>,
+    /// The columns, one value a row.
+    pub columns: Vec<Vec<f64>>,
+    /// Rows that are cut or damaged and were left out.
+    pub dropped: usize,
+}
+
+impl Table {
+    /// Reads a table; rows of another length than the header are left out and counted.
+    ///
+    /// # Errors
+    /// Why it cannot be read.
+    pub fn read(path: &Path) -> Result<Self, String> {
+        let Sheet { names, rows, dropped } = Sheet::read(path)?;
+        let mut table = Self { columns: vec![Vec::new(); names.len()], names, dropped };
+        for row in rows {
+            // A damaged row has entries that are no numbers; NaN is one.
+            match row.iter().map(|entry| entry.parse().ok()).collect::<Option<Vec<f64>>>() {
+                Some(numbers) => {
+                    table.columns.iter_mut().zip(numbers).for_each(|(column, value)| column.push(value));
+                }
+                None => table.dropped += 1,
+            }
+        }
+        Ok(table)
+    }
+
+    /// The column of that name.
+    pub fn column(&self, name: &str) -> Option<&[f64]> {
+        let at = self.names.iter().position(|known| known == name)?;
+        Some(&self.columns[at])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cut_row_is_left_out() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("t.csv");
+        std::fs::write(&path, "time_s,count\n0.0,1\n0.5,2\n1.0").unwrap();
+        let table = Table::read(&path).unwrap();
+        assert_eq!(table.column("time_s"), Some(&[0.0, 0.5][..]));
+        assert_eq!(table.dropped, 1);
+        // 12 could have been 123.
+        std::fs::write(&path, "time_s,count\n0.0,1\n0.5,12").unwrap();
+        assert_eq!(Table::read(&path).unwrap().column("count"), Some(&[1.0][..]));
+        std::fs::write(&path, "").unwrap();
+        assert!(Table::read(&path).is_err());
+    }
+
+    #[test]
+    fn a_damaged_row_is_left_out_and_gaps_stay() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("t.csv");
+        std::fs::write(&path, b"time_s,count\n0.0,1\n0.5,\xff\xfe\n1.0,NaN\n1.5\n2.0,5\n").unwrap();
+        let table = Table::read(&path).unwrap();
+        assert_eq!(table.column("time_s"), Some(&[0.0, 1.0, 2.0][..]));
+        assert!(table.column("count").unwrap()[1].is_nan());
+        assert_eq!(table.dropped, 2);
+    }
+}
