@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs every test: the Rust tests, the examples in the documentation, the Python tests that read our files with VTK, and
-# the tests that open reports in a browser.
+# Runs every test: the Rust tests, the examples in the documentation, the Python tests that read our files with VTK and do
+# what the tutorials say, and the tests that open reports in a browser. Then it builds the guide.
 #
 # Needs Rust (cargo), Python 3.11 or later and, for the browser, Node.js 20 or later. What else is missing is installed:
 # Python packages into target/venv, npm packages into target/browser, and Debian packages only where something does not
@@ -49,7 +49,8 @@ prepare() {
         rm -rf "$venv"
         python3 -m venv "$venv"
     fi
-    "$venv/bin/python" -m pip install --quiet --disable-pip-version-check -r tests/python/requirements.txt
+    "$venv/bin/python" -m pip install --quiet --disable-pip-version-check \
+        -r tests/python/requirements.txt -r docs/book/requirements.txt
     # VTK opens no window here, but some of its wheels want the libraries of one.
     "$venv/bin/python" -c 'import vtk' 2>/dev/null || install_debian libgl1 libx11-6 libxrender1
     "$venv/bin/python" -c 'import vtk'
@@ -87,6 +88,8 @@ run cargo test --locked --workspace --lib --bins --tests --examples
 run cargo test --locked --workspace --doc
 run "$venv/bin/python" -m pytest -q tests/python
 run node --test --test-reporter=tap --test-concurrency=1 tests/browser/
+
+run docs/book/build.sh
 
 say "closing lines"
 grep -E '^(     Running|   Doc-tests|test result:)|^[0-9]+ passed|^# (tests|pass|fail) [0-9]+' "$log"

@@ -4,10 +4,12 @@
     cargo build --release && python3 docs/studies/halving.py [starts]
 
 Runs both sample problems to 0.5 s, that is one pulse and what follows from it, from several starts (seeds) and with
-three steps, and prints means with their standard errors. About two minutes on two cores for five starts.
+three steps, and prints means with their standard errors. About two minutes on two cores for five starts. AGGLO names
+another program.
 """
 
 import csv
+import os
 import pathlib
 import statistics
 import subprocess
@@ -15,7 +17,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PROGRAM = ROOT / "target" / "release" / "agglo"
+PROGRAM = os.environ.get("AGGLO", ROOT / "target" / "release" / "agglo")
 SCENARIOS = {
     "sound laws": (
         "acoustic-dispersal-sound",

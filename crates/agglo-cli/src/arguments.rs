@@ -7,6 +7,7 @@ use clap::{Args, Parser, Subcommand};
 /// Simulates how particulate agglomerates grow, break up and disperse, and searches for the best conditions.
 #[derive(Debug, Parser)]
 #[command(name = "agglo", version, about, arg_required_else_help = true)]
+#[command(after_help = "Exit codes: 0 done, 1 a run failed or was interrupted, 2 bad input")]
 pub(crate) struct Arguments {
     #[command(subcommand)]
     pub verb: Verb,
@@ -32,6 +33,19 @@ pub(crate) enum Verb {
     Explain {
         /// The law's word in a scenario, such as hertz
         law: Option<String>,
+    },
+    /// List all laws: words, equations, sources, engines
+    ListLaws(ListForm),
+    /// Print the completions of a shell
+    Completions {
+        /// Which one
+        shell: clap_complete::Shell,
+    },
+    /// Print the manual page of the program
+    Man {
+        /// Write it and the pages of all verbs into this folder instead
+        #[arg(short, long = "output", value_name = "FOLDER")]
+        output: Option<PathBuf>,
     },
     /// Print the JSON schema of scenario files, for editors
     Schema {
@@ -85,6 +99,18 @@ pub(crate) struct RunOrders {
     #[cfg(feature = "watch")]
     #[arg(long)]
     pub watch: bool,
+}
+
+/// How to print the list of laws.
+#[derive(Args, Clone, Copy, Debug)]
+#[group(multiple = false)]
+pub(crate) struct ListForm {
+    /// As a table in Markdown
+    #[arg(long)]
+    pub markdown: bool,
+    /// As JSON
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// What to run, search or study.

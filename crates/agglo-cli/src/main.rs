@@ -4,6 +4,8 @@
 
 mod arguments;
 mod explain;
+mod laws;
+mod manuals;
 mod progress;
 mod read;
 mod render;
@@ -47,6 +49,9 @@ fn main() -> ExitCode {
         Verb::New { template } => new(&template),
         Verb::Check { scenario, settings } => check(&scenario, &settings),
         Verb::Explain { law } => explain::explain(law.as_deref()),
+        Verb::ListLaws(form) => laws::list(form),
+        Verb::Completions { shell } => manuals::completions(shell),
+        Verb::Man { output } => manuals::man(output.as_deref()),
         Verb::Schema { search } => print(&format!("{:#}", if search { campaign_schema() } else { schema() })),
         Verb::Report { folder } => report::report(&folder),
         Verb::Cite { folder } => report::cite(&folder),
@@ -86,7 +91,7 @@ fn new(name: &str) -> Result<(), Failure> {
         return print(found.text);
     }
     let known: Vec<String> =
-        TEMPLATES.iter().map(|known| format!("  {:<16}{}", known.name, known.title)).collect();
+        TEMPLATES.iter().map(|known| format!("  {:<20}{}", known.name, known.title)).collect();
     let advice = nearest_template(name).map(|near| format!("; did you mean \"{near}\"?")).unwrap_or_default();
     let known = known.join("\n");
     Err(Failure::bad_input(format!("error: there is no template \"{name}\"{advice}\n{known}")))

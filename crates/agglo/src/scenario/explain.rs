@@ -72,6 +72,11 @@ impl Page {
         self.source.lines().next().unwrap_or("").trim_start_matches("//!").trim()
     }
 
+    /// Whether the law's code offers the energy that it stores, whose slope its force is.
+    pub fn offers_energy(&self) -> bool {
+        self.source.contains("pub fn energy(")
+    }
+
     /// The whole page as plain text with Markdown headings.
     pub fn text(&self) -> String {
         let lines = self.source.lines().map_while(|line| line.strip_prefix("//!"));

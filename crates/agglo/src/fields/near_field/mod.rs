@@ -1,6 +1,10 @@
 //! Attraction and repulsion between grains at a distance ([A] 28): the laws, and how far they are followed.
 //!
-//! Signs as in contact: a force > 0 repels. Energies are zero at infinity, or at the cut-off where there is one.
+//! # Source
+//! [A] T. I. Zohdi, Comput. Mech. 57, 465 (2016), eq. 28; `coulomb` and `van_der_waals` name theirs.
+//!
+//! # Signs
+//! As in contact: a force > 0 repels. Energies are zero at infinity, or at the cut-off where there is one.
 
 mod coulomb;
 mod power_pair;
