@@ -87,7 +87,7 @@ prepare_browser
 run cargo test --locked --workspace --lib --bins --tests --examples
 run cargo test --locked --workspace --doc
 run "$venv/bin/python" -m pytest -q tests/python
-run node --test --test-reporter=tap --test-concurrency=1 tests/browser/
+run node --test --test-reporter=tap --test-concurrency=1 tests/browser/*.test.mjs
 
 run docs/book/build.sh
 

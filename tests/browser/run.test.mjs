@@ -77,7 +77,7 @@ test("plays, scrubs and steps", async () => {
 test("colours by what the frames hold", async () => {
   await replay("replay.show(8)");
   const choices = await part("color").locator("option").evaluateAll((options) => options.map((option) => option.value));
-  for (const wanted of ["speed", "cluster", "absorbed", "radius", "id"]) assert.ok(choices.includes(wanted), wanted);
+  for (const wanted of ["speed", "cluster", "absorbed_power", "size", "id"]) assert.ok(choices.includes(wanted), wanted);
   const pictures = [];
   for (const choice of choices) {
     await part("color").selectOption(choice);

@@ -26,13 +26,10 @@ BLOCK = re.compile(r"((?:<!--.*?-->\n)*)```(\w*)\n(.*?)^```$", re.DOTALL | re.MU
 
 
 @pytest.fixture(scope="module")
-def program():
+def program(request):
     """The program under test, built if none is named."""
     named = os.environ.get("AGGLO")
-    if named:
-        return Path(named)
-    subprocess.run(["cargo", "build", "--quiet", "--locked", "-p", "agglo-cli"], cwd=ROOT, check=True)
-    return ROOT / "target/debug/agglo"
+    return Path(named) if named else request.getfixturevalue("built") / "agglo"
 
 
 def blocks(text):

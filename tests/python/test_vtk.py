@@ -6,7 +6,6 @@ crates/agglo/examples/write_frames.rs.
 
 import subprocess
 import xml.etree.ElementTree as ElementTree
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,14 +13,10 @@ import pytest
 vtk = pytest.importorskip("vtk")
 from vtk.util.numpy_support import vtk_to_numpy  # noqa: E402
 
-ROOT = Path(__file__).resolve().parents[2]
-
-
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory):
+def folder(tmp_path_factory, built):
     out = tmp_path_factory.mktemp("frames")
-    command = ["cargo", "run", "--quiet", "-p", "agglo", "--example", "write_frames", "--", str(out)]
-    subprocess.run(command, cwd=ROOT, check=True)
+    subprocess.run([built / "examples/write_frames", out], check=True)
     return out
 
 

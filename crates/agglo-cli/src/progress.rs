@@ -97,6 +97,7 @@ impl Display {
     /// Shows how far pictures are.
     pub(crate) fn show_film(&mut self, progress: FilmProgress) {
         let (done, all, state) = match progress {
+            FilmProgress::Without(what) => return self.line(&format!("warning: {what}")),
             FilmProgress::Looking(done, all) => (done, all, format!("{done} of {all} frames looked through")),
             FilmProgress::Drawing(done, all) => {
                 let passed = self.drawing.get_or_insert_with(Instant::now).elapsed().as_secs_f64();
@@ -136,16 +137,22 @@ impl Display {
         }
     }
 
-    /// Takes the bar away and says how many warnings there were, and how long it took.
-    pub(crate) fn finish(mut self) -> String {
+    /// Takes the bar away and says how long it took; then the same with how many warnings there were meanwhile.
+    pub(crate) fn finish(mut self) -> (String, String) {
         self.release();
         self.bar.finish_and_clear();
-        let warnings = match self.warnings {
-            0 => "no warnings".to_owned(),
-            1 => "1 warning".to_owned(),
-            count => format!("{count} warnings"),
-        };
-        format!("{}, {warnings}", clock(self.started.elapsed().as_secs_f64()))
+        let wall = clock(self.started.elapsed().as_secs_f64());
+        let both = format!("{wall}, {}", count(self.warnings));
+        (wall, both)
+    }
+}
+
+/// "no warnings", "1 warning", "2 warnings".
+pub(crate) fn count(warnings: usize) -> String {
+    match warnings {
+        0 => "no warnings".to_owned(),
+        1 => "1 warning".to_owned(),
+        count => format!("{count} warnings"),
     }
 }
 

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 
 use agglo::math::Vec3;
-use agglo::render::{Background, Film, FilmEnding, Map, Options, Output, Shots, Side, View, film};
+use agglo::plot::Map;
+use agglo::render::{Background, Film, FilmEnding, Options, Output, Shots, Side, View, film};
 use clap::{Args, ValueEnum};
 
 use crate::progress::Display;
@@ -41,7 +42,7 @@ pub(crate) struct Wishes {
     #[arg(long, default_value_t = 20.0, allow_hyphen_values = true, value_parser = angle::<90>)]
     elevation: f64,
     /// How many times as large as what fits
-    #[arg(long, default_value_t = 1.0, value_parser = positive)]
+    #[arg(long, default_value_t = 1.0, value_parser = positive, allow_hyphen_values = true)]
     zoom: f64,
     /// Width and height in pixels
     #[arg(long, default_value = "1280x720", value_parser = size, value_name = "WIDTHxHEIGHT")]
@@ -71,7 +72,7 @@ pub(crate) struct Wishes {
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     every: u32,
     /// Frames in a second of a movie
-    #[arg(long, default_value_t = 25.0, value_parser = positive)]
+    #[arg(long, default_value_t = 25.0, value_parser = positive, allow_hyphen_values = true)]
     fps: f64,
     /// Number of threads; all processors if left out
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=4096))]
@@ -121,6 +122,7 @@ pub(crate) fn render(wishes: &Wishes) -> Result<(), Failure> {
         return Err(Failure::bad_input(format!("error: there is no folder {}", folder.display())));
     }
     let output = Output::of(&wishes.output).map_err(refused)?;
+    let is_movie = output.is_movie();
     let shots = Shots { frames: wishes.frames.clone(), every: wishes.every as usize, rate: wishes.fps };
     use_threads(wishes.threads)?;
     let stop = listen()?;
@@ -134,9 +136,12 @@ pub(crate) fn render(wishes: &Wishes) -> Result<(), Failure> {
     match ending.map_err(refused)? {
         FilmEnding::Finished(1) => print(&format!("1 picture in {path} ({wall})")),
         FilmEnding::Finished(count) => print(&format!("{count} pictures in {path} ({wall})")),
-        FilmEnding::Interrupted(count) => Err(Failure::failed(format!(
-            "stopped after {count} pictures ({wall}); a movie is kept only whole"
-        ))),
+        FilmEnding::Interrupted(_) if is_movie => {
+            Err(Failure::failed(format!("stopped ({wall}); a movie is kept only whole, there is none")))
+        }
+        FilmEnding::Interrupted(count) => {
+            Err(Failure::failed(format!("stopped ({wall}); {count} pictures are in {path}")))
+        }
     }
 }
 

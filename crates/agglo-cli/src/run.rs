@@ -10,7 +10,7 @@ use agglo::scenario::readable;
 
 use crate::arguments::{Orders, RunOrders};
 use crate::progress::Display;
-use crate::{Failure, print, read, report};
+use crate::{Failure, print, progress, read, report};
 
 /// Runs a scenario into a folder.
 pub(crate) fn run(run_orders: &RunOrders) -> Result<(), Failure> {
@@ -115,7 +115,7 @@ fn go(
         if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     let closed = companion.map_or(Ok(()), Companion::close);
-    let closing = display.finish();
+    let (wall, closing) = display.finish();
     let shown = folder.display();
     if let Err(error) = closed {
         print(&format!("the dashboard could not be shown: {error}"))?;
@@ -123,7 +123,9 @@ fn go(
     match outcome {
         Ok(Ending::Finished(summary)) => {
             let page = if reports { report::at_the_end(folder) } else { String::new() };
-            print(&format!("{}\nin {shown} ({closing}){page}", table(&summary)))
+            // Of the whole run, also where this was only the end of it.
+            let warnings = progress::count(summary.warnings().len());
+            print(&format!("{}\nin {shown} ({wall}, {warnings}){page}", table(&summary)))
         }
         Ok(Ending::Interrupted(time)) => {
             let time = readable(time, "s");

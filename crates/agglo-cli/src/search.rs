@@ -54,7 +54,7 @@ fn go(
         display.show_campaign(progress);
         if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
-    let closing = display.finish();
+    let (_, closing) = display.finish();
     let shown = folder.display();
     match outcome {
         Ok(CampaignEnding::Finished(summary)) => print(&finished(&summary, folder, reports)),

@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use agglo::render::{Background, Image, Map, Options, Quantity, Reel, Side, Studio};
+use agglo::plot::{Map, Quantity};
+use agglo::render::{Background, Image, Options, Reel, Side, Studio};
 
 /// Step of the camera for one press of an arrow.
 const TURN: f64 = 15.0_f64.to_radians();

@@ -49,8 +49,8 @@ pub(crate) fn watch(dir: &Path) -> Result<(), Failure> {
     }
     if agglo::search::campaign::is_one(dir) {
         let shown = dir.display();
-        let message =
-            format!("error: {shown} is a search or study; watch follows single runs, such as {shown}/best");
+        let best = if dir.join("best").is_dir() { format!(", such as {shown}/best") } else { String::new() };
+        let message = format!("error: {shown} is a search or study; watch follows single runs{best}");
         return Err(Failure::bad_input(message));
     }
     let follower = Follower::open(dir).map_err(|error| refused(&error))?;
@@ -66,8 +66,8 @@ pub(crate) fn watch(dir: &Path) -> Result<(), Failure> {
 fn refused(error: &WatchError) -> Failure {
     let message = format!("error: {error}");
     match error {
-        WatchError::NoRun { .. } => Failure::bad_input(message),
-        WatchError::Scenario { .. } | WatchError::Record(_) => Failure::failed(message),
+        WatchError::NoRun { .. } | WatchError::Scenario { .. } => Failure::bad_input(message),
+        WatchError::Record(_) => Failure::failed(message),
     }
 }
 
@@ -86,16 +86,20 @@ fn no_terminal(error: &io::Error) -> Failure {
 
 /// A line every few seconds, until the run has finished.
 fn write_lines(mut follower: Follower) -> Result<Option<Summary>, Failure> {
-    let (mut pace, mut written) = (None, None);
+    let (mut pace, mut written, mut news) = (None, None, News::new());
     loop {
         let sight = follower.look().map_err(|error| refused(&error))?;
         if sight.summary.is_some() {
             return Ok(sight.summary);
         }
-        if written.is_none_or(|at: Instant| at.elapsed() >= LINE_EVERY) {
+        news.take(&sight);
+        if written.is_none_or(|at: Instant| at.elapsed() >= LINE_EVERY)
+            && let Some(line) = news.line(|| {
+                let progress = progress_of(&follower, &sight);
+                line(&progress, paced(&mut pace, &progress), &sight)
+            })
+        {
             written = Some(Instant::now());
-            let progress = progress_of(&follower, &sight);
-            let line = line(&progress, paced(&mut pace, &progress), &sight);
             match writeln!(io::stdout(), "{line}") {
                 // A reader that closed the pipe has seen enough.
                 Err(error) if error.kind() == io::ErrorKind::BrokenPipe => return Ok(None),
@@ -105,6 +109,42 @@ fn write_lines(mut follower: Follower) -> Result<Option<Summary>, Failure> {
         }
         std::thread::sleep(LOOK_EVERY);
     }
+}
+
+/// When the newest row came, and what was said of it.
+struct News {
+    time: Option<f64>,
+    at: Instant,
+    is_told: bool,
+    is_quiet: bool,
+}
+
+impl News {
+    fn new() -> Self {
+        Self { time: None, at: Instant::now(), is_told: false, is_quiet: false }
+    }
+
+    fn take(&mut self, sight: &Sight) {
+        if self.time != Some(sight.time) {
+            *self = Self { time: Some(sight.time), ..Self::new() };
+        }
+    }
+
+    /// A line about what is new; where nothing has been for long, once that nothing is.
+    fn line(&mut self, text: impl FnOnce() -> String) -> Option<String> {
+        if !self.is_told {
+            self.is_told = true;
+            return Some(text());
+        }
+        let is_due = !self.is_quiet && self.at.elapsed() >= QUIET;
+        self.is_quiet |= is_due;
+        is_due.then(|| nothing_new(self.at.elapsed()))
+    }
+}
+
+/// What is said where the folder has been quiet for this long.
+fn nothing_new(quiet: Duration) -> String {
+    format!("nothing new for {} s: the run is slow, or has stopped", quiet.as_secs())
 }
 
 /// " 31 %  0.310 of 1 s, 812 steps/s, 0:04 left: clusters 12, mean speed 3 mm/s".
@@ -287,8 +327,7 @@ impl Dashboard {
             *note = format!("warning: {note}");
         }
         if self.news.elapsed() >= QUIET {
-            let seconds = self.news.elapsed().as_secs();
-            notes.push(format!("nothing new for {seconds} s: the run is slow, or has stopped"));
+            notes.push(nothing_new(self.news.elapsed()));
         }
         notes.extend(self.trouble.iter().chain(&self.portrait.trouble).cloned());
         let screen = Screen {

@@ -22,13 +22,20 @@ fn resuming_a_finished_run_shows_its_summary_and_changes_nothing() {
 fn a_summary_that_is_missing_or_damaged_is_written_again() {
     for damage in [None, Some("{\"version\": \"0.1")] {
         let bench = Bench::with(STAGGERED);
-        ended(bench.start(&[]).output().unwrap(), 0);
+        let first = said(&ended(bench.start(&[]).output().unwrap(), 0));
         let summary = bench.run().join("summary.json");
         std::fs::remove_file(&summary).unwrap();
         if let Some(text) = damage {
             std::fs::write(&summary, text).unwrap();
         }
-        ended(bench.resume().output().unwrap(), 0);
+        let again = said(&ended(bench.resume().output().unwrap(), 0));
+        // Warnings of the whole run are counted, also by the one who only ends it.
+        let closing = |text: &str| {
+            text.lines().find_map(|line| {
+                Some(line.split_once(", ")?.1.to_owned()).filter(|_| line.starts_with("in "))
+            })
+        };
+        assert!(closing(&again).is_some() && closing(&again) == closing(&first), "{first}\n{again}");
         assert_same(&bench.run(), reference(STAGGERED));
     }
 }

@@ -108,6 +108,25 @@ fn without_ffmpeg_the_package_is_named() {
 }
 
 #[test]
+fn wishes_that_make_no_difference_are_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let to = folder.path().join("p.png");
+    let made = render(reference(STAGGERED), &to, &["--color", "cluster", "--map", "cividis", "--rays"]);
+    let words = complained(&ended(made, 0));
+    assert!(words.contains("warning: the map is left aside"), "{words}");
+    assert!(words.contains("has rays in flight"), "{words}");
+    // A quiet run with rays that are there: nothing is said of them.
+    let all = render(reference(STAGGERED), &folder.path().join("all/"), &["--rays"]);
+    let words = complained(&ended(all, 0));
+    let frames = names(&reference(STAGGERED).join("frames"));
+    let has_rays = frames.iter().filter(|name| name.starts_with("rays_")).any(|name| {
+        let text = fs::read(reference(STAGGERED).join("frames").join(name)).unwrap();
+        !String::from_utf8_lossy(&text).contains("NumberOfPoints=\"0\"")
+    });
+    assert_eq!(words.contains("has rays in flight"), !has_rays, "{words}");
+}
+
+#[test]
 fn wishes_that_cannot_be_met() {
     let folder = tempfile::tempdir().unwrap();
     let to = folder.path().join("p.png");
@@ -141,7 +160,9 @@ fn a_cut_frame_is_named() {
     let bytes = fs::read(&cut).unwrap();
     fs::write(&cut, &bytes[..bytes.len() * 2 / 3]).unwrap();
     let to = folder.path().join("p.png");
-    refused(render(folder.path(), &to, &[]), 1, &["grains_000001.vtp", "cut short"]);
-    // Frames before it are whole; the scenario is not needed.
-    ended(render(folder.path(), &to, &["--frames", "0"]), 0);
+    refused(render(folder.path(), &to, &[]), 2, &["grains_000001.vtp", "cut short", "--frames"]);
+    // Frames before it are whole; without a scenario there is less to see, which is said.
+    let made = render(folder.path(), &to, &["--frames", "0"]);
+    assert!(complained(&made).contains("names of materials are left out"), "{}", complained(&made));
+    ended(made, 0);
 }

@@ -82,7 +82,7 @@ fn damaged_tables_and_frames_are_said_and_the_rest_is_shown() {
         "note: series/energy.csv is cut or damaged: 1 row is left out",
         "note: series/clusters.csv cannot be used: it is empty",
         "note: series/steps.csv is missing",
-        "note: frames are missing: 2",
+        "note: frames are missing: grains_000002.vtp",
         "grains_000001.vtp: it is cut short",
     ] {
         assert!(told.contains(note), "{note}: {told}");

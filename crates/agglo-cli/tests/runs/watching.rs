@@ -43,7 +43,7 @@ fn folders_that_cannot_be_watched() {
     let message = complained(&ended(agglo(&["watch", "nowhere"]), 2));
     assert!(message.contains("there is no folder nowhere"), "{message}");
     fs::write(folder.path().join("scenario.toml"), "version = 1\nspeed = 3\n").unwrap();
-    let message = complained(&ended(agglo(&["watch", path]), 1));
+    let message = complained(&ended(agglo(&["watch", path]), 2));
     assert!(message.contains("scenario.toml") && message.contains("speed"), "{message}");
 }
 

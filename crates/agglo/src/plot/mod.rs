@@ -1,4 +1,5 @@
-//! Charts as SVG text: what is in them is given, nothing is computed but the layout.
+//! Charts as SVG text: what is in them is given, nothing is computed but the layout. And what grains can be coloured by, for
+//! pictures and pages.
 //!
 //! Colours are told apart by readers with any kind of colour vision: the map for values is perceptually uniform, the colours
 //! for names come with dashes. Each chart has a title and a text for readers who cannot see it. The same chart is the
@@ -10,9 +11,11 @@ mod colour;
 mod front;
 mod histogram;
 mod lines;
+mod map;
 mod pairs;
 mod panel;
 mod parallel;
+mod quantity;
 mod refinement;
 pub(crate) mod scale;
 mod scatter;
@@ -22,11 +25,13 @@ mod tests;
 
 pub use axis::Axis;
 pub use bars::{Bars, Series};
-pub use colour::{Colour, viridis};
+pub use colour::{Colour, LINES, viridis};
 pub use front::{Front, FrontPoint};
 pub use histogram::{Histogram, Histograms};
 pub use lines::{Line, LinePanel, Lines};
+pub use map::{Map, NAMED, PLAIN, name_color};
 pub use pairs::Pairs;
 pub use parallel::Parallel;
+pub use quantity::{Coloring, Quantity};
 pub use refinement::{Level, Settled, Staircase};
 pub use scatter::Scatter;

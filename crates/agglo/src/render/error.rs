@@ -7,13 +7,16 @@ use crate::record::RecordError;
 /// Why there is no picture.
 #[derive(Debug, thiserror::Error)]
 pub enum RenderError {
-    /// A file cannot be read or written.
+    /// A file cannot be written.
     #[error(transparent)]
     Record(#[from] RecordError),
+    /// A frame or the list of them cannot be read.
+    #[error("{0}\nhelp: --frames A..B draws those that are whole; `agglo report` shows all that can be read")]
+    Frame(RecordError),
     /// The folder has no frames.
     #[error(
         "{dir} has no frames: there is no {list}\nhelp: a run writes frames as its scenario says under [output]; name \
-         the folder of a run, such as out/my",
+         the folder of a run, such as out/my, or of a search that has finished and run its best",
         dir = .dir.display(), list = .list.display()
     )]
     NoFrames {
@@ -108,7 +111,8 @@ impl RenderError {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Record(_) | Self::Field { .. } | Self::Ffmpeg { .. } => 1,
-            Self::NoFrames { .. }
+            Self::Frame(_)
+            | Self::NoFrames { .. }
             | Self::FrameRange { .. }
             | Self::Color { .. }
             | Self::NoLines { .. }

@@ -38,8 +38,10 @@ pub struct Film {
 }
 
 /// What an observer is told.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FilmProgress {
+    /// Something will not be in the pictures, and why.
+    Without(String),
     /// So many of all frames were looked through.
     Looking(usize, usize),
     /// So many of all pictures are done.
@@ -69,6 +71,11 @@ pub fn film(
         return Err(RenderError::TransparentMovie);
     }
     let reel = Reel::open(dir)?;
+    if let Some(note) = reel.note()
+        && observer(FilmProgress::Without(note)).is_break()
+    {
+        return Ok(FilmEnding::Interrupted(0));
+    }
     let mut numbers = numbers(&reel, &shots)?;
     options.size = output.fitting(options.size);
     let size = options.size;
@@ -76,6 +83,11 @@ pub fn film(
     let Some(studio) = Studio::prepare(reel, options, &numbers, look)? else {
         return Ok(FilmEnding::Interrupted(0));
     };
+    for note in studio.notes() {
+        if observer(FilmProgress::Without(note)).is_break() {
+            return Ok(FilmEnding::Interrupted(0));
+        }
+    }
     if output.is_single() {
         numbers.drain(..numbers.len() - 1);
     }
@@ -87,6 +99,10 @@ pub fn film(
         sink.take(&studio.picture(number)?)?;
     }
     sink.finish()?;
+    if let Some(note) = studio.note_of_rays() {
+        // Everything is drawn: there is nothing left to stop.
+        let _ = observer(FilmProgress::Without(note));
+    }
     Ok(FilmEnding::Finished(numbers.len()))
 }
 

@@ -1,10 +1,9 @@
 //! Words over a picture: the legend of colours, a scale, the time.
 
 use super::image::Image;
-use super::map::Map;
-use super::quantity::Quantity;
 use super::text::{Align, Writer};
 use crate::plot::scale::Scale;
+use crate::plot::{Map, Quantity};
 
 /// What the colours mean.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,7 +6,7 @@ use super::error::RenderError;
 use crate::domain::Volume;
 use crate::math::Vec3;
 use crate::record::RecordError;
-use crate::record::frames::{FieldValues, Frame};
+use crate::record::frames::{Collection, FieldValues, Frame};
 use crate::scenario::Scenario;
 
 /// The frames of a run.
@@ -17,7 +17,8 @@ pub struct Reel {
     grains: Vec<(f64, PathBuf)>,
     bonds: Vec<(f64, PathBuf)>,
     rays: Vec<(f64, PathBuf)>,
-    scenario: Option<Scenario>,
+    /// The scenario, or why there is none.
+    scenario: Result<Scenario, String>,
 }
 
 /// A grain's place and size: center [m] and radius [m].
@@ -27,21 +28,20 @@ impl Reel {
     /// Opens the frames in the folder of a run; of a search or study those of its best run.
     ///
     /// # Errors
-    /// [`RenderError::NoFrames`], or [`RenderError::Record`] where the list of frames cannot be read.
+    /// [`RenderError::NoFrames`], or [`RenderError::Frame`] where the list of frames cannot be read.
     pub fn open(dir: &Path) -> Result<Self, RenderError> {
         let best = dir.join("best");
         let dir = if !has_frames(dir) && has_frames(&best) { best } else { dir.to_owned() };
         let list = list_of(&dir, "grains");
-        let grains = if list.is_file() { listed(&list)? } else { Vec::new() };
+        let grains = if list.is_file() { listed(&list).map_err(RenderError::Frame)? } else { Vec::new() };
         if grains.is_empty() {
             return Err(RenderError::NoFrames { dir, list });
         }
         let others = |kind| {
             let list = list_of(&dir, kind);
-            if list.is_file() { listed(&list) } else { Ok(Vec::new()) }
+            if list.is_file() { listed(&list).map_err(RenderError::Frame) } else { Ok(Vec::new()) }
         };
-        let text = std::fs::read_to_string(dir.join("scenario.toml")).ok();
-        let scenario = text.and_then(|text| Scenario::from_toml(&text).ok());
+        let scenario = scenario(&dir.join("scenario.toml"));
         Ok(Self { grains, bonds: others("bonds")?, rays: others("rays")?, scenario, dir })
     }
 
@@ -72,20 +72,26 @@ impl Reel {
 
     /// The scenario, where the folder has one that this version reads.
     pub fn scenario(&self) -> Option<&Scenario> {
-        self.scenario.as_ref()
+        self.scenario.as_ref().ok()
+    }
+
+    /// What is not known of the run, and why.
+    pub fn note(&self) -> Option<String> {
+        let reason = self.scenario.as_ref().err()?;
+        Some(format!("the edges of the control volume and the names of materials are left out: {reason}"))
     }
 
     /// The control volume, where there is one.
     pub(super) fn volume(&self) -> Option<&Volume> {
-        self.scenario.as_ref()?.volume.as_ref()
+        self.scenario()?.volume.as_ref()
     }
 
     /// Reads a frame of grains.
     ///
     /// # Errors
-    /// [`RenderError::Record`].
+    /// [`RenderError::Frame`].
     pub fn read(&self, number: usize) -> Result<Frame, RenderError> {
-        Ok(Frame::read(self.path(number))?)
+        Frame::read(self.path(number)).map_err(RenderError::Frame)
     }
 
     /// Places and sizes of a frame's grains.
@@ -116,7 +122,7 @@ impl Reel {
     fn beside(&self, list: &[(f64, PathBuf)], number: usize) -> Result<Option<Frame>, RenderError> {
         let time = self.grains[number].0;
         let path = list.iter().find(|(known, _)| *known == time).map(|(_, path)| path);
-        Ok(path.map(|path| Frame::read(path)).transpose()?)
+        path.map(|path| Frame::read(path)).transpose().map_err(RenderError::Frame)
     }
 
     /// That there are frames of bonds or rays.
@@ -130,6 +136,13 @@ impl Reel {
     }
 }
 
+/// The scenario of a run, or why it cannot be had.
+fn scenario(path: &Path) -> Result<Scenario, String> {
+    let shown = path.display();
+    let text = std::fs::read_to_string(path).map_err(|error| format!("{shown} cannot be read: {error}"))?;
+    Scenario::from_toml(&text).map_err(|faults| format!("{shown} is none for this version: {faults}"))
+}
+
 fn list_of(dir: &Path, kind: &str) -> PathBuf {
     dir.join("frames").join(format!("{kind}.pvd"))
 }
@@ -141,15 +154,7 @@ fn has_frames(dir: &Path) -> bool {
 /// Times and files of a list of frames. What stands in it counts, not what is in the folder: a run that was killed may
 /// have left frames that it will write anew.
 fn listed(list: &Path) -> Result<Vec<(f64, PathBuf)>, RecordError> {
-    let text = std::fs::read_to_string(list).map_err(RecordError::file("read", list))?;
     let folder = list.parent().unwrap_or(Path::new("."));
-    let rows = text.lines().filter(|line| line.starts_with("<DataSet "));
-    let entry = |row: &str| {
-        let value =
-            |key: &str| row.split_once(&format!("{key}=\""))?.1.split_once('"').map(|(value, _)| value);
-        Some((value("timestep")?.parse().ok()?, folder.join(value("file")?)))
-    };
-    let damaged =
-        || RecordError::Damaged { path: list.to_owned(), reason: "it is no list of frames".to_owned() };
-    rows.map(|row| entry(row).ok_or_else(damaged)).collect()
+    let frames = Collection::read(list)?;
+    Ok(frames.frames().map(|(time, file)| (time, folder.join(file))).collect())
 }

@@ -1,17 +1,18 @@
 //! Pictures of a run: one view and one range of colours for all frames.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use rayon::prelude::*;
 
 use super::camera::{Camera, Side};
 use super::error::RenderError;
 use super::image::{Image, light_of};
-use super::map::{Map, NAMES, named};
 use super::overlay::{Entry, Legend, Overlay};
-use super::quantity::{Coloring, Quantity};
 use super::reel::{Ball, Reel};
 use super::scene::{Background, Ground, Scene};
 use super::solid::{Light, Line, Sphere};
 use crate::math::Vec3;
+use crate::plot::{Coloring, Map, NAMED, Quantity, name_color};
 
 /// What the camera looks at.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -100,6 +101,8 @@ pub struct Studio {
     /// Whether grains have values below and above the range.
     beyond: [bool; 2],
     last_time: f64,
+    /// Whether a frame that was drawn had rays in flight.
+    has_shown_rays: AtomicBool,
 }
 
 /// Part of the grains that may be outside of the picture, on each side.
@@ -111,7 +114,8 @@ const MARGIN: f64 = 1.12;
 /// Colours of lines.
 const BOND: u32 = 0x50_5050;
 const BOND_ON_DARK: u32 = 0xc8_c8c8;
-const RAY: u32 = 0xd5_5e00;
+const RAY: u32 = 0x1c_1c1c;
+const RAY_ON_DARK: u32 = 0x56_b4e9;
 const EDGE: u32 = 0x8c_8c8c;
 
 impl Studio {
@@ -153,7 +157,8 @@ impl Studio {
         let camera = camera(reach, &options);
         let last_time = frames.last().and_then(|&last| reel.times().nth(last)).unwrap_or(0.0);
         let ground = options.ground.then(|| ground(reach, options.side));
-        Ok(Some(Self { reel, options, quantity, camera, ground, range, beyond, last_time }))
+        let has_shown_rays = AtomicBool::new(false);
+        Ok(Some(Self { reel, options, quantity, camera, ground, range, beyond, last_time, has_shown_rays }))
     }
 
     /// The camera.
@@ -212,10 +217,10 @@ impl Studio {
         match self.coloring() {
             Coloring::Values(map) => {
                 let [low, high] = self.range;
-                values.iter().map(|value| map.light((value - low) / (high - low))).collect()
+                values.iter().map(|value| light_of(map.color((value - low) / (high - low)))).collect()
             }
             Coloring::Materials => {
-                values.iter().map(|&value| light_of(named(Some(value as usize)))).collect()
+                values.iter().map(|&value| light_of(name_color(Some(value as usize)))).collect()
             }
             Coloring::Clusters => {
                 let most = values.iter().fold(0.0_f64, |most, &value| most.max(value));
@@ -223,10 +228,31 @@ impl Studio {
                 for &value in values {
                     members[value as usize] += 1;
                 }
-                let color = |cluster: usize| named((members[cluster] > 1).then_some(cluster_number(cluster)));
+                let color =
+                    |cluster: usize| name_color((members[cluster] > 1).then_some(cluster_number(cluster)));
                 values.iter().map(|&value| light_of(color(value as usize))).collect()
             }
         }
+    }
+
+    /// What was asked for and makes no difference.
+    pub fn notes(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        if self.options.map.is_some() && !matches!(self.quantity.coloring, Coloring::Values(_)) {
+            let word = self.quantity.word;
+            notes.push(format!("the map is left aside: {word} has a colour for each name"));
+        }
+        notes
+    }
+
+    /// That rays were asked for and none was there in the frames drawn so far.
+    pub fn note_of_rays(&self) -> Option<String> {
+        let is_missing = self.options.rays && !self.has_shown_rays.load(Ordering::Relaxed);
+        is_missing.then(|| {
+            "no frame that was drawn has rays in flight: they fly for less than the time between two frames; a \
+             shorter output.frames shows them"
+                .to_owned()
+        })
     }
 
     fn coloring(&self) -> Coloring {
@@ -247,10 +273,13 @@ impl Studio {
             lines.extend(bonds.map(|ends| Line { ends, radius, color }));
         }
         if self.options.rays {
-            let (length, radius) = (0.02 * f64::from(self.options.size[1]) * pixel, 0.8 * pixel);
+            let (length, radius) = (0.02 * f64::from(self.options.size[1]) * pixel, 0.6 * pixel);
             let streak = |[at, to]: [Vec3; 2]| [at - to * length, at];
-            let rays = self.reel.rays(number)?.into_iter().map(streak);
-            lines.extend(rays.map(|ends| Line { ends, radius, color: light_of(RAY) }));
+            let rays = self.reel.rays(number)?;
+            self.has_shown_rays.fetch_or(!rays.is_empty(), Ordering::Relaxed);
+            let is_dark = self.options.background == Background::Dark;
+            let color = light_of(if is_dark { RAY_ON_DARK } else { RAY });
+            lines.extend(rays.into_iter().map(streak).map(|ends| Line { ends, radius, color }));
         }
         if self.options.volume {
             let (radius, color) = (0.9 * pixel, light_of(EDGE));
@@ -265,9 +294,12 @@ impl Studio {
             Coloring::Clusters => Legend::names(
                 self.quantity.title,
                 vec![
-                    Entry { label: "heaviest".to_owned(), colors: vec![named(Some(0))] },
-                    Entry { label: "others".to_owned(), colors: (1..4).map(|k| named(Some(k))).collect() },
-                    Entry { label: "single grains".to_owned(), colors: vec![named(None)] },
+                    Entry { label: "heaviest".to_owned(), colors: vec![name_color(Some(0))] },
+                    Entry {
+                        label: "others".to_owned(),
+                        colors: (1..4).map(|k| name_color(Some(k))).collect(),
+                    },
+                    Entry { label: "single grains".to_owned(), colors: vec![name_color(None)] },
                 ],
             ),
             Coloring::Materials => Legend::names(self.quantity.title, self.materials()),
@@ -290,14 +322,14 @@ impl Studio {
                 .map(|number| format!("material {number}"))
                 .collect()
         });
-        let entry = |(number, label)| Entry { label, colors: vec![named(Some(number))] };
+        let entry = |(number, label)| Entry { label, colors: vec![name_color(Some(number))] };
         names.into_iter().enumerate().map(entry).collect()
     }
 }
 
 /// The number of a cluster's colour: that of the heaviest is used once.
 fn cluster_number(cluster: usize) -> usize {
-    if cluster == 0 { 0 } else { 1 + (cluster - 1) % (NAMES - 1) }
+    if cluster == 0 { 0 } else { 1 + (cluster - 1) % (NAMED.len() - 1) }
 }
 
 /// The quantity with this word, if the frames hold it.

@@ -93,10 +93,10 @@ fn colours_have_one_range() {
     let given = Options { range: Some([100.0, 1e7]), ..small("speed") };
     let given = studio(dir.path(), given).unwrap();
     assert_eq!((given.range, given.beyond), ([100.0, 1e7], [true, false]));
-    assert_eq!(given.colors(&[50.0, 1e9]), [Map::Viridis.light(0.0), Map::Viridis.light(1.0)]);
+    assert_eq!(given.colors(&[50.0, 1e9]), [0.0, 1.0].map(|part| light_of(Map::Viridis.color(part))));
     // All radii are the same: their colour is in the middle of the map.
     let same = studio(dir.path(), small("size")).unwrap();
-    let middle = Map::Cividis.light(0.5);
+    let middle = light_of(Map::Cividis.color(0.5));
     assert!(same.colors(&[0.05])[0].iter().zip(middle).all(|(a, b)| (a - b).abs() < 0.01));
 }
 
@@ -107,7 +107,7 @@ fn clusters_have_colours_and_single_grains_are_grey() {
     let colors = studio.colors(&[0.0, 0.0, 1.0, 1.0, 2.0, 0.0, 7.0, 7.0]);
     assert_eq!(colors[0], colors[5]);
     assert_ne!(colors[0], colors[2]);
-    assert_eq!(colors[4], light_of(named(None)));
+    assert_eq!(colors[4], light_of(name_color(None)));
     // However many there are, none looks like the heaviest.
     assert_ne!(colors[6], colors[0]);
 }
@@ -168,7 +168,7 @@ fn a_cut_frame_is_named() {
     let error = make(dir.path(), &to, Shots::default()).unwrap_err();
     let message = error.to_string();
     assert!(message.contains("grains_000001.vtp") && message.contains("it is cut short"), "{message}");
-    assert!(error.exit_code() == 1 && !to.exists());
+    assert!(error.exit_code() == 2 && !to.exists());
 }
 
 #[test]

@@ -173,6 +173,16 @@ impl Lines {
     }
 }
 
+impl Chart {
+    /// Takes a line away, with its words.
+    pub fn leave_out(&mut self, name: &str) {
+        if let Some(at) = self.series.iter().position(|series| series.name == name) {
+            self.series.remove(at);
+            self.words.remove(at);
+        }
+    }
+}
+
 /// Which of so many rows are shown: evenly spaced ones, and the last.
 pub fn kept(rows: usize) -> Vec<usize> {
     let mut kept: Vec<usize> = (0..rows).step_by(rows.div_ceil(MOST_ROWS).max(1)).collect();

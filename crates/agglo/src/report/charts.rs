@@ -3,6 +3,7 @@
 use super::chart::{Axis, Chart, Kind, Lines, Series, kept};
 use super::folder::Folder;
 use super::table::Table;
+use crate::impact::heat::Balance;
 
 const fn lines(
     [table, id, title, label, unit]: [&'static str; 5],
@@ -11,6 +12,9 @@ const fn lines(
 ) -> Lines {
     Lines { table, id, title, about, label, unit, log: false, columns }
 }
+
+/// Heat that only the published balance makes; in the sound one it is round-off.
+const FALSE_HEAT: &str = "from nowhere (published balance)";
 
 /// Charts of soft spheres.
 const SOFT: &[Lines] = &[
@@ -154,7 +158,7 @@ const HARD: &[Lines] = &[
             ("reaction_J", "set free by reactions"),
             ("heat_J", "taken up in impacts"),
             ("cooled_J", "given off"),
-            ("unbalanced_J", "from nowhere (published balance)"),
+            ("unbalanced_J", FALSE_HEAT),
         ],
     ),
     lines(
@@ -178,8 +182,19 @@ pub fn charts(folder: &Folder) -> Vec<Chart> {
     let wanted = if is_hard { HARD } else { SOFT };
     let mut charts: Vec<Chart> =
         wanted.iter().filter_map(|lines| lines.chart(folder.table(lines.table)?)).collect();
+    if !is_published(folder) {
+        for chart in &mut charts {
+            chart.leave_out(FALSE_HEAT);
+        }
+    }
     charts.extend(folder.table("sizes").and_then(sizes));
     charts
+}
+
+/// Whether heat follows the published balance.
+fn is_published(folder: &Folder) -> bool {
+    let impact = folder.scenario.as_ref().and_then(|scenario| scenario.impact.as_ref());
+    impact.is_some_and(|impact| impact.heat.balance == Balance::Published)
 }
 
 /// Classes of size over time: how much of the mass is in each.

@@ -2,7 +2,12 @@
 
 use toml::Value;
 
+use crate::impact::heat::Balance;
 use crate::scenario::{PAGES, Page, Scenario};
+use crate::search::optimiser::Method;
+use crate::search::{Campaign, Plan};
+
+const NELDER_MEAD: (&str, &str) = ("nelder_mead", include_str!("../search/optimiser/nelder_mead.rs"));
 
 /// A law that a scenario uses, and its source.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -13,6 +18,75 @@ pub struct Citation {
     pub title: &'static str,
     /// Where it comes from.
     pub source: String,
+}
+
+/// A paper whose model is computed.
+pub struct Paper {
+    /// What pages call it.
+    pub label: &'static str,
+    title: &'static str,
+    place: &'static str,
+}
+
+/// The papers that stand behind the models.
+pub const PAPERS: [Paper; 2] = [
+    Paper {
+        label: "[A]",
+        title: "A discrete element and ray framework for rapid simulation of acoustical dispersion of microscale \
+                particulate agglomerations",
+        place: "Comput. Mech. 57, 465 (2016)",
+    },
+    Paper {
+        label: "[B]",
+        title: "A computational framework for agglomeration in thermochemically reacting granular flows",
+        place: "Proc. R. Soc. Lond. A 460, 3421 (2004)",
+    },
+];
+
+impl Paper {
+    /// Author, title, place.
+    pub fn whole(&self) -> String {
+        format!("T. I. Zohdi, {}, {}", self.title, self.place)
+    }
+}
+
+/// A source with the titles of the papers that it gives by their places alone.
+fn in_full(source: &str) -> String {
+    PAPERS.iter().fold(source.to_owned(), |text, paper| {
+        text.replace(&format!("T. I. Zohdi, {}", paper.place), &paper.whole())
+    })
+}
+
+/// The methods of a search or study with their sources; none for those that have no source.
+pub fn methods(campaign: &Campaign) -> Vec<Citation> {
+    let polish = campaign.polish.as_ref().map(|_| NELDER_MEAD);
+    let method = campaign.method.as_ref().and_then(|method| match method {
+        Method::CmaEs(_) => Some(("cma_es", include_str!("../search/optimiser/cma_es.rs"))),
+        Method::Genetic(_) => Some(("genetic", include_str!("../search/optimiser/genetic.rs"))),
+        Method::PublishedGenetic(_) => {
+            Some(("published_genetic", include_str!("../search/optimiser/published_genetic.rs")))
+        }
+        Method::NelderMead(_) => Some(NELDER_MEAD),
+        Method::Sobol(_) => Some(("sobol", include_str!("../search/optimiser/sobol.rs"))),
+        Method::Random(_) => None,
+    });
+    let plan = campaign.plan.as_ref().and_then(|plan| match plan {
+        Plan::Morris(_) => Some(("morris", include_str!("../search/plan/morris.rs"))),
+        Plan::SobolIndices(_) => Some(("sobol_indices", include_str!("../search/plan/sobol_indices.rs"))),
+        Plan::Grid(_) | Plan::List(_) | Plan::Refinement(_) => None,
+    });
+    let mut pages: Vec<_> = method.into_iter().chain(polish).chain(plan).collect();
+    pages.dedup();
+    pages.into_iter().filter_map(|(name, code)| of_code(name, code)).collect()
+}
+
+/// The first line and the source of a method's documentation.
+fn of_code(name: &'static str, code: &'static str) -> Option<Citation> {
+    let title = code.lines().next()?.trim_start_matches("//!").trim();
+    let (_, rest) = code.split_once("//! # Source\n")?;
+    let lines = rest.lines().map_while(|line| line.strip_prefix("//! "));
+    let source = lines.take_while(|line| !line.starts_with('#')).collect::<Vec<_>>().join(" ");
+    Some(Citation { law: name, title, source: in_full(&plain(&source)) })
 }
 
 /// How to cite the program.
@@ -26,12 +100,16 @@ pub fn citations(scenario: &Scenario) -> Vec<Citation> {
     if let Ok(value) = Value::try_from(scenario) {
         collect(&value, &mut Vec::new(), &mut paths);
     }
-    let hard = scenario.engine.is_hard();
+    let always = laws_of_every_impact(scenario);
     PAGES
         .iter()
-        .filter(|page| paths.iter().any(|path| names(path, page)) || (hard && has_no_key(page)))
+        .filter(|page| paths.iter().any(|path| names(path, page)) || always.contains(&page.name))
         .filter_map(|page| {
-            Some(Citation { law: page.name, title: page.title(), source: section(&page.text(), "# Source")? })
+            Some(Citation {
+                law: page.name,
+                title: page.title(),
+                source: in_full(&plain(&page.reference()?)),
+            })
         })
         .collect()
 }
@@ -68,22 +146,19 @@ fn names(path: &[String], page: &Page) -> bool {
     named && group.all(|word| before.iter().any(|known| known == word))
 }
 
-/// Laws of impact that no key chooses: every impact obeys them.
-fn has_no_key(page: &Page) -> bool {
-    page.group == "impact" && matches!(page.name, "contact_area" | "contact_time" | "heat" | "work")
+/// Laws of impact that no key chooses; the work of an impact is part of the published balance of heat alone.
+fn laws_of_every_impact(scenario: &Scenario) -> Vec<&'static str> {
+    let Some(impact) = scenario.impact.as_ref().filter(|_| scenario.engine.is_hard()) else {
+        return Vec::new();
+    };
+    let mut laws = vec!["contact_area", "contact_time", "heat"];
+    laws.extend((impact.heat.balance == Balance::Published).then_some("work"));
+    laws
 }
 
-/// The text below a heading, in one line.
-fn section(text: &str, heading: &str) -> Option<String> {
-    let lines = text.lines().skip_while(|line| !line.starts_with(heading)).skip(1);
-    let below: Vec<&str> = lines.take_while(|line| !line.starts_with('#')).map(str::trim).collect();
-    let joined = plain(below.join(" ").trim());
-    (!joined.is_empty()).then_some(joined)
-}
-
-/// A text without the marks of emphasis, code and links.
+/// A text without the marks of emphasis and code.
 fn plain(text: &str) -> String {
-    text.replace("[`", "").replace("`]", "").replace(['*', '`'], "")
+    text.replace(['*', '`'], "")
 }
 
 #[cfg(test)]
@@ -109,6 +184,7 @@ mod tests {
         for law in ["hardness", "tangential", "fragmentation", "cooling", "contact_area", "event_driven"] {
             assert!(hard.contains(&law), "{law} is missing in {hard:?}");
         }
+        assert!(!hard.contains(&"work") && laws("reacting-published").contains(&"work"));
         assert!(!hard.contains(&"constant") && !hard.contains(&"restitution"), "{hard:?}");
     }
 
@@ -118,6 +194,9 @@ mod tests {
             let scenario = Scenario::from_toml(template(name).unwrap().text).unwrap();
             for citation in citations(&scenario) {
                 assert!(citation.source.len() > 10, "{}: {}", citation.law, citation.source);
+                let is_short =
+                    citation.source.contains("Zohdi, Proc") || citation.source.contains("Zohdi, Comput");
+                assert!(!is_short, "{}: {}", citation.law, citation.source);
                 assert!(!citation.source.contains(['*', '`']), "{}: {}", citation.law, citation.source);
             }
         }

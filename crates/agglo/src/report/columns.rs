@@ -2,7 +2,8 @@
 
 use serde::Serialize;
 
-use crate::record::frames::{FieldValues, Frame};
+use crate::plot::{Coloring, Quantity};
+use crate::record::frames::Frame;
 
 /// Something that grains can be coloured by.
 #[derive(Clone, Debug, Serialize)]
@@ -10,7 +11,7 @@ pub struct Column {
     /// Its name in the page.
     pub name: &'static str,
     /// What people call it.
-    pub label: &'static str,
+    pub label: String,
     /// Its unit; empty for pure numbers.
     pub unit: &'static str,
     /// The least value of the run.
@@ -19,30 +20,16 @@ pub struct Column {
     pub high: f64,
     /// Where the colours begin and end: all but the rarest values lie between.
     pub colors: [f64; 2],
-    /// "number" where values have an order, "name" where they only differ.
-    pub kind: &'static str,
+    /// The colour map of values; none where they are names.
+    pub map: Option<&'static str>,
     #[serde(skip)]
-    field: &'static str,
+    quantity: Quantity,
 }
 
 /// Name of the numbers by which grains are known; packed on its own, exactly.
 pub const NAMES: &str = "id";
-
-/// Name in the page, name of the field, what people call it, unit, kind.
-const KNOWN: [[&str; 5]; 12] = [
-    ["speed", "velocity_m_s", "speed", "m/s", "number"],
-    ["temperature", "temperature_k", "temperature", "K", "number"],
-    ["radius", "radius_m", "radius", "m", "number"],
-    ["primaries", "primaries", "primaries", "", "number"],
-    ["cluster", "cluster", "cluster", "", "name"],
-    ["absorbed", "absorbed_power_w", "absorbed power", "W", "number"],
-    ["mass", "mass_kg", "mass", "kg", "number"],
-    ["spin", "spin_rad_s", "spin", "rad/s", "number"],
-    ["charge", "charge_c", "charge", "C", "number"],
-    ["polarity", "polarity", "polarity", "", "number"],
-    ["material", "material", "material", "", "name"],
-    ["id", "id", "grain number", "", "number"],
-];
+/// Name of the radii, which are always there.
+pub const SIZES: &str = "size";
 
 /// Part of all values at either end that gets the colour of the end.
 const RAREST: f64 = 0.02;
@@ -50,29 +37,26 @@ const RAREST: f64 = 0.02;
 impl Column {
     /// The values of a frame [n]; vectors give their lengths.
     pub fn values(&self, frame: &Frame) -> Option<Vec<f64>> {
-        Some(match frame.field(self.field)? {
-            FieldValues::Scalars(values) => values.clone(),
-            FieldValues::Integers(values) => values.iter().map(|&value| f64::from(value)).collect(),
-            FieldValues::Vectors(values) => {
-                values.iter().map(|[x, y, z]| (x * x + y * y + z * z).sqrt()).collect()
-            }
-        })
+        self.quantity.of(frame)
     }
 }
 
 /// The columns that the frames have and that are not the same for all grains at all times; radii always.
 pub fn known(frames: &[&Frame]) -> Vec<Column> {
     let mut columns = Vec::new();
-    for [name, field, label, unit, kind] in KNOWN {
+    for quantity in Quantity::ALL {
         let mut column = Column {
-            name,
-            label,
-            unit,
+            name: quantity.word,
+            label: quantity.title.to_lowercase(),
+            unit: quantity.unit,
             low: f64::INFINITY,
             high: f64::NEG_INFINITY,
             colors: [0.0; 2],
-            kind,
-            field,
+            map: match quantity.coloring {
+                Coloring::Values(map) => Some(map.word()),
+                Coloring::Clusters | Coloring::Materials => None,
+            },
+            quantity,
         };
         let mut values: Vec<f64> = frames
             .iter()
@@ -89,7 +73,7 @@ pub fn known(frames: &[&Frame]) -> Vec<Column> {
             let colors = if to > from { [from, to] } else { [low, high] };
             column = Column { low, high, colors, ..column };
         }
-        if column.high > column.low || (name == "radius" && column.high.is_finite()) {
+        if column.high > column.low || (column.name == SIZES && column.high.is_finite()) {
             columns.push(column);
         }
     }

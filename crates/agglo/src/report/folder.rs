@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::run::Summary;
 use crate::scenario::Scenario;
 
+use super::due;
 use super::listing::{Line, listing, plain};
 use super::table::Table;
 
@@ -36,6 +37,11 @@ impl Folder {
         folder.read_summary();
         folder.read_tables();
         folder.find_frames();
+        folder.compare_versions();
+        if folder.is_a_run() {
+            let notes = due::notes(&folder);
+            folder.notes.extend(notes);
+        }
         folder
     }
 
@@ -118,37 +124,45 @@ impl Folder {
             }
         }
         if self.tables.is_empty() {
-            return self.notes.push("there are no tables in series/: charts are left out".to_owned());
-        }
-        // Every run writes these two.
-        for name in ["energy", "steps"] {
-            if self.table(name).is_none() && !self.root.join(format!("series/{name}.csv")).exists() {
-                self.notes.push(format!("series/{name}.csv is missing: its charts are left out"));
-            }
+            self.notes.push("there are no tables in series/: charts are left out".to_owned());
         }
     }
 
     fn find_frames(&mut self) {
         self.frames = files(&self.root.join("frames"), "grains_", ".vtp");
         if self.frames.is_empty() {
-            return self.notes.push("there are no frames in frames/: the replay is left out".to_owned());
-        }
-        // Frames are numbered from 0 without gaps.
-        let missing = missing(&self.frames);
-        if !missing.is_empty() {
-            let shown: Vec<String> = missing.iter().take(5).map(ToString::to_string).collect();
-            let more = if missing.len() > 5 { " and more" } else { "" };
-            self.notes.push(format!("frames are missing: {}{more}", shown.join(", ")));
+            self.notes.push("there are no frames in frames/: the replay is left out".to_owned());
         }
     }
-}
 
-/// Numbers that the names of frames leave out.
-fn missing(frames: &[PathBuf]) -> Vec<usize> {
-    let number = |path: &PathBuf| path.file_stem()?.to_str()?.rsplit('_').next()?.parse::<usize>().ok();
-    let there: Vec<usize> = frames.iter().filter_map(number).collect();
-    let end = there.last().map_or(0, |last| last + 1);
-    (0..end).filter(|number| there.binary_search(number).is_err()).collect()
+    /// The latest time of the tables [s].
+    pub fn reached(&self) -> Option<f64> {
+        let last = |(_, table): &(String, Table)| table.column("time_s")?.last().copied();
+        self.tables.iter().filter_map(last).max_by(f64::total_cmp)
+    }
+
+    /// Whether there is a checkpoint, whole or not.
+    pub fn has_checkpoint(&self) -> bool {
+        !files(&self.root.join("checkpoints"), "checkpoint-", ".agglo").is_empty()
+    }
+
+    /// The version that wrote the folder, as the scenario or the summary says it.
+    pub fn version(&self) -> Option<&str> {
+        let head = self.scenario_text.as_ref().and_then(|text| text.lines().next());
+        let said =
+            head.and_then(|line| line.strip_prefix("# ")?.split_once(" of agglo ")?.1.split(':').next());
+        said.or_else(|| self.summary.as_ref().map(Summary::version))
+    }
+
+    fn compare_versions(&mut self) {
+        let ours = env!("CARGO_PKG_VERSION");
+        if let Some(version) = self.version().filter(|version| *version != ours) {
+            let note = format!(
+                "the run is of agglo {version}, this page of agglo {ours}: the same numbers come from agglo {version} only"
+            );
+            self.notes.push(note);
+        }
+    }
 }
 
 /// Why a file cannot be read, as the end of a sentence.
@@ -173,7 +187,7 @@ pub fn not_understood(text: &str) -> String {
 }
 
 /// Files of a folder whose names begin and end so, in the order of their names.
-fn files(folder: &Path, begin: &str, end: &str) -> Vec<PathBuf> {
+pub fn files(folder: &Path, begin: &str, end: &str) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let mut found: Vec<PathBuf> = entries
         .map(|entry| entry.path())

@@ -1,5 +1,6 @@
 //! The page: one file with everything in it.
 
+use std::collections::BTreeMap;
 use std::io::Write as _;
 
 use base64::Engine as _;
@@ -8,7 +9,9 @@ use flate2::Compression;
 use flate2::write::DeflateEncoder;
 
 use super::chart::{Chart, Kind};
+use super::cite::{PAPERS, Paper};
 use super::{Citation, Figures, Line, Listing, Report};
+use crate::plot::{LINES, Map, NAMED, PLAIN};
 
 const STYLE: &str = include_str!("page/page.css");
 /// In the order in which they need each other.
@@ -117,16 +120,33 @@ impl Report {
     fn sources(&self) -> String {
         let program = escaped(&super::cite::program());
         let items: String = self.citations.iter().map(source).collect();
-        format!("<h2>What to cite</h2>\n<ul class=\"card sources\">\n<li>{program}</li>\n{items}</ul>\n")
+        let paper = |paper: &Paper| format!("<li><b>{}</b>: {}</li>\n", paper.label, escaped(&paper.whole()));
+        let papers: String = PAPERS.iter().filter(|paper| self.mentions(paper.label)).map(paper).collect();
+        let unknown = if self.laws_are_unknown {
+            "<li>The laws are not known: scenario.toml cannot be read.</li>\n"
+        } else {
+            ""
+        };
+        format!(
+            "<h2>What to cite</h2>\n<ul class=\"card sources\">\n<li>{program}</li>\n{items}{papers}{unknown}</ul>\n"
+        )
+    }
+
+    /// Whether captions and sources speak of the paper of that label.
+    fn mentions(&self, label: &str) -> bool {
+        let sources = self.citations.iter().map(|citation| &citation.source);
+        let abouts = self.tables.iter().map(|table| &table.about);
+        let captions = self.charts.iter().map(|chart| &chart.caption);
+        sources.chain(abouts).chain(captions).any(|text| text.contains(label))
     }
 
     /// The data and the scripts at the end of the page.
     fn data(&self) -> String {
         let plan = self.replay.as_ref().map(|replay| &replay.plan);
-        let data = serde_json::json!({ "replay": plan, "charts": self.charts });
+        let data = serde_json::json!({ "replay": plan, "charts": self.charts, "palette": palette() });
         // Within a script only `</` and `<!--` could end it early.
         let data = data.to_string().replace('<', "\\u003c");
-        let frames = self.replay.as_ref().map_or_else(String::new, |replay| deflated(&replay.bytes));
+        let frames = self.replay.as_ref().map_or_else(String::new, |replay| replay.packed.clone());
         let plotly = if self.charts.is_empty() { "" } else { PLOTLY };
         format!(
             "<script type=\"application/json\" id=\"report\">{data}</script>\n\
@@ -136,6 +156,26 @@ impl Report {
             SCRIPTS.join("\n")
         )
     }
+}
+
+/// The colours of the page: maps by their words, colours of names, lines with their dashes.
+fn palette() -> serde_json::Value {
+    let text = |color: u32| format!("{color:06x}");
+    let stops = |map: Map| map.stops().map(text).collect::<Vec<_>>();
+    let maps: BTreeMap<_, _> = Map::WORDS.iter().map(|&(word, map)| (word, stops(map))).collect();
+    serde_json::json!({ "maps": maps, "names": NAMED.map(text), "plain": text(PLAIN), "lines": lines() })
+}
+
+/// Colours, dashes and widths [pixels] of lines: those of charts, and once more in the same colours, but with the dashes
+/// of another and wider, so that twelve lines can be told apart.
+fn lines() -> Vec<(String, &'static str, f64)> {
+    let count = LINES.len();
+    let line = |number: usize| {
+        let (color, _) = LINES[number % count];
+        let again = number / count;
+        (color.to_string(), LINES[(number + again * count / 2) % count].1, if again == 0 { 2.0 } else { 4.0 })
+    };
+    (0..2 * count).map(line).collect()
 }
 
 fn switch(name: &str, is_there: bool) -> String {
@@ -220,7 +260,7 @@ fn foot() -> String {
 }
 
 /// Base64 of deflated bytes.
-fn deflated(bytes: &[u8]) -> String {
+pub fn deflated(bytes: &[u8]) -> String {
     let mut encoder = DeflateEncoder::new(Vec::new(), Compression::fast());
     // Writing to a vector cannot fail.
     let packed = encoder.write_all(bytes).and_then(|()| encoder.finish()).unwrap_or_default();
@@ -230,6 +270,18 @@ fn deflated(bytes: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn no_two_of_twelve_lines_look_alike() {
+        let lines = lines();
+        assert_eq!(lines.len(), 12);
+        for (at, (color, dashes, width)) in lines.iter().enumerate() {
+            // Told apart by colour, and without colours by dashes or width.
+            let alike = |other: &(String, &str, f64)| (other.1, other.2) == (*dashes, *width);
+            assert!(!lines[..at].iter().any(alike), "{at}");
+            assert!(!lines[..at].iter().any(|other| other.0 == *color && other.1 == *dashes), "{at}");
+        }
+    }
 
     #[test]
     fn what_users_write_cannot_break_the_page() {

@@ -6,6 +6,7 @@ mod chart;
 mod charts;
 mod cite;
 mod columns;
+mod due;
 mod folder;
 mod html;
 mod listing;
@@ -47,6 +48,8 @@ pub struct Report {
     pub files: Vec<Listing>,
     /// What to cite.
     pub citations: Vec<Citation>,
+    /// Whether there may be more to cite, since it is not known what was run.
+    pub laws_are_unknown: bool,
 }
 
 /// A table of figures.
@@ -121,12 +124,19 @@ impl Report {
         }
         let mut notes = folder.notes.clone();
         let replay = if folder.frames.is_empty() { None } else { noting(&folder, &mut notes) };
+        let last = folder.table("grains").and_then(|table| table.column("grains")?.last().copied());
+        let grains =
+            last.map(|count| count as u64).or_else(|| replay.as_ref().map(|replay| replay.grains as u64));
+        let story = match &folder.summary {
+            Some(summary) => story::story(summary),
+            None => story::unfinished(&folder, grains),
+        };
         let scenario = folder.scenario.as_ref();
         let title = scenario.map(|scenario| scenario.title.clone()).filter(|title| !title.is_empty());
         Ok(Self {
             kind: kind(&folder).to_owned(),
             title: title.unwrap_or_else(|| "A run without a title".to_owned()),
-            story: folder.summary.as_ref().map(story::story).unwrap_or_default(),
+            story,
             notes,
             replay,
             charts: charts::charts(&folder),
@@ -134,6 +144,7 @@ impl Report {
             tables: tables(&folder),
             files: vec![Listing { title: "Scenario".to_owned(), lines: folder.lines() }],
             citations: scenario.map(citations).unwrap_or_default(),
+            laws_are_unknown: scenario.is_none(),
         })
     }
 }
@@ -176,27 +187,30 @@ fn tables(folder: &Folder) -> Vec<Figures> {
             tables.push(Figures { title: "Warnings".to_owned(), head, rows, ..Figures::default() });
         }
     }
-    tables.push(again(folder));
+    tables.extend(again(folder));
     tables
 }
 
 /// How to run it again: version, seed, command.
-fn again(folder: &Folder) -> Figures {
+fn again(folder: &Folder) -> Option<Figures> {
     let mut rows = Vec::new();
     let mut row = |what: &str, value: String| rows.push(vec![what.to_owned(), value]);
-    if let Some(summary) = &folder.summary {
-        row("version", format!("agglo {}", summary.version()));
+    if let Some(version) = folder.version() {
+        row("version", format!("agglo {version}"));
     }
     if let Some(scenario) = &folder.scenario {
         row("seed", scenario.seed.to_string());
+        row("command", "agglo run scenario.toml -o again".to_owned());
     }
-    row("command", "agglo run scenario.toml -o again".to_owned());
-    Figures {
-        title: "To run it again".to_owned(),
-        about: "In this folder. The same version, scenario and seed give the same numbers, to the last bit, on the \
-                same machine and any number of threads."
-            .to_owned(),
-        rows,
-        ..Figures::default()
+    if rows.is_empty() {
+        return None;
     }
+    let about = match folder.scenario {
+        Some(_) => {
+            "In this folder. The same version, scenario and seed give the same numbers, to the last bit, on the same \
+             machine and any number of threads."
+        }
+        None => "The scenario cannot be read, so this folder alone does not run again.",
+    };
+    Some(Figures { title: "To run it again".to_owned(), about: about.to_owned(), rows, ..Figures::default() })
 }

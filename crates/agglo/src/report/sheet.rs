@@ -20,10 +20,19 @@ impl Sheet {
     /// # Errors
     /// Why it cannot be read.
     pub fn read(path: &Path) -> Result<Self, String> {
+        Self::read_with(path, true)
+    }
+
+    /// The same; without `quotes` they are letters as any other, and a stray one does not swallow the rows after it.
+    ///
+    /// # Errors
+    /// Why it cannot be read.
+    pub fn read_with(path: &Path, quotes: bool) -> Result<Self, String> {
         // Bytes that are no text become entries that are no numbers.
         let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
         let text = String::from_utf8_lossy(&bytes);
-        let mut reader = csv::ReaderBuilder::new().flexible(true).from_reader(text.as_bytes());
+        let mut reader =
+            csv::ReaderBuilder::new().flexible(true).quoting(quotes).from_reader(text.as_bytes());
         let names: Vec<String> =
             reader.headers().map_err(|error| error.to_string())?.iter().map(str::to_owned).collect();
         if names.is_empty() {

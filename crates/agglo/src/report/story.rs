@@ -1,5 +1,6 @@
 //! What happened, in plain words.
 
+use super::folder::Folder;
 use crate::run::{HardSummary, SoftSummary, Summary};
 use crate::scenario::readable;
 
@@ -9,6 +10,30 @@ pub fn story(summary: &Summary) -> String {
         Summary::Soft(summary) => soft(summary),
         Summary::Hard(summary) => hard(summary),
     }
+}
+
+/// What is known of a run without a summary: how far it got and how many grains it had then.
+pub fn unfinished(folder: &Folder, grains: Option<u64>) -> String {
+    let Some(reached) = folder.reached() else { return String::new() };
+    let mut words = Vec::new();
+    match folder.scenario.as_ref().map(|scenario| scenario.time.end.0) {
+        Some(end) => {
+            let part = (100.0 * reached / end).min(100.0);
+            let verb = if reached < end { "stopped at" } else { "reached" };
+            words.push(format!("The run {verb} {} of {}, {part:.0} %.", time(reached), time(end)));
+            if reached < end && folder.has_checkpoint() {
+                words.push(format!("Type \"agglo resume {}\" to go on.", folder.root.display()));
+            } else if reached < end {
+                words.push("There is no checkpoint from which it could go on.".to_owned());
+            }
+        }
+        None => {
+            words.push(format!("The tables go to {}; where the run was to end is not known.", time(reached)));
+        }
+    }
+    words.extend(grains.map(|count| format!("It had {} then.", self::grains(count))));
+    words.push("Warnings are unknown: summary.json, which has them, is missing or damaged.".to_owned());
+    words.join(" ")
 }
 
 fn soft(summary: &SoftSummary) -> String {

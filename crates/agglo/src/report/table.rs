@@ -4,6 +4,9 @@ use std::path::Path;
 
 use super::sheet::Sheet;
 
+/// Columns that hold NaN where there is nothing to measure.
+const MAY_BE_NAN: [&str; 2] = ["fractal_dimension", "mean_free_time_s"];
+
 /// A table of numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
@@ -16,16 +19,22 @@ pub struct Table {
 }
 
 impl Table {
-    /// Reads a table; rows of another length than the header are left out and counted.
+    /// Reads a table; rows of another length than the header, or with what is no finite number, are left out and
+    /// counted.
     ///
     /// # Errors
     /// Why it cannot be read.
     pub fn read(path: &Path) -> Result<Self, String> {
-        let Sheet { names, rows, dropped } = Sheet::read(path)?;
+        let Sheet { names, rows, dropped } = Sheet::read_with(path, false)?;
         let mut table = Self { columns: vec![Vec::new(); names.len()], names, dropped };
         for row in rows {
-            // A damaged row has entries that are no numbers; NaN is one.
-            match row.iter().map(|entry| entry.parse().ok()).collect::<Option<Vec<f64>>>() {
+            // A damaged row has entries that are no finite numbers, but for gaps where there may be some.
+            let number = |(entry, name): (&String, &String)| {
+                let value: f64 = entry.parse().ok()?;
+                let is_gap = value.is_nan() && MAY_BE_NAN.contains(&name.as_str());
+                (value.is_finite() || is_gap).then_some(value)
+            };
+            match row.iter().zip(&table.names).map(number).collect::<Option<Vec<f64>>>() {
                 Some(numbers) => {
                     table.columns.iter_mut().zip(numbers).for_each(|(column, value)| column.push(value));
                 }
@@ -65,10 +74,11 @@ mod tests {
     fn a_damaged_row_is_left_out_and_gaps_stay() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("t.csv");
-        std::fs::write(&path, b"time_s,count\n0.0,1\n0.5,\xff\xfe\n1.0,NaN\n1.5\n2.0,5\n").unwrap();
+        let rows = b"time_s,fractal_dimension\n0.0,1\n0.5,\xff\xfe\n1.0,NaN\n1.5\n2.0,5\n3.0,inf\nNaN,2\n4.0,1,1\n5.0,\"1\n";
+        std::fs::write(&path, rows).unwrap();
         let table = Table::read(&path).unwrap();
         assert_eq!(table.column("time_s"), Some(&[0.0, 1.0, 2.0][..]));
-        assert!(table.column("count").unwrap()[1].is_nan());
-        assert_eq!(table.dropped, 2);
+        assert!(table.column("fractal_dimension").unwrap()[1].is_nan());
+        assert_eq!(table.dropped, 6);
     }
 }

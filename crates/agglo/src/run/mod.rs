@@ -31,6 +31,12 @@ use job::{AnySaved, Job};
 use session::Session;
 use soft::Soft;
 
+/// The tables that a run writes: their places in its folder and the names of their columns.
+#[cfg(feature = "report")]
+pub(crate) fn tables_of(is_hard: bool) -> tables::Layout {
+    if is_hard { Hard::TABLES } else { Soft::TABLES }
+}
+
 /// What an observer is told while a run goes on, about ten times a second.
 #[derive(Clone, Debug)]
 pub struct Progress {

@@ -116,6 +116,11 @@ impl Follower {
     pub fn look(&mut self) -> Result<Sight, WatchError> {
         // Looked for first: what finished a moment later is seen the next time, and then with all rows.
         let summary = crate::run::finished(&self.dir);
+        let path = self.dir.join("summary.json");
+        if summary.is_none() && path.is_file() {
+            let reason = "it is damaged, or of another version".to_owned();
+            return Err(RecordError::Damaged { path, reason }.into());
+        }
         self.tables.read()?;
         let newest = |column: &str| self.tables.newest("steps", column);
         Ok(Sight {

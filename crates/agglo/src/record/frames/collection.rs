@@ -20,6 +20,34 @@ impl Collection {
         self.frames.push((time, file.to_owned()));
     }
 
+    /// Reads a list of ours back.
+    ///
+    /// # Errors
+    /// [`RecordError::File`] where it cannot be read, [`RecordError::Damaged`] where it is not a whole list.
+    pub fn read(path: &Path) -> Result<Self, RecordError> {
+        let bytes = std::fs::read(path).map_err(RecordError::file("read", path))?;
+        let text = String::from_utf8_lossy(&bytes);
+        let entry = |row: &str| {
+            let value =
+                |key: &str| Some(row.split_once(&format!("{key}=\""))?.1.split_once('"')?.0.to_owned());
+            Some((value("timestep")?.parse().ok()?, value("file")?))
+        };
+        let rows = text.lines().filter(|line| line.starts_with("<DataSet "));
+        let frames = rows.map(entry).collect::<Option<Vec<_>>>();
+        match frames.filter(|_| text.ends_with("</Collection>\n</VTKFile>\n")) {
+            Some(frames) => Ok(Self { frames }),
+            None => Err(RecordError::Damaged {
+                path: path.to_owned(),
+                reason: "it is not a whole list of frames".to_owned(),
+            }),
+        }
+    }
+
+    /// Times [s] and files, as they stand in the list.
+    pub fn frames(&self) -> impl Iterator<Item = (f64, &str)> {
+        self.frames.iter().map(|(time, file)| (*time, file.as_str()))
+    }
+
     /// How many frames.
     pub fn len(&self) -> usize {
         self.frames.len()
@@ -64,5 +92,10 @@ mod tests {
         assert!(text.contains("timestep=\"0.0\" group=\"\" part=\"0\" file=\"frames/grains-0.vtp\""));
         assert!(text.contains("timestep=\"2.5e-7\" group=\"\" part=\"0\" file=\"frames/a&amp;b.vtp\""));
         assert_eq!(list.len(), 2);
+        assert_eq!(Collection::read(&path).unwrap().frames().next(), Some((0.0, "frames/grains-0.vtp")));
+        std::fs::write(&path, &text[..text.len() - 20]).unwrap();
+        assert!(matches!(Collection::read(&path), Err(RecordError::Damaged { .. })));
+        std::fs::write(&path, [0xff, 0x00, 0x81]).unwrap();
+        assert!(Collection::read(&path).is_err());
     }
 }

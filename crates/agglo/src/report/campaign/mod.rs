@@ -9,7 +9,7 @@ mod tests;
 
 use std::path::Path;
 
-use super::cite::citations;
+use super::cite::{citations, methods};
 use super::listing::{listing, plain};
 use super::{Listing, Report};
 use crate::scenario::Scenario;
@@ -24,6 +24,7 @@ pub fn report(dir: &Path) -> Report {
     let mut charts = study::charts(&folder);
     charts.extend(charts::charts(&folder));
     let run = dir.join("best/report.html").is_file();
+    let methods = folder.campaign.as_ref().map(methods).unwrap_or_default();
     let what = "The run of the best candidate: its replay and charts";
     Report {
         kind: if folder.is_study() { "A study" } else { "A search" }.to_owned(),
@@ -35,7 +36,8 @@ pub fn report(dir: &Path) -> Report {
         charts,
         tables: tables::tables(&folder),
         files: files(&folder),
-        citations: folder.scenario.as_ref().map(citations).unwrap_or_default(),
+        citations: methods.into_iter().chain(folder.scenario.iter().flat_map(citations)).collect(),
+        laws_are_unknown: folder.scenario.is_none(),
     }
 }
 

@@ -1,6 +1,9 @@
 // Charts by plotly: hover for figures, drag to zoom, double click to go back, click a name to hide its line.
 
-const LINES = NAMED.map(css);
+const LINES = REPORT.palette.lines.map(([color, dashes, width]) => ({
+  color, width, dash: dashes.split(" ").filter(Boolean).map((part) => `${part}px`).join(",") || "solid",
+}));
+const VIRIDIS = scaleOf("viridis");
 
 class Chart {
   constructor(place, chart) {
@@ -32,38 +35,38 @@ class Chart {
 
   traces(tone) {
     const kinds = { lines: lineTrace, points: pointTrace, bars: barTrace, map: mapTrace, parallel: parallelTrace };
-    return this.chart.series.map((series, number) => kinds[this.chart.kind](series, LINES[number % LINES.length], tone, number));
+    return this.chart.series.map((series, number) => kinds[this.chart.kind](series, LINES[number % LINES.length], tone));
   }
 }
 
-// Ticks have prefixes and units: "150 μs". Decades have a tick each, and lines between that say nothing.
+// Ticks have prefixes and units: "150 μs"; pure numbers are written out up to 100,000. Decades have a tick each, and lines between that say nothing.
 function axis({ label, unit, log, names }, tone) {
   const base = {
     title: { text: label, standoff: 8 }, gridcolor: tone("--line"), zerolinecolor: tone("--line"), automargin: true,
   };
   if (names) return { ...base, tickvals: names.map((_, place) => place), ticktext: names };
   return {
-    ...base, type: log ? "log" : "linear", exponentformat: unit ? "SI" : "power", minexponent: 2, ticksuffix: unit,
+    ...base, type: log ? "log" : "linear", exponentformat: unit ? "SI" : "power",
+    minexponent: unit ? 2 : 4, ticksuffix: unit,
     hoverformat: unit ? ".4~s" : ".5~g", ...(log && { dtick: 1 }),
   };
 }
 
-// The first eight lines are drawn through, the next eight are dashed.
-function lineTrace({ name, x, y, error }, color, _, number) {
+function lineTrace({ name, x, y, error }, { color, width, dash }) {
   return {
     type: "scatter", mode: x.length > 1 ? "lines" : "markers", name, x, y,
-    line: { color, width: 2, dash: number < LINES.length ? "solid" : "dash" }, error_y: errorBars(error, color),
+    line: { color, width, dash }, error_y: errorBars(error, color),
   };
 }
 
-function pointTrace({ name, x, y, text, error, colors, label }, color) {
-  const scale = colors && { color: colors, colorscale: "Viridis", showscale: true, colorbar: { title: { text: label } } };
+function pointTrace({ name, x, y, text, error, colors, label }, { color }) {
+  const scale = colors && { color: colors, colorscale: VIRIDIS, showscale: true, colorbar: { title: { text: label } } };
   return {
     type: "scatter", mode: "markers", name, x, y, text, marker: { color, size: 8, ...scale }, error_y: errorBars(error, color),
   };
 }
 
-function barTrace({ name, x, y, error }, color, tone) {
+function barTrace({ name, x, y, error }, { color }, tone) {
   return { type: "bar", name, x, y, marker: { color }, error_y: errorBars(error, tone("--text")) };
 }
 
@@ -73,7 +76,7 @@ function errorBars(error, color) {
 
 function mapTrace({ name, x, y, z, label }) {
   return {
-    type: "heatmap", name, x, y, z, colorscale: "Viridis", colorbar: { title: { text: label, side: "right" }, thickness: 14 },
+    type: "heatmap", name, x, y, z, colorscale: VIRIDIS, colorbar: { title: { text: label, side: "right" }, thickness: 14 },
   };
 }
 
@@ -81,7 +84,7 @@ function parallelTrace({ dimensions, colors, label }, _, tone) {
   return {
     type: "parcoords", labelangle: -30, labelfont: { size: 12 }, tickfont: { size: 11 }, rangefont: { size: 11 },
     dimensions: dimensions.map((dimension) => ({ tickformat: ".4~g", ...dimension })),
-    line: { color: colors, colorscale: "Viridis", showscale: true, reversescale: true, colorbar: { title: { text: label, side: "right" } } },
+    line: { color: colors, colorscale: VIRIDIS, showscale: true, reversescale: true, colorbar: { title: { text: label, side: "right" } } },
     unselected: { line: { color: tone("--line"), opacity: 0.3 } },
   };
 }

@@ -1,27 +1,42 @@
-// Colours. Numbers go through viridis (S. van der Walt, N. Smith, 2015, CC0): even steps look even, also to the
-// colour-blind and in grey. Names go through the eight colours of M. Okabe and K. Ito (2008).
+// Colours, as the data of the page give them: perceptually even maps for numbers, colours that the colour-blind can tell apart for
+// names, colours with dashes for lines.
 
-const VIRIDIS = ["440154", "482475", "414487", "355f8d", "2a788e", "21918c", "22a884", "44bf70", "7ad151", "bddf26",
-  "fde725"].map(parseColor);
-const NAMED = ["0072b2", "e69f00", "009e73", "d55e00", "56b4e9", "cc79a7", "f0e442", "7a7a7a"].map(parseColor);
+const REPORT = JSON.parse(document.getElementById("report").textContent);
+const MAPS = Object.fromEntries(Object.entries(REPORT.palette.maps).map(([name, stops]) => [name, stops.map(parseColor)]));
+const NAMED = REPORT.palette.names.map(parseColor);
+// What stands alone among things that have names.
+const ALONE = parseColor(REPORT.palette.plain);
 
 function parseColor(text) {
   return [0, 2, 4].map((at) => parseInt(text.slice(at, at + 2), 16) / 255);
 }
 
-// The colour [r, g, b] of a part in [0, 1].
-function viridis(part) {
-  const place = Math.min(Math.max(part, 0), 1) * (VIRIDIS.length - 1);
-  const from = Math.min(Math.floor(place), VIRIDIS.length - 2);
-  return VIRIDIS[from].map((a, k) => a + (place - from) * (VIRIDIS[from + 1][k] - a));
+// The colour [r, g, b] of a part in [0, 1] in a map.
+function mapped(map, part) {
+  const stops = MAPS[map];
+  const place = Math.min(Math.max(part, 0), 1) * (stops.length - 1);
+  const from = Math.min(Math.floor(place), stops.length - 2);
+  return stops[from].map((a, k) => a + (place - from) * (stops[from + 1][k] - a));
 }
 
 function named(number) {
   return NAMED[number % NAMED.length];
 }
 
-// What stands alone among things that have names.
-const ALONE = parseColor("b4b4b4");
+// What is neutral and stands out from a stage of that colour.
+function stageInk(stage) {
+  return stage[1] > 0.5 ? [0.1, 0.1, 0.1] : [0.95, 0.95, 0.95];
+}
+
+// The heaviest cluster has the first colour for itself.
+function clusterColor(cluster) {
+  return NAMED[cluster === 0 ? 0 : 1 + ((cluster - 1) % (NAMED.length - 1))];
+}
+
+// A map as plotly wants it.
+function scaleOf(map) {
+  return MAPS[map].map((color, k, all) => [k / (all.length - 1), css(color)]);
+}
 
 function css(color) {
   return `rgb(${color.map((part) => Math.round(255 * part)).join(" ")})`;

@@ -47,6 +47,5 @@ async function startCharts(report) {
   }
 }
 
-const report = JSON.parse(document.getElementById("report").textContent);
-startReplay(report);
-startCharts(report);
+startReplay(REPORT);
+startCharts(REPORT);

@@ -1,6 +1,7 @@
 // The replay: frames, the scene, and the controls around them.
 
-const CHOSEN = [1, 0.25, 0.2];
+// Brighter than any colour: the scene draws it as a mark.
+const CHOSEN = [2, 2, 2];
 
 class Replay {
   constructor(root, plan, bytes) {
@@ -14,7 +15,7 @@ class Replay {
     this.chosen = null;
     this.playing = false;
     this.connect();
-    this.show(0);
+    this.show(plan.first);
   }
 
   // Brings a frame into the scene.
@@ -40,13 +41,14 @@ class Replay {
   sphereColors() {
     const { count, names } = this.grains;
     const values = this.frames.values(this.frame, this.column.name) ?? new Float32Array(count);
-    const { colors: [low, high], kind, name } = this.column;
+    const { colors: [low, high], map, name } = this.column;
+    const nameColor = name === "cluster" ? clusterColor : named;
     const members = new Map();
     if (name === "cluster") values.forEach((cluster) => members.set(cluster, (members.get(cluster) ?? 0) + 1));
     const tints = new Float32Array(3 * count);
     for (let grain = 0; grain < count; grain += 1) {
       const value = values[grain];
-      let color = kind === "name" ? named(value) : viridis((value - low) / (high - low || 1));
+      let color = map ? mapped(map, (value - low) / (high - low || 1)) : nameColor(value);
       if (members.get(value) === 1) color = ALONE;
       if (names[grain] === this.chosen) color = CHOSEN;
       for (let k = 0; k < 3; k += 1) tints[3 * grain + k] = color[k];
@@ -64,9 +66,13 @@ class Replay {
     colors.fill(0.55, 0, bonds.length);
     ends.set(rays.ends, bonds.length);
     const most = this.plan.ray_power || 1;
+    // Neutral: the stage's opposite, and the nearer to the stage the weaker the ray.
+    const stage = this.stageColor();
+    const ink = stageInk(stage);
+    const tone = (part) => stage.map((back, k) => back + part * (ink[k] - back));
     rays.powers.forEach((power, ray) => {
-      const color = viridis(0.35 + (0.65 * power) / most);
-      colors.set([...color, ...color.map((tone) => 0.4 * tone)], bonds.length + 6 * ray);
+      const part = 0.35 + (0.65 * power) / most;
+      colors.set([...tone(part), ...tone(0.4 * part)], bonds.length + 6 * ray);
     });
     this.scene.setLines(ends, colors);
   }
@@ -75,14 +81,17 @@ class Replay {
     return this.part(name)?.checked ?? false;
   }
 
+  stageColor() {
+    return parseColor(getComputedStyle(this.root).getPropertyValue("--scene").trim().slice(1));
+  }
+
   draw() {
     if (this.waiting) return;
     this.waiting = true;
     requestAnimationFrame(() => {
       this.waiting = false;
       const aspect = this.canvas.clientWidth / Math.max(this.canvas.clientHeight, 1);
-      const shade = getComputedStyle(this.root).getPropertyValue("--scene").trim().slice(1);
-      this.scene.draw(this.camera.view(), this.camera.projection(aspect), parseColor(shade));
+      this.scene.draw(this.camera.view(), this.camera.projection(aspect), this.stageColor());
     });
   }
 
@@ -142,7 +151,7 @@ class Replay {
     list.hidden = this.chosen === null;
     if (this.chosen === null) return;
     const rows = [["grain", String(this.chosen)]];
-    if (grain < 0) rows.push(["state", "not in this frame: it merged, broke or was left out"]);
+    if (grain < 0) rows.push(["state", this.whyAbsent(this.chosen)]);
     for (const { name, label, unit } of grain < 0 ? [] : this.plan.columns) {
       const values = this.frames.values(this.frame, name);
       if (values && name !== "id") rows.push([label, `${figure(values[grain])} ${unit}`.trim()]);
@@ -150,13 +159,35 @@ class Replay {
     list.replaceChildren(...rows.flatMap(([what, how]) => [element("dt", what), element("dd", how)]));
   }
 
+  // Why this frame does not have the grain of that name.
+  whyAbsent(name) {
+    const { share, can_vanish: canVanish } = this.plan;
+    const having = this.frames.having(name);
+    if (having.length === 0) {
+      const thinned = share > 1 && name % share !== 0;
+      return thinned ? `one of ${share} grains is shown; if there is a grain ${name}, it was left out` : `there is no grain ${name}`;
+    }
+    if (!canVanish) return "not in this frame";
+    return having[0] > this.frame ? "not in this frame: it is made later" : "not in this frame: it merged or broke";
+  }
+
   showLegend() {
-    const { label, unit, colors: [low, high], kind } = this.column;
+    this.showColors();
+    if (!this.isOn("rays")) return;
+    const [entry, stroke] = [element("s", ""), element("i", "")];
+    const ink = css(stageInk(this.stageColor()));
+    stroke.style.background = `linear-gradient(to bottom, transparent 40%, ${ink} 40% 60%, transparent 60%)`;
+    entry.append(stroke, "rays");
+    this.part("legend").append(entry);
+  }
+
+  showColors() {
+    const { label, unit, colors: [low, high], map } = this.column;
     const legend = this.part("legend");
     legend.replaceChildren(element("span", unit ? `${label} [${unit}]` : label));
-    if (kind === "name") return this.showNames(legend);
+    if (!map) return this.showNames(legend);
     const bar = element("i", "");
-    const stops = Array.from({ length: 11 }, (_, k) => css(viridis(k / 10)));
+    const stops = Array.from({ length: 11 }, (_, k) => css(mapped(map, k / 10)));
     bar.style.background = `linear-gradient(to right, ${stops.join(",")})`;
     legend.append(element("b", figure(low)), bar, element("b", figure(high)));
   }
@@ -164,10 +195,11 @@ class Replay {
   // The colours of the first names; there are more names than colours, and these come again.
   showNames(legend) {
     const isCluster = this.column.name === "cluster";
-    const last = Math.min(this.column.high, isCluster ? 2 : NAMED.length - 1);
-    const entries = Array.from({ length: last + 1 }, (_, number) => [named(number), String(number)]);
+    const last = Math.min(this.column.high, isCluster ? 3 : NAMED.length - 1);
+    const entries = Array.from({ length: last + 1 }, (_, number) => [named(number), isCluster ? "" : String(number)]);
     if (isCluster) {
       entries[0][1] = "heaviest";
+      if (last > 0) entries[last][1] = "others";
       entries.push([ALONE, "single grains"]);
     }
     for (const [color, text] of entries) {
@@ -192,7 +224,7 @@ class Replay {
       this.choose(target.value === "" ? null : Number(target.value));
     });
     for (const name of ["bonds", "rays"]) {
-      this.part(name)?.addEventListener("change", () => { this.showLines(); this.draw(); });
+      this.part(name)?.addEventListener("change", () => { this.showLines(); this.showLegend(); this.draw(); });
     }
     const choice = this.part("color");
     choice.replaceChildren(...this.plan.columns.map(({ name, label }) => new Option(label, name)));
@@ -204,7 +236,11 @@ class Replay {
     });
     this.showLegend();
     new ResizeObserver(() => this.draw()).observe(this.canvas);
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
+      this.showLines();
+      this.showLegend();
+      this.draw();
+    });
     followPointers(this.canvas, this.camera, (moved) => this.moved(moved), (event) => this.pick(event));
     this.canvas.addEventListener("keydown", (event) => this.key(event));
   }

@@ -36,6 +36,12 @@ class Frames {
     return values;
   }
 
+  // The frames that have a grain of that name.
+  having(name) {
+    const all = Array.from({ length: this.count }, (_, frame) => frame);
+    return all.filter((frame) => this.values(frame, "id").includes(name));
+  }
+
   // Centres [3 n], radii [n] (times `part`, to be drawn smaller) and names [n] of the grains.
   grains(frame, part) {
     const names = this.values(frame, "id");
@@ -43,7 +49,7 @@ class Frames {
       count: names.length,
       names,
       centers: interleave(["x", "y", "z"].map((axis) => this.values(frame, axis))),
-      radii: this.values(frame, "radius").map((radius) => part * radius),
+      radii: this.values(frame, "size").map((radius) => part * radius),
     };
   }
 

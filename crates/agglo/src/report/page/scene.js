@@ -30,8 +30,15 @@ void main() {
   float key = max(dot(normal, normalize(vec3(-0.4, 0.7, 0.6))), 0.0);
   float fill = 0.5 + 0.5 * dot(normal, vec3(0.3, -0.4, 0.6));
   float rim = pow(1.0 - max(dot(normal, -sight), 0.0), 3.0);
+  // A marked grain is white and has a black ring, which no map of colours has.
+  float facing = dot(normal, -sight);
+  bool marked = tint.r > 1.5;
   vec4 clip = projection * vec4(point, 1.0);
   gl_FragDepth = 0.5 + 0.5 * clip.z / clip.w;
+  if (marked) {
+    shown = vec4(vec3(facing < 0.5 ? 0.0 : 1.0), 1.0);
+    return;
+  }
   shown = vec4(tint * (0.30 + 0.60 * key + 0.22 * fill) * (1.0 - 0.45 * rim), 1.0);
 }`;
 

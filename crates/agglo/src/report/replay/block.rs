@@ -57,7 +57,7 @@ impl Block {
         self.places(grains, ["x", "y", "z"], &mut arrays);
         for column in columns.iter().filter(|column| column.name != NAMES) {
             if let Some(values) = column.values(grains) {
-                let array = if column.kind == "name" {
+                let array = if column.map.is_none() {
                     self.integers(&values.iter().map(|value| *value as u32).collect::<Vec<_>>())
                 } else {
                     self.rounded(&values, [column.low, column.high])

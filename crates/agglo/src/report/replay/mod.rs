@@ -4,20 +4,19 @@ mod block;
 mod scene;
 #[cfg(test)]
 mod tests;
+mod thinning;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde::Serialize;
 
-use super::columns::{Column, known};
+use super::columns::{Column, SIZES, known};
+use super::html::deflated;
+use crate::record::frames::Frame;
 use crate::scenario::readable;
 use block::{Block, FramePlan};
 use scene::Scene;
-
-/// Bytes of the files of all frames together that are shown, at the most; the block holds less than a quarter of that.
-const MOST_BYTES: u64 = 56_000_000;
-/// Frames are left out until there are this many; then grains are.
-const FRAMES_KEPT: u64 = 24;
+use thinning::{Choice, MOST_BYTES};
 
 /// What the page needs to know of the block.
 #[derive(Clone, Debug, Serialize)]
@@ -30,8 +29,14 @@ pub struct Plan {
     pub columns: Vec<Column>,
     /// The first choice of those.
     pub color_by: String,
+    /// Number of the frame that is shown first: where grains grow, the one that shows what came of it.
+    pub first: usize,
     /// Power of the strongest ray [W].
     pub ray_power: f64,
+    /// One of so many grains is shown: those whose names it divides.
+    pub share: u64,
+    /// Whether grains merge and break, so that a grain may be in some frames only.
+    pub can_vanish: bool,
 }
 
 /// A packed replay.
@@ -41,16 +46,12 @@ pub struct Replay {
     pub plan: Plan,
     /// The block.
     pub bytes: Vec<u8>,
+    /// The block as it stands in the page.
+    pub packed: String,
+    /// How many grains the last frame has.
+    pub grains: usize,
     /// What was left out or could not be read.
     pub notes: Vec<String>,
-}
-
-/// What of a run's frames is shown.
-struct Choice {
-    /// One of so many frames.
-    frames: u64,
-    /// One of so many grains.
-    grains: u64,
 }
 
 /// Packs the frames; what was left out or could not be read is in the notes of a replay, or stands alone where no
@@ -59,11 +60,26 @@ struct Choice {
 /// # Errors
 /// The notes, where no frame can be read.
 pub fn replay(files: &[PathBuf]) -> Result<Replay, Vec<String>> {
-    let choice = Choice::of(files);
-    let mut notes = choice.notes(files.len() as u64);
+    within(files, MOST_BYTES)
+}
+
+/// The same with a bound on the bytes of the packed block.
+fn within(files: &[PathBuf], most: usize) -> Result<Replay, Vec<String>> {
+    let mut choice = Choice::of(files, most);
+    loop {
+        let replay = chosen(files, &choice)?;
+        // The choice was an estimate from some of the frames.
+        if replay.packed.len() <= most || !choice.thin_on(replay.packed.len(), most) {
+            return Ok(replay);
+        }
+    }
+}
+
+fn chosen(files: &[PathBuf], choice: &Choice) -> Result<Replay, Vec<String>> {
+    let mut notes = choice.notes(files.len());
     let mut scenes = Vec::new();
-    for path in files.iter().step_by(choice.frames as usize) {
-        match Scene::read(path, choice.grains, &mut notes) {
+    for at in choice.frames(files.len()) {
+        match Scene::read(&files[at], &mut notes) {
             Ok(scene) => scenes.push(scene),
             Err(error) => notes.push(format!("a frame is left out: {error}")),
         }
@@ -71,35 +87,12 @@ pub fn replay(files: &[PathBuf]) -> Result<Replay, Vec<String>> {
     if scenes.iter().all(|scene| scene.grains.points.is_empty()) {
         return Err(notes);
     }
-    Ok(pack(&scenes, notes))
-}
-
-impl Choice {
-    fn of(files: &[PathBuf]) -> Self {
-        let size = |path: &Path| path.metadata().map_or(0, |data| data.len());
-        let all = |path: &PathBuf| {
-            size(path) + size(&scene::beside(path, "bonds")) + size(&scene::beside(path, "rays"))
-        };
-        let bytes: u64 = files.iter().map(all).sum();
-        let wanted = bytes.div_ceil(MOST_BYTES).max(1);
-        let frames = wanted.min((files.len() as u64 / FRAMES_KEPT).max(1));
-        Self { frames, grains: wanted.div_ceil(frames) }
+    let grains = scenes.last().map_or(0, |scene| scene.grains.points.len());
+    for scene in &mut scenes {
+        scene.thin(choice.share);
     }
-
-    fn notes(&self, frames: u64) -> Vec<String> {
-        let mut notes = Vec::new();
-        if self.frames > 1 {
-            let shown = frames.div_ceil(self.frames);
-            notes.push(format!("the replay shows {shown} of {frames} frames, to keep the file small"));
-        }
-        if self.grains > 1 {
-            let share = self.grains;
-            notes.push(format!(
-                "the replay shows one of {share} grains and rays, and no bonds, to keep the file small"
-            ));
-        }
-        notes
-    }
+    let Replay { plan, bytes, packed, notes, .. } = pack(&scenes, notes);
+    Ok(Replay { plan: Plan { share: choice.share, ..plan }, bytes, packed, notes, grains })
 }
 
 fn pack(scenes: &[Scene], mut notes: Vec<String>) -> Replay {
@@ -107,10 +100,10 @@ fn pack(scenes: &[Scene], mut notes: Vec<String>) -> Replay {
     let columns = known(&grains);
     let mut block = Block::default();
     let frames = scenes.iter().map(|scene| block.frame(scene, &columns)).collect();
-    let color_by = ["cluster", "temperature", "speed"]
+    let color_by = [if grow(&grains) { SIZES } else { "cluster" }, "cluster", "temperature", "speed"]
         .into_iter()
         .find(|wanted| columns.iter().any(|column| column.name == *wanted))
-        .unwrap_or("radius");
+        .unwrap_or(SIZES);
     let rays: Vec<_> = scenes.iter().filter_map(|scene| scene.rays.as_ref()).collect();
     if !rays.is_empty() && rays.iter().all(|rays| rays.points.is_empty()) {
         notes.push(
@@ -124,8 +117,20 @@ fn pack(scenes: &[Scene], mut notes: Vec<String>) -> Replay {
         times: scenes.iter().map(|scene| readable(scene.grains.time, "s")).collect(),
         frames,
         color_by: color_by.to_owned(),
+        first: if color_by == SIZES { scenes.len() - 1 } else { 0 },
         columns,
         ray_power: powers.flatten().fold(0.0, f64::max),
+        share: 1,
+        can_vanish: grains.iter().any(|grains| grains.field("primaries").is_some()),
     };
-    Replay { plan, bytes: block.bytes, notes }
+    let packed = deflated(&block.bytes);
+    Replay { plan, bytes: block.bytes, packed, notes, grains: 0 }
+}
+
+/// Whether the largest grain of one frame is larger than that of another: grains merge or break.
+fn grow(frames: &[&Frame]) -> bool {
+    let largest =
+        |frame: &&Frame| block::numbers(frame, "radius_m").map(|radii| radii.into_iter().fold(0.0, f64::max));
+    let mut largest = frames.iter().filter_map(largest);
+    largest.next().is_some_and(|first| largest.any(|other| other != first))
 }

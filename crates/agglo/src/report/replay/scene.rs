@@ -6,6 +6,11 @@ use crate::record::RecordError;
 use crate::record::frames::{FieldValues, Frame};
 use crate::report::columns::NAMES;
 
+/// No number of a frame is as large in SI units.
+const LARGEST: f64 = 1e30;
+/// How much further than most points no point gets.
+const STRAY: f64 = 1e6;
+
 /// A frame with what is drawn over its grains.
 pub struct Scene {
     /// The grains.
@@ -23,28 +28,94 @@ pub fn beside(grains: &Path, kind: &str) -> PathBuf {
 }
 
 impl Scene {
-    /// Reads a frame and keeps one of `share` grains; bonds and rays that cannot be read are noted.
+    /// Reads a frame; bonds and rays that cannot be used are noted.
     ///
     /// # Errors
-    /// [`RecordError`] where the grains cannot be read.
-    pub fn read(path: &Path, share: u64, notes: &mut Vec<String>) -> Result<Self, RecordError> {
+    /// [`RecordError`] where the grains cannot be read, or cannot be.
+    pub fn read(path: &Path, notes: &mut Vec<String>) -> Result<Self, RecordError> {
         let mut over = |kind: &str| {
             let path = beside(path, kind);
-            let read = path.is_file().then(|| Frame::read(&path))?;
+            let read = path.is_file().then(|| sound(&path))?;
             read.map_err(|error| notes.push(format!("{kind} of a frame are left out: {error}"))).ok()
         };
-        let (bonds, mut rays) = (over("bonds"), over("rays"));
-        let mut grains = Frame::read(path)?;
-        let mut bonds = bonds.map(|bonds| between(&grains, &bonds)).unwrap_or_default();
-        if share > 1 {
-            bonds.clear();
-            thin(&mut grains, share);
-            if let Some(rays) = &mut rays {
-                thin(rays, share);
-            }
+        let (bonds, rays) = (over("bonds"), over("rays"));
+        let grains = sound(path)?;
+        let lines = bonds.as_ref().map_or(0, |bonds| bonds.lines.len());
+        let bonds = bonds.map(|bonds| between(&grains, &bonds)).unwrap_or_default();
+        if bonds.len() < lines {
+            notes.push(format!(
+                "{} is damaged: {} of {lines} bonds join no grains and are left out",
+                beside(path, "bonds").display(),
+                lines - bonds.len()
+            ));
         }
         Ok(Self { grains, bonds, rays })
     }
+
+    /// Keeps one of `share` grains and rays, and the bonds between the grains that are kept.
+    pub fn thin(&mut self, share: u64) {
+        if share <= 1 {
+            return;
+        }
+        let kept = thin(&mut self.grains, share);
+        let place = |grain: u32| kept.binary_search(&(grain as usize)).ok().map(|at| at as u32);
+        self.bonds = self.bonds.iter().filter_map(|&[a, b]| Some([place(a)?, place(b)?])).collect();
+        if let Some(rays) = &mut self.rays {
+            thin(rays, share);
+        }
+    }
+}
+
+/// Reads a frame whose numbers can be true.
+fn sound(path: &Path) -> Result<Frame, RecordError> {
+    let frame = Frame::read(path)?;
+    match fault(&frame) {
+        Some(reason) => Err(RecordError::Damaged { path: path.to_owned(), reason }),
+        None => Ok(frame),
+    }
+}
+
+/// Why the numbers of a frame cannot be true.
+fn fault(frame: &Frame) -> Option<String> {
+    let is_real = |value: &f64| value.abs() < LARGEST;
+    if !frame.points.as_flattened().iter().all(is_real) {
+        return Some("it has places that are not finite, or absurd".to_owned());
+    }
+    if has_strays(&frame.points) {
+        return Some("it has places absurdly far from all others".to_owned());
+    }
+    frame.fields.iter().find_map(|(name, values)| {
+        let holds = match values {
+            FieldValues::Integers(values) => name != NAMES || values.is_sorted_by(|a, b| a < b),
+            FieldValues::Scalars(values) => values.iter().all(|value| {
+                is_real(value)
+                    && match name.as_str() {
+                        "radius_m" | "mass_kg" => *value > 0.0,
+                        "temperature_k" => *value >= 0.0,
+                        _ => true,
+                    }
+            }),
+            FieldValues::Vectors(values) => values.as_flattened().iter().all(is_real),
+        };
+        (!holds).then(|| format!("its {name} has values that are not finite, or absurd"))
+    })
+}
+
+/// Whether a point is further from the middle than most are by so much that no motion takes it there.
+fn has_strays(points: &[[f64; 3]]) -> bool {
+    let middle = |mut values: Vec<f64>| {
+        let at = values.len() / 2;
+        *values.select_nth_unstable_by(at, f64::total_cmp).1
+    };
+    if points.len() < 3 {
+        return false;
+    }
+    let center = [0, 1, 2].map(|axis| middle(points.iter().map(|point| point[axis]).collect()));
+    let away = |point: &[f64; 3]| (0..3).map(|k| (point[k] - center[k]).abs()).fold(0.0, f64::max);
+    let distances: Vec<f64> = points.iter().map(away).collect();
+    let most = distances.iter().copied().fold(0.0, f64::max);
+    let usual = middle(distances);
+    usual > 0.0 && most > STRAY * usual
 }
 
 /// The grains that bonds join. Bonds have points of their own, in another order, at the same places.
@@ -62,8 +133,8 @@ fn between(grains: &Frame, bonds: &Frame) -> Vec<[u32; 2]> {
     bonds.lines.iter().filter_map(|&[a, b]| Some([grain(a)?, grain(b)?])).collect()
 }
 
-/// Keeps one of `share` points: by their names, so that a grain is in all frames or in none.
-fn thin(frame: &mut Frame, share: u64) {
+/// Keeps one of `share` points: by their names, so that a grain is in all frames or in none. Gives their places.
+fn thin(frame: &mut Frame, share: u64) -> Vec<usize> {
     let names: Vec<u64> = match frame.field(NAMES) {
         Some(FieldValues::Integers(names)) => names.iter().map(|&name| u64::from(name)).collect(),
         _ => (0..frame.points.len() as u64).collect(),
@@ -77,4 +148,5 @@ fn thin(frame: &mut Frame, share: u64) {
             FieldValues::Vectors(values) => *values = kept.iter().map(|&at| values[at]).collect(),
         }
     }
+    kept
 }

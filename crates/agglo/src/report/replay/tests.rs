@@ -104,23 +104,87 @@ fn bonds_and_rays_are_packed_and_damaged_ones_left_out() {
     assert!(replay.notes.len() == 1 && replay.notes[0].contains("rays_000001.vtp"), "{:?}", replay.notes);
 }
 
-/// A sparse file of the wanted length stands for frames that are too much for a page.
 #[test]
 fn large_runs_are_thinned_and_said() {
-    let (folder, mut paths) = folder(40, 60);
-    let large = |name: &str, bytes: u64| {
-        let path = folder.path().join(name);
-        std::fs::File::options().create(true).append(true).open(&path).unwrap().set_len(bytes).unwrap();
-        path
+    let (folder, paths) = folder(40, 600);
+    // Places without any pattern, as those of a run: frames do not shrink by what they have in common.
+    let mut state = 1_u32;
+    let mut noise = || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        f64::from(state >> 8) / f64::from(1 << 24)
     };
-    large("rays_000001.vtp", MOST_BYTES / 2);
-    assert!(replay(&paths).unwrap().notes.iter().all(|note| note.contains("rays_000001")));
-    // 40 frames are not thinned below 24, so that one of three grains is left.
-    paths.push(large("grains_000040.vtp", 2 * MOST_BYTES));
-    let replay = replay(&paths[..40]).unwrap();
-    assert_eq!(names(&replay, 39).len(), 60);
-    let thinned = super::replay(&paths).unwrap();
-    assert_eq!(names(&thinned, 0), (0..60).step_by(3).collect::<Vec<u32>>());
-    assert_eq!(names(&thinned, 39), (0..60).step_by(3).collect::<Vec<u32>>());
-    assert!(thinned.notes.iter().any(|note| note.contains("one of 3 grains")), "{:?}", thinned.notes);
+    let mut last = grains(600, 39);
+    for (frame, path) in paths.iter().enumerate() {
+        for grain in 0..600 {
+            last.position[grain] = Vec3::new(noise(), noise(), noise());
+            last.temperature[grain] = 300.0 + noise();
+        }
+        write_grains(path, 0.5 * frame as f64, &last, &[]).unwrap();
+    }
+    let chain: Vec<[u32; 2]> = (0..599).map(|grain| [grain, grain + 1]).collect();
+    let skip: Vec<[u32; 2]> = (0..597).map(|grain| [grain, grain + 3]).collect();
+    let bonds = [chain, skip].concat();
+    write_lines(&folder.path().join("bonds_000039.vtp"), 0.0, &last.position, &bonds, &[]).unwrap();
+    let whole = replay(&paths).unwrap();
+    assert!(whole.notes.is_empty() && whole.plan.frames.len() == 40 && whole.plan.share == 1);
+    let bytes = whole.packed.len();
+    // First frames go, the first and the last of them never.
+    let fewer = within(&paths, bytes * 8 / 10).unwrap();
+    let frames = fewer.plan.frames.len();
+    assert!((24..40).contains(&frames) && fewer.plan.share == 1, "{frames} frames");
+    assert!(fewer.packed.len() <= bytes * 8 / 10);
+    let times = fewer.plan.frames.iter().map(|frame| frame.time).collect::<Vec<_>>();
+    assert_eq!((times[0], times[frames - 1]), (0.0, 0.5 * 39.0));
+    assert!(fewer.notes[0].contains(&format!("{frames} of 40 frames")), "{:?}", fewer.notes);
+    // 40 frames are not thinned below 24; then grains go, the same ones in all frames, with their bonds.
+    let thinned = within(&paths, bytes / 5).unwrap();
+    let share = thinned.plan.share;
+    assert!(thinned.packed.len() <= bytes / 5 && share > 1);
+    assert_eq!((thinned.plan.frames.len(), thinned.grains), (24, 600));
+    let kept: Vec<u32> = (0..600).filter(|name| u64::from(*name).is_multiple_of(share)).collect();
+    assert_eq!(names(&thinned, 0), kept);
+    assert_eq!(names(&thinned, 23), kept);
+    assert!(thinned.notes.iter().any(|note| note.contains(&format!("one of {share} grains"))));
+    let both_ends = |pair: &&[u32; 2]| pair.iter().all(|&name| u64::from(name).is_multiple_of(share));
+    let due = bonds.iter().filter(both_ends).flatten().copied().collect::<Vec<_>>();
+    let found =
+        thinned.plan.frames[23].arrays.get("bonds").map_or(Vec::new(), |_| whole_names(&thinned, 23, &kept));
+    assert_eq!(found, due);
+}
+
+/// Names of the grains that bonds join.
+fn whole_names(replay: &Replay, frame: usize, kept: &[u32]) -> Vec<u32> {
+    whole(replay, frame, "bonds").into_iter().map(|at| kept[at as usize]).collect()
+}
+
+#[test]
+fn numbers_that_cannot_be_true_are_found() {
+    let (_folder, paths) = folder(3, 5);
+    let whole = std::fs::read(&paths[1]).unwrap();
+    let mark = b"<AppendedData encoding=\"raw\">\n_";
+    let data = whole.windows(mark.len()).position(|part| part == mark).unwrap() + mark.len();
+    let head = String::from_utf8_lossy(&whole[..data]);
+    let (_, places) = head.split_once("Name=\"Points\"").unwrap();
+    let offset: usize = places.split("offset=\"").nth(1).unwrap().split('"').next().unwrap().parse().unwrap();
+    let data = data + offset;
+    for number in 0..15 {
+        let mut bytes = whole.clone();
+        let at = data + 8 + 8 * number;
+        bytes[at..at + 8].fill(0xff);
+        std::fs::write(&paths[1], &bytes).unwrap();
+        let packed = replay(&paths).unwrap();
+        assert_eq!(packed.plan.frames.len(), 2);
+        let note = &packed.notes[0];
+        assert!(note.contains("grains_000001.vtp") && note.contains("not finite"), "{note}");
+    }
+}
+
+#[test]
+fn grains_that_grow_are_coloured_by_size_first() {
+    let (folder, paths) = folder(2, 5);
+    assert_eq!(replay(&paths).unwrap().plan.color_by, "temperature");
+    let mut grown = grains(5, 1);
+    grown.radius[2] = 0.5;
+    write_grains(&folder.path().join("grains_000001.vtp"), 0.5, &grown, &[]).unwrap();
+    assert_eq!(replay(&paths).unwrap().plan.color_by, "size");
 }

@@ -1,7 +1,4 @@
-//! Colour maps for values and colours for names.
-
-use super::image::light_of;
-use super::solid::Light;
+//! Colour maps for values, and colours for names of grains.
 
 /// A colour map: equal steps of the value look equally far apart, in grey and to the colour-blind too.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,20 +30,25 @@ const INFERNO: Table = [
     0xc6_3d4d, 0xd9_4d3d, 0xe9_612b, 0xf4_7918, 0xfa_9407, 0xfc_b014, 0xf8_cd37, 0xf2_ea69, 0xfc_ffa4,
 ];
 
-/// How many colours of names there are.
-pub(super) const NAMES: usize = 7;
-
-/// Colours of names, in their order.
+/// Colours of names of grains, in their order, as red, green and blue, a byte each.
 ///
 /// Source: M. Okabe and K. Ito, *Color universal design* (2008).
-const NAMED: [u32; NAMES] = [0x00_72b2, 0xe6_9f00, 0x00_9e73, 0xcc_79a7, 0x56_b4e9, 0xd5_5e00, 0xf0_e442];
-/// What has no name of its own.
-const PLAIN: u32 = 0xbd_bdbd;
+pub const NAMED: [u32; 7] = [0x00_72b2, 0xe6_9f00, 0x00_9e73, 0xcc_79a7, 0x56_b4e9, 0xd5_5e00, 0xf0_e442];
+/// Colour of what has no name of its own.
+pub const PLAIN: u32 = 0xbd_bdbd;
+
+/// Steps of a map that is given out: two for each of the tables, so that those whole are exact.
+const STOPS: u32 = 34;
 
 impl Map {
     /// All of them by their words.
     pub const WORDS: [(&'static str, Self); 3] =
         [("viridis", Self::Viridis), ("cividis", Self::Cividis), ("inferno", Self::Inferno)];
+
+    /// Its word.
+    pub fn word(self) -> &'static str {
+        Self::WORDS.iter().find(|(_, map)| *map == self).map_or("", |(word, _)| word)
+    }
 
     /// The table and where it begins: the black end of inferno cannot be told from shade and is left out.
     fn table(self) -> (&'static Table, f64) {
@@ -71,15 +73,15 @@ impl Map {
         channel(16) | channel(8) | channel(0)
     }
 
-    /// The same as light.
-    pub fn light(self, part: f64) -> Light {
-        light_of(self.color(part))
+    /// The map at equal steps, between which colours can be mixed.
+    pub fn stops(self) -> impl Iterator<Item = u32> {
+        (0..=STOPS).map(move |step| self.color(f64::from(step) / f64::from(STOPS)))
     }
 }
 
-/// The colour of a name by its number; plain grey without one.
-pub(super) fn named(number: Option<usize>) -> u32 {
-    number.map_or(PLAIN, |number| NAMED[number % NAMES])
+/// Colour of a grain with the number of a name; plain grey without one.
+pub fn name_color(number: Option<usize>) -> u32 {
+    number.map_or(PLAIN, |number| NAMED[number % NAMED.len()])
 }
 
 #[cfg(test)]
@@ -92,13 +94,40 @@ mod tests {
     fn maps_get_lighter_evenly() {
         for (word, map) in Map::WORDS {
             let lightness = |step: i32| {
-                let [r, g, b] = map.light(f64::from(step) / 100.0).map(f64::from);
+                let color = map.color(f64::from(step) / 100.0);
+                // As light, by the curve of sRGB screens.
+                let channel = |shift: u32| match f64::from(color >> shift & 0xff) / 255.0 {
+                    dark if dark <= 0.04045 => dark / 12.92,
+                    value => ((value + 0.055) / 1.055).powf(2.4),
+                };
+                let [r, g, b] = [16, 8, 0].map(channel);
                 116.0 * (0.2126 * r + 0.7152 * g + 0.0722 * b).cbrt() - 16.0
             };
             let mean = (lightness(100) - lightness(0)) / 20.0;
             for step in (5..=100).step_by(5) {
                 let rise = lightness(step) - lightness(step - 5);
                 assert!(rise > 0.5 * mean && rise < 2.0 * mean, "{word} {step}: {rise} and not {mean}");
+            }
+        }
+    }
+
+    /// Mixed between its stops a map is itself, but for rounding twice; inferno is cut, so that its stops lie beside those of
+    /// the table, and two steps of a channel's 255 more are let pass.
+    #[test]
+    fn stops_give_the_map_back() {
+        for (word, map) in Map::WORDS {
+            let stops: Vec<u32> = map.stops().collect();
+            let most = if map == Map::Inferno { 3.0 } else { 1.0 };
+            for step in 0..=200 {
+                let part = f64::from(step) / 200.0;
+                let place = part * (stops.len() - 1) as f64;
+                let below = (place as usize).min(stops.len() - 2);
+                let share = place - below as f64;
+                for shift in [16, 8, 0] {
+                    let channel = |color: u32| f64::from(color >> shift & 0xff);
+                    let mixed = (1.0 - share) * channel(stops[below]) + share * channel(stops[below + 1]);
+                    assert!((mixed - channel(map.color(part))).abs() <= most, "{word} {part}");
+                }
             }
         }
     }

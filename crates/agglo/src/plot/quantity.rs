@@ -41,30 +41,35 @@ const fn values(
     Quantity { word, title, unit, field, coloring: Coloring::Values(map), has_outliers: false }
 }
 
-/// All of them.
-const QUANTITIES: [Quantity; 10] = [
-    Quantity { has_outliers: true, ..values("speed", "Speed", "m/s", "velocity_m_s", Map::Viridis) },
-    values("temperature", "Temperature", "K", "temperature_k", Map::Inferno),
-    Quantity { coloring: Coloring::Clusters, ..values("cluster", "Cluster", "", "cluster", Map::Viridis) },
-    Quantity {
-        has_outliers: true,
-        ..values("absorbed_power", "Absorbed power", "W", "absorbed_power_w", Map::Inferno)
-    },
-    values("size", "Radius", "m", "radius_m", Map::Cividis),
-    values("id", "Grain", "", "id", Map::Viridis),
-    Quantity {
-        coloring: Coloring::Materials,
-        ..values("material", "Material", "", "material", Map::Viridis)
-    },
-    values("primaries", "Primaries", "", "primaries", Map::Viridis),
-    values("charge", "Charge", "C", "charge_c", Map::Viridis),
-    Quantity { has_outliers: true, ..values("spin", "Spin", "rad/s", "spin_rad_s", Map::Viridis) },
-];
-
 impl Quantity {
+    /// All of them, the most telling first.
+    pub const ALL: [Self; 12] = [
+        Quantity { has_outliers: true, ..values("speed", "Speed", "m/s", "velocity_m_s", Map::Viridis) },
+        values("temperature", "Temperature", "K", "temperature_k", Map::Inferno),
+        Quantity {
+            coloring: Coloring::Clusters,
+            ..values("cluster", "Cluster", "", "cluster", Map::Viridis)
+        },
+        Quantity {
+            has_outliers: true,
+            ..values("absorbed_power", "Absorbed power", "W", "absorbed_power_w", Map::Inferno)
+        },
+        values("size", "Radius", "m", "radius_m", Map::Cividis),
+        values("id", "Grain", "", "id", Map::Viridis),
+        Quantity {
+            coloring: Coloring::Materials,
+            ..values("material", "Material", "", "material", Map::Viridis)
+        },
+        values("primaries", "Primaries", "", "primaries", Map::Viridis),
+        Quantity { has_outliers: true, ..values("mass", "Mass", "kg", "mass_kg", Map::Cividis) },
+        values("charge", "Charge", "C", "charge_c", Map::Viridis),
+        Quantity { has_outliers: true, ..values("spin", "Spin", "rad/s", "spin_rad_s", Map::Viridis) },
+        values("polarity", "Polarity", "", "polarity", Map::Viridis),
+    ];
+
     /// The quantities that a frame holds, the most telling first.
     pub fn all_in(frame: &Frame) -> impl Iterator<Item = Self> {
-        QUANTITIES.into_iter().filter(|quantity| frame.field(quantity.field).is_some())
+        Self::ALL.into_iter().filter(|quantity| frame.field(quantity.field).is_some())
     }
 
     /// A value for each grain [n] in SI units, of a vector its length; nothing where the frame does not have it.
