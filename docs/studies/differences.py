@@ -9,12 +9,10 @@
 AGGLO names another program. Plots go to docs/pictures/validation/.
 """
 
-import sys
-
 import numpy as np
 
 import halving
-from validation import BLACK, BLUE, ORANGE, VERMILION, Run, figure, save
+from validation import BLACK, BLUE, ORANGE, VERMILION, Run, draw, figure, save
 
 # Hardness [Pa] and density [kg/m3] of the two spheres that meet.
 HARDNESS, DENSITY = 1e6, 2000.0
@@ -86,14 +84,5 @@ def steps():
     save(made, "steps")
 
 
-def main():
-    known = {"impacts": impacts, "steps": steps}
-    unknown = [name for name in sys.argv[1:] if name not in known]
-    if unknown:
-        sys.exit(f"{', '.join(unknown)}: one of {', '.join(known)} is wanted")
-    for name in sys.argv[1:] or known:
-        known[name]()
-
-
 if __name__ == "__main__":
-    main()
+    draw((impacts, steps))

@@ -422,8 +422,9 @@ def sets():
 PLOTS = (hertz, restitution, oblique, haff, collisions, aggregation, rays, order, sets)
 
 
-def main():
-    known = {plot.__name__: plot for plot in PLOTS}
+def draw(plots):
+    """Draws the plots that the command line names; all of them where it names none."""
+    known = {plot.__name__: plot for plot in plots}
     unknown = [name for name in sys.argv[1:] if name not in known]
     if unknown:
         sys.exit(f"{', '.join(unknown)}: one of {', '.join(known)} is wanted")
@@ -432,4 +433,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    draw(PLOTS)

@@ -115,13 +115,20 @@ fn write_lines(mut follower: Follower) -> Result<Option<Summary>, Failure> {
 struct News {
     time: Option<f64>,
     at: Instant,
-    is_told: bool,
-    is_quiet: bool,
+    said: Said,
+}
+
+/// What was said since the newest row came.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Said {
+    Nothing,
+    Row,
+    Quiet,
 }
 
 impl News {
     fn new() -> Self {
-        Self { time: None, at: Instant::now(), is_told: false, is_quiet: false }
+        Self { time: None, at: Instant::now(), said: Said::Nothing }
     }
 
     fn take(&mut self, sight: &Sight) {
@@ -130,21 +137,25 @@ impl News {
         }
     }
 
+    /// What is said where the folder has been quiet for long.
+    fn quiet(&self) -> Option<String> {
+        let quiet = self.at.elapsed();
+        let seconds = quiet.as_secs();
+        (quiet >= QUIET).then(|| format!("nothing new for {seconds} s: the run is slow, or has stopped"))
+    }
+
     /// A line about what is new; where nothing has been for long, once that nothing is.
     fn line(&mut self, text: impl FnOnce() -> String) -> Option<String> {
-        if !self.is_told {
-            self.is_told = true;
-            return Some(text());
+        let (line, said) = match self.said {
+            Said::Nothing => (Some(text()), Said::Row),
+            Said::Row => (self.quiet(), Said::Quiet),
+            Said::Quiet => (None, Said::Quiet),
+        };
+        if line.is_some() {
+            self.said = said;
         }
-        let is_due = !self.is_quiet && self.at.elapsed() >= QUIET;
-        self.is_quiet |= is_due;
-        is_due.then(|| nothing_new(self.at.elapsed()))
+        line
     }
-}
-
-/// What is said where the folder has been quiet for this long.
-fn nothing_new(quiet: Duration) -> String {
-    format!("nothing new for {} s: the run is slow, or has stopped", quiet.as_secs())
 }
 
 /// " 31 %  0.310 of 1 s, 812 steps/s, 0:04 left: clusters 12, mean speed 3 mm/s".
@@ -254,8 +265,7 @@ struct Dashboard {
     sight: Sight,
     portrait: Portrait,
     pace: Option<(Pace, Instant)>,
-    /// When the newest row came.
-    news: Instant,
+    news: News,
     trouble: Option<String>,
     keys: &'static str,
 }
@@ -267,7 +277,7 @@ impl Dashboard {
             follower,
             sight: Sight::default(),
             pace: None,
-            news: Instant::now(),
+            news: News::new(),
             trouble: None,
             keys,
         }
@@ -277,9 +287,7 @@ impl Dashboard {
     fn look(&mut self) {
         match self.follower.look() {
             Ok(sight) => {
-                if sight.time != self.sight.time {
-                    self.news = Instant::now();
-                }
+                self.news.take(&sight);
                 (self.sight, self.trouble) = (sight, None);
             }
             // A file may be in the middle of being cut back; it is shown as long as it lasts.
@@ -326,9 +334,7 @@ impl Dashboard {
         for note in &mut notes {
             *note = format!("warning: {note}");
         }
-        if self.news.elapsed() >= QUIET {
-            notes.push(nothing_new(self.news.elapsed()));
-        }
+        notes.extend(self.news.quiet());
         notes.extend(self.trouble.iter().chain(&self.portrait.trouble).cloned());
         let screen = Screen {
             title: self.follower.title(),

@@ -13,6 +13,7 @@ mod summary;
 mod tables;
 mod timers;
 
+use std::io::ErrorKind;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
@@ -24,6 +25,7 @@ pub use soft::{Clusters, EnergyFigures, PulseFigures, SoftSummary};
 pub use summary::Summary;
 
 use crate::particles::Particles;
+use crate::record::RecordError;
 use crate::scenario::Scenario;
 use folder::Folder;
 use hard::Hard;
@@ -122,8 +124,23 @@ pub fn resume(dir: &Path, observer: &mut Observer<'_>) -> Result<Ending, RunErro
 ///
 /// The summary is written last, so a run without one, or with one that cannot be read, has something left to do.
 pub fn finished(dir: &Path) -> Option<Summary> {
-    let text = std::fs::read_to_string(Folder::open(dir).ok()?.summary()).ok()?;
-    serde_json::from_str(&text).ok()
+    summary(dir).ok().flatten()
+}
+
+/// The summary of the run in `dir`; nothing where there is no run, or none that has finished.
+///
+/// # Errors
+/// [`RecordError`] where there is one that cannot be read.
+pub fn summary(dir: &Path) -> Result<Option<Summary>, RecordError> {
+    let Ok(folder) = Folder::open(dir) else { return Ok(None) };
+    let path = folder.summary();
+    let text = match std::fs::read_to_string(&path) {
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+        read => read.map_err(RecordError::file("read", &path))?,
+    };
+    let damaged =
+        |_| RecordError::Damaged { path, reason: "it is damaged, or of another version".to_owned() };
+    serde_json::from_str(&text).map(Some).map_err(damaged)
 }
 
 /// Works on a thread of the pool, so that the many small parallel loops of a step need not wake one each time.

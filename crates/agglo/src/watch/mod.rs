@@ -112,15 +112,10 @@ impl Follower {
     /// Reads what is new.
     ///
     /// # Errors
-    /// [`WatchError::Record`] where a table cannot be read.
+    /// [`WatchError::Record`] where a table or the summary cannot be read.
     pub fn look(&mut self) -> Result<Sight, WatchError> {
         // Looked for first: what finished a moment later is seen the next time, and then with all rows.
-        let summary = crate::run::finished(&self.dir);
-        let path = self.dir.join("summary.json");
-        if summary.is_none() && path.is_file() {
-            let reason = "it is damaged, or of another version".to_owned();
-            return Err(RecordError::Damaged { path, reason }.into());
-        }
+        let summary = crate::run::summary(&self.dir)?;
         self.tables.read()?;
         let newest = |column: &str| self.tables.newest("steps", column);
         Ok(Sight {

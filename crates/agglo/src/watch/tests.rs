@@ -67,6 +67,10 @@ fn a_run_that_has_just_begun_has_no_figures() {
     std::fs::write(folder.path().join("scenario.toml"), SOFT).unwrap();
     let sight = Follower::open(folder.path()).unwrap().look().unwrap();
     assert!(sight.figures.is_empty() && sight.summary.is_none() && sight.time == 0.0);
+    std::fs::create_dir(folder.path().join("checkpoints")).unwrap();
+    std::fs::write(folder.path().join("summary.json"), "{\"version\": ").unwrap();
+    let damaged = Follower::open(folder.path()).unwrap().look().unwrap_err().to_string();
+    assert!(damaged.contains("summary.json: it is damaged"), "{damaged}");
     std::fs::write(folder.path().join("scenario.toml"), "version = 1\nvelocity = 2\n").unwrap();
     assert!(matches!(Follower::open(folder.path()), Err(WatchError::Scenario { .. })));
 }

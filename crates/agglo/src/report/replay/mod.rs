@@ -78,18 +78,21 @@ fn within(files: &[PathBuf], most: usize) -> Result<Replay, Vec<String>> {
 fn chosen(files: &[PathBuf], choice: &Choice) -> Result<Replay, Vec<String>> {
     let mut notes = choice.notes(files.len());
     let mut scenes = Vec::new();
+    let (mut grains, mut has_any) = (0, false);
     for at in choice.frames(files.len()) {
         match Scene::read(&files[at], &mut notes) {
-            Ok(scene) => scenes.push(scene),
+            Ok(mut scene) => {
+                grains = scene.grains.points.len();
+                has_any |= grains > 0;
+                // At once, so that large frames are not in memory together.
+                scene.thin(choice.share);
+                scenes.push(scene);
+            }
             Err(error) => notes.push(format!("a frame is left out: {error}")),
         }
     }
-    if scenes.iter().all(|scene| scene.grains.points.is_empty()) {
+    if !has_any {
         return Err(notes);
-    }
-    let grains = scenes.last().map_or(0, |scene| scene.grains.points.len());
-    for scene in &mut scenes {
-        scene.thin(choice.share);
     }
     let Replay { plan, bytes, packed, notes, .. } = pack(&scenes, notes);
     Ok(Replay { plan: Plan { share: choice.share, ..plan }, bytes, packed, notes, grains })

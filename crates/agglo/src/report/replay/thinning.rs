@@ -13,6 +13,8 @@ pub const MOST_BYTES: usize = 19_000_000;
 const FRAMES_KEPT: usize = 24;
 /// Frames that are packed to see how many bytes a grain takes.
 const SAMPLES: usize = 3;
+/// No frame takes as many times the bytes that are reckoned from its head: below that nothing need be packed to see.
+const SURELY: f64 = 4.0;
 
 /// What of a run's frames is shown.
 pub struct Choice {
@@ -27,6 +29,9 @@ impl Choice {
     pub fn of(files: &[PathBuf], most: usize) -> Self {
         let all = Self { kept: files.len(), share: 1 };
         let things: Vec<f64> = files.iter().map(|path| things(path)).collect();
+        if SURELY * things.iter().sum::<f64>() <= most as f64 {
+            return all;
+        }
         let (mut bytes, mut packed) = (0.0, 0.0);
         for at in (Self { kept: SAMPLES.min(files.len()), share: 1 }).frames(files.len()) {
             // Frames that cannot be read are named when they are packed.
