@@ -67,6 +67,7 @@ fn campaign(threads: usize, starts: u32) {
         polish: None,
         confirm: Confirm { candidates: 0, starts: 0 },
         settings: &|_| Vec::new(),
+        findings: &|_| Vec::new(),
         closing: &mut |_, _| Ok(ControlFlow::Continue(())),
     };
     let ended = conduct(&model, course, (&folder, ""), &mut |_| ControlFlow::Continue(()));

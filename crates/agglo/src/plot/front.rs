@@ -23,12 +23,14 @@ pub struct Front {
     pub title: String,
     /// What it shows, in words.
     pub description: String,
-    /// What the first cost is.
+    /// What the first value is.
     pub x: Axis,
-    /// What the second cost is.
+    /// What the second value is.
     pub y: Axis,
     /// The candidates.
     pub points: Vec<FrontPoint>,
+    /// Whether the first value is to be large: what lies left of the front is beaten then.
+    pub is_large_right: bool,
 }
 
 impl Front {
@@ -49,7 +51,8 @@ impl Front {
         for place in panel.places(self.points.iter().filter(|p| !p.is_on_front).map(|p| p.costs)) {
             svg.dot(place, 3.0, GREY, 0.7);
         }
-        svg.path(&steps(&panel.places(front.iter().map(|point| point.costs))), Pen::new(named(0), 1.5));
+        let places = panel.places(front.iter().map(|point| point.costs));
+        svg.path(&steps(&places, self.is_large_right), Pen::new(named(0), 1.5));
         for point in front {
             panel.error_bar(&mut svg, point.costs, point.standard_errors[1], Pen::new(INK, 1.0));
             across(&mut svg, &panel, point);
@@ -69,11 +72,12 @@ fn across(svg: &mut Svg, panel: &Panel, point: &FrontPoint) {
     }
 }
 
-/// A staircase through places from left to right: what lies above and right of it is beaten.
-fn steps(places: &[[f64; 2]]) -> Vec<[f64; 2]> {
+/// A staircase through places from left to right: its corners are beaten, at the right of a place or at its left.
+fn steps(places: &[[f64; 2]], is_large_right: bool) -> Vec<[f64; 2]> {
     let mut stairs = Vec::with_capacity(2 * places.len());
     for pair in places.windows(2) {
-        stairs.extend([pair[0], [pair[1][0], pair[0][1]]]);
+        let [[left, before], [right, after]] = [pair[0], pair[1]];
+        stairs.extend([pair[0], if is_large_right { [left, after] } else { [right, before] }]);
     }
     stairs.extend(places.last());
     stairs

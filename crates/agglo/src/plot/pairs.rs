@@ -22,6 +22,8 @@ pub struct Pairs {
     pub shade: Axis,
     /// The value that gives each candidate its colour.
     pub shades: Vec<f64>,
+    /// Whether large colour values are good, and not small ones.
+    pub is_large_first: bool,
 }
 
 /// Where the cells are [px].
@@ -31,7 +33,7 @@ const REACH: f64 = 700.0;
 const SMALL: f64 = 11.0;
 
 impl Pairs {
-    /// The picture; candidates with small colour values lie on top.
+    /// The picture; candidates with good colour values lie on top.
     pub fn svg(&self) -> String {
         let mut svg = Svg::new(TOP + REACH + 66.0, &self.title, &self.description);
         if self.axes.is_empty() {
@@ -40,6 +42,9 @@ impl Pairs {
         let mut order: Vec<usize> = (0..self.rows.len().min(self.shades.len())).collect();
         order.retain(|&index| self.rows[index].len() == self.axes.len() && self.shades[index].is_finite());
         order.sort_by(|&a, &b| self.shades[b].total_cmp(&self.shades[a]));
+        if self.is_large_first {
+            order.reverse();
+        }
         let shades = Shades::over(&self.shade, order.iter().map(|&index| self.shades[index]));
         let scales: Vec<Scale> = (0..self.axes.len())
             .map(|axis| self.axes[axis].scale(order.iter().map(|&index| self.rows[index][axis])))

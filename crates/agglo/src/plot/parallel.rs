@@ -24,10 +24,12 @@ pub struct Parallel {
     pub axes: Vec<Axis>,
     /// One value for each axis, for each candidate; values that are not finite leave a candidate out.
     pub rows: Vec<Vec<f64>>,
+    /// Whether large last values are good, and not small ones.
+    pub is_large_first: bool,
 }
 
 impl Parallel {
-    /// The picture; candidates with a small last value lie on top.
+    /// The picture; candidates with a good last value lie on top.
     pub fn svg(&self) -> String {
         let mut svg = Svg::new(520.0, &self.title, &self.description);
         let Some(cost) = self.axes.last() else { return svg.finish() };
@@ -67,12 +69,15 @@ impl Parallel {
         svg.finish()
     }
 
-    /// Whole rows, the one with the smallest last value first.
+    /// Whole rows, the one with the best last value first.
     fn drawn(&self) -> Vec<&Vec<f64>> {
         let is_whole =
             |row: &&Vec<f64>| row.len() == self.axes.len() && row.iter().all(|value| value.is_finite());
         let mut rows: Vec<&Vec<f64>> = self.rows.iter().filter(is_whole).collect();
         rows.sort_by(|a, b| a.last().unwrap_or(&0.0).total_cmp(b.last().unwrap_or(&0.0)));
+        if self.is_large_first {
+            rows.reverse();
+        }
         if rows.len() > MOST {
             let rest = rows.split_off(MOST / 2);
             let stride = rest.len().div_ceil(MOST / 2);

@@ -107,6 +107,7 @@ fn front() -> Front {
         x: Axis::new("energy", "J"),
         y: Axis::new("largest fragment", ""),
         points,
+        is_large_right: false,
     }
 }
 
@@ -119,6 +120,7 @@ fn all() -> Vec<(&'static str, String)> {
         description: "Each line a candidate.".to_owned(),
         axes: axes.iter().cloned().chain([cost.clone()]).collect(),
         rows: with_cost,
+        ..Parallel::default()
     };
     let scatter = Scatter {
         title: "Cost against hardness".to_owned(),
@@ -148,6 +150,7 @@ fn all() -> Vec<(&'static str, String)> {
         rows,
         shade: cost,
         shades: costs,
+        ..Pairs::default()
     };
     vec![
         ("lines", lines().svg()),

@@ -1,6 +1,5 @@
 //! Tables of numbers and words, read back.
 
-use std::collections::BTreeSet;
 use std::path::Path;
 
 /// A table as it stands in its file.
@@ -63,14 +62,6 @@ impl Sheet {
     /// The column of that name as numbers; an entry that is none is NaN.
     pub fn numbers(&self, name: &str) -> Option<Vec<f64>> {
         Some(self.words(name)?.into_iter().map(|entry| entry.parse().unwrap_or(f64::NAN)).collect())
-    }
-
-    /// The same with each row once.
-    #[must_use]
-    pub fn once(mut self) -> Self {
-        let mut seen = BTreeSet::new();
-        self.rows.retain(|row| seen.insert(row.clone()));
-        self
     }
 
     /// Keeps the rows that have this word in this column; all where there is no such column.

@@ -252,9 +252,14 @@ impl Model for Problem {
         Fitness {
             violation: limits.fold(candidate.violation, |sum, part| sum + part),
             costs: moments.iter().map(|cost| cost.mean).collect(),
-            standard_errors: moments.iter().map(Moments::standard_error).collect(),
+            standard_errors: moments.iter().map(known_error).collect(),
         }
     }
+}
+
+/// 0 from a single start, of which no error is known: an optimiser heeds only noise that is known.
+fn known_error(cost: &Moments) -> f64 {
+    if cost.count > 1 { cost.standard_error() } else { 0.0 }
 }
 
 #[cfg(test)]

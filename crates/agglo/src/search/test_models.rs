@@ -90,6 +90,7 @@ impl Model for Analytic {
     fn fitness(&self, candidate: &Candidate, starts: &[Vec<f64>]) -> Fitness {
         let costs: Vec<f64> = starts.iter().map(|figures| self.costs(candidate, figures)[0]).collect();
         let moments = Moments::of(&costs);
-        Fitness { costs: vec![moments.mean], standard_errors: vec![moments.standard_error()], violation: 0.0 }
+        let error = if moments.count > 1 { moments.standard_error() } else { 0.0 };
+        Fitness { costs: vec![moments.mean], standard_errors: vec![error], violation: 0.0 }
     }
 }

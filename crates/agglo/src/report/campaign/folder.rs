@@ -33,6 +33,8 @@ pub struct Folder {
     pub measures: Sheet,
     /// Of a study of refinement: what it says.
     pub refinement: Sheet,
+    /// Of a study of refinement: how far each level is from the finest.
+    pub differences: Sheet,
     /// Of a study of sensitivity: what it says.
     pub sensitivity: Sheet,
     /// What is missing, cut or damaged.
@@ -52,9 +54,9 @@ impl Folder {
         folder.best = folder.sheet("best.csv", has_ended);
         folder.failures = folder.sheet("failures.csv", false);
         folder.measures = folder.sheet("measures.csv", has_ended && folder.is_study());
-        // An objective that is a column as well has its rows twice.
-        folder.refinement = folder.sheet("refinement.csv", false).once();
-        folder.sensitivity = folder.sheet("sensitivity.csv", false).once();
+        folder.refinement = folder.sheet("refinement.csv", false);
+        folder.differences = folder.sheet("differences.csv", false);
+        folder.sensitivity = folder.sheet("sensitivity.csv", false);
         folder
     }
 

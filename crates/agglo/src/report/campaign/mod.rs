@@ -59,7 +59,16 @@ fn story(folder: &Folder) -> String {
     if !summary.front.is_empty() {
         words.push(format!("{} candidates are beaten by no other in every cost.", summary.front.len()));
     }
+    words.extend(summary.findings.iter().map(|finding| sentence(finding)));
     words.join(" ")
+}
+
+/// With a capital letter and a full stop.
+fn sentence(words: &str) -> String {
+    let first = words.chars().next().map(|first| first.to_uppercase().to_string()).unwrap_or_default();
+    let is_name = words.split_whitespace().next().is_some_and(|word| word.contains(['_', '.']));
+    let rest: String = words.chars().skip(1).collect();
+    if is_name { format!("{words}.") } else { format!("{first}{rest}.") }
 }
 
 fn files(folder: &Folder) -> Vec<Listing> {

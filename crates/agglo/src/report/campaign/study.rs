@@ -62,7 +62,10 @@ fn each_target(sheet: &Sheet, chart: fn(&Sheet, &str) -> Option<Chart>) -> Vec<C
     let charts = targets.iter().take(MOST_OUTCOMES).enumerate().filter_map(|(number, target)| {
         let mut of_it = sheet.clone();
         of_it.keep("target", target);
-        Some(Chart { id: format!("sensitivity-{number}"), ..chart(&of_it, target)? })
+        let chart = chart(&of_it, target)?;
+        // Of what does not vary or is not known there is nothing to draw; the page says so in words.
+        let is_known = chart.series.iter().any(|series| series.y.iter().any(|value| value.is_finite()));
+        is_known.then(|| Chart { id: format!("sensitivity-{number}"), ..chart })
     });
     charts.collect()
 }
@@ -80,8 +83,9 @@ fn bars(sheet: &Sheet, name: &str, column: &str, error: Vec<f64>) -> Option<Seri
 }
 
 fn said(axis: &Axis, series: &[Series]) -> Vec<String> {
+    let figure = |value: &f64| if value.is_finite() { format!("{value:.4}") } else { "not known".to_owned() };
     let of = |one: &Series| {
-        let pairs = axis.names.iter().zip(&one.y).map(|(name, value)| format!("{name} {value:.4}"));
+        let pairs = axis.names.iter().zip(&one.y).map(|(name, value)| format!("{name} {}", figure(value)));
         format!("{}: {}", one.name, pairs.collect::<Vec<_>>().join(", "))
     };
     series.iter().map(of).collect()

@@ -13,6 +13,12 @@ pub fn tables(folder: &Folder) -> Vec<Figures> {
     let best = [parameters(folder), outcomes(folder)];
     let studied = [
         whole(&folder.refinement, "What refinement says", "From refinement.csv."),
+        whole(
+            &folder.differences,
+            "How far each level is from the finest",
+            "Start by start where levels share their starts, with 95 % confidence: settled within the tolerance, not settled, \
+             or not shown, where the interval has both. From differences.csv.",
+        ),
         whole(&folder.sensitivity, "Sensitivity", "From sensitivity.csv."),
     ];
     let tables = best.into_iter().chain(studied).chain([figures(folder), failures(folder)]);

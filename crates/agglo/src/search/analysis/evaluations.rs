@@ -1,6 +1,6 @@
 //! The evaluations of a search or study as plain data.
 
-use super::{Axis, Moments};
+use super::{Axis, Level, Moments, Starts};
 
 /// All evaluations of a search or study, in their order.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -9,12 +9,39 @@ pub struct Evaluations {
     pub title: String,
     /// What was varied. Choices between numbers are quantities; `labels` are for choices between words.
     pub parameters: Vec<Axis>,
-    /// What was to be small: none, one or two.
-    pub objectives: Vec<Axis>,
+    /// What was to be small or large: none, one or two.
+    pub objectives: Vec<Objective>,
     /// Figures of each start that the tables show.
     pub measures: Vec<Axis>,
+    /// Whether start k of all candidates has the same seed.
+    pub starts: Starts,
     /// The evaluations.
     pub rows: Vec<EvaluationRow>,
+}
+
+/// What was to be small or large.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Objective {
+    /// The quantity.
+    pub axis: Axis,
+    /// Whether it was to be large: its cost is minus its value.
+    pub is_to_be_large: bool,
+}
+
+/// What tables and pictures show of candidates: an objective with its own sign, or a measure that is none.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Target<'a> {
+    /// The quantity.
+    pub axis: &'a Axis,
+    source: Source,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Source {
+    /// Number of the objective, and its sign.
+    Objective(usize, f64),
+    /// Number of the measure.
+    Measure(usize),
 }
 
 /// One candidate and what came of it.
@@ -26,8 +53,10 @@ pub struct EvaluationRow {
     pub values: Vec<f64>,
     /// Mean costs, one for each objective; none if it failed.
     pub costs: Vec<f64>,
-    /// Their standard errors; 0 where they are not known.
+    /// Their standard errors; not numbers where they are not known.
     pub standard_errors: Vec<f64>,
+    /// Costs of each start: `start_costs[start][objective]`; may be left empty in a search.
+    pub start_costs: Vec<Vec<f64>>,
     /// What came of it.
     pub status: Status,
     /// In which batch of proposals it was, from 0.
@@ -75,31 +104,91 @@ impl EvaluationRow {
         Moments::of(&values)
     }
 
-    /// Mean and standard error of a target: the objectives first, then the measures. None if the candidate failed.
-    pub(super) fn target(&self, number: usize) -> Option<[f64; 2]> {
-        let objectives = self.costs.len();
+    /// Values of a target in each start.
+    pub(super) fn values(&self, target: &Target<'_>) -> Vec<f64> {
+        match target.source {
+            Source::Objective(number, sign) => {
+                self.start_costs.iter().filter_map(|costs| Some(sign * costs.get(number)?)).collect()
+            }
+            Source::Measure(number) => {
+                self.starts.iter().filter_map(|start| start.get(number).copied()).collect()
+            }
+        }
+    }
+
+    /// Mean and standard error of a target. None if the candidate failed.
+    fn target(&self, target: &Target<'_>) -> Option<[f64; 2]> {
         if self.status == Status::Failed || self.status == Status::Excluded {
             return None;
         }
-        let pair = if number < objectives {
-            [self.costs[number], self.standard_errors.get(number).copied().unwrap_or(0.0)]
-        } else {
-            let moments = self.measure(number - objectives);
-            [moments.mean, moments.standard_error()]
+        let pair = match target.source {
+            Source::Objective(number, sign) => [
+                sign * self.costs.get(number)?,
+                self.standard_errors.get(number).copied().unwrap_or(f64::NAN),
+            ],
+            Source::Measure(number) => {
+                let moments = self.measure(number);
+                [moments.mean, moments.standard_error()]
+            }
         };
         pair[0].is_finite().then_some(pair)
     }
 }
 
+impl Objective {
+    /// 1, or -1 where it was to be large: its value is so many times its cost.
+    pub fn sign(&self) -> f64 {
+        if self.is_to_be_large { -1.0 } else { 1.0 }
+    }
+}
+
 impl Evaluations {
-    /// Objectives, then measures.
-    pub(super) fn targets(&self) -> Vec<&Axis> {
-        self.objectives.iter().chain(&self.measures).collect()
+    /// Objectives, then the measures that are none of them.
+    pub(super) fn targets(&self) -> Vec<Target<'_>> {
+        let objectives = self.objectives.iter().enumerate().map(|(number, objective)| Target {
+            axis: &objective.axis,
+            source: Source::Objective(number, objective.sign()),
+        });
+        let is_new =
+            |axis: &Axis| self.objectives.iter().all(|objective| objective.axis.column() != axis.column());
+        let measures = self.measures.iter().enumerate().filter(|(_, axis)| is_new(axis));
+        let measures = measures.map(|(number, axis)| Target { axis, source: Source::Measure(number) });
+        objectives.chain(measures).collect()
     }
 
     /// Mean and standard error of a target for all rows; none for those that failed.
-    pub(super) fn target(&self, number: usize) -> Vec<Option<[f64; 2]>> {
-        self.rows.iter().map(|row| row.target(number)).collect()
+    pub(super) fn target(&self, target: &Target<'_>) -> Vec<Option<[f64; 2]>> {
+        self.rows.iter().map(|row| row.target(target)).collect()
+    }
+
+    /// Levels of a refinement study for one target, from coarse to fine, and the fineness of each; failed ones are left out.
+    ///
+    /// Where the parameter rises (rays, grains) the size is 1 over it, where it falls (steps) the parameter itself; of words
+    /// there are no sizes, and the order is then not known. Where levels share their starts, only those count that all
+    /// levels have, so that all have met the same luck.
+    pub(super) fn levels(&self, target: &Target<'_>) -> (Vec<Level>, Vec<f64>) {
+        let is_word = self.parameters.first().is_some_and(|axis| !axis.labels.is_empty());
+        let fineness = |row: &EvaluationRow| row.values.first().copied().unwrap_or(f64::NAN);
+        let ends = self.rows.first().zip(self.rows.last());
+        let rises = ends.is_some_and(|(first, last)| fineness(last) > fineness(first));
+        let size = |row: &EvaluationRow| match (is_word, rises) {
+            (true, _) => f64::NAN,
+            (false, true) => 1.0 / fineness(row),
+            (false, false) => fineness(row),
+        };
+        let whole = self.rows.iter().filter(|row| row.target(target).is_some());
+        let level =
+            |row: &EvaluationRow| (Level { size: size(row), starts: row.values(target) }, fineness(row));
+        let (mut levels, fineness): (Vec<Level>, Vec<f64>) = whole.map(level).unzip();
+        if self.starts == Starts::Shared {
+            let fewest = levels.iter().map(|level| level.starts.len()).min().unwrap_or(0);
+            let is_known = |start: &usize| levels.iter().all(|level| level.starts[*start].is_finite());
+            let common: Vec<usize> = (0..fewest).filter(is_known).collect();
+            for level in &mut levels {
+                level.starts = common.iter().map(|start| level.starts[*start]).collect();
+            }
+        }
+        (levels, fineness)
     }
 
     /// Rows that keep all limits, with their first costs, from the best to the worst; equal ones in the order of evaluation.

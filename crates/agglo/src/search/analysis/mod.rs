@@ -2,6 +2,7 @@
 
 mod axes;
 mod evaluations;
+mod findings;
 mod moments;
 mod morris;
 mod pictures;
@@ -13,10 +14,13 @@ mod tests;
 
 pub use crate::plot::Axis;
 pub use axes::{parameter_axis, parameter_value};
-pub use evaluations::{EvaluationRow, Evaluations, Generation, Status};
-pub use moments::Moments;
+pub use evaluations::{EvaluationRow, Evaluations, Generation, Objective, Status};
+pub use findings::findings;
+pub use moments::{Moments, varies};
 pub use morris::{ElementaryEffects, elementary_effects};
 pub use pictures::{search_pictures, study_pictures};
-pub use refinement::{Convergence, Level, Order, observed_order, settled};
+pub use refinement::{
+    Convergence, Difference, Level, Order, Starts, Verdict, differences, observed_order, settled,
+};
 pub use sobol_indices::{Share, VarianceShares, variance_shares};
-pub use tables::{measures_table, study_table};
+pub use tables::{measures_table, study_tables};

@@ -19,7 +19,9 @@
 //! | σ      | `standard_deviation` | the outcome's| whether it acts by itself: 0 if it does        |
 //!
 //! # Valid when
-//! Effects below `noise` cannot be told from the noise of the random starts, which makes μ* and σ larger, μ not.
+//! Effects below `noise` cannot be told from the noise of the random starts, which makes μ* and σ larger, μ not. Of an
+//! outcome that does not vary beyond round-off, and of a parameter whose candidates all failed, there are no effects: all
+//! figures are then not numbers.
 //!
 //! # Compared with others
 //! The measures of `SALib.analyze.morris`; the same definition, for the same points.
@@ -34,9 +36,10 @@
 //! assert_eq!((effects[0].mean, effects[1].mean), (2.0, 6.0));
 //! ```
 
-use super::Moments;
+use super::{Moments, varies};
 
-/// How much one parameter matters; in units of the outcome, for a step over its whole range.
+/// How much one parameter matters; in units of the outcome, for a step over its whole range. What is not known is not a
+/// number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ElementaryEffects {
     /// Mean effect.
@@ -47,16 +50,17 @@ pub struct ElementaryEffects {
     pub standard_error: f64,
     /// Standard deviation of the effects.
     pub standard_deviation: f64,
-    /// Root mean square of the effects' own standard errors.
+    /// Root mean square of the effects' own standard errors; not a number where candidates had a single start.
     pub noise: f64,
     /// How many effects there are: fewer than trajectories if candidates failed.
     pub count: usize,
 }
 
 /// The effects of each parameter, from the points of the plan (`[n]`, in its order) and the outcome's mean and standard error
-/// at each (`[n]`, none for those that failed).
+/// at each (`[n]`, none for those that failed; an error that is not known is not a number).
 pub fn elementary_effects(points: &[Vec<f64>], outcomes: &[Option<[f64; 2]>]) -> Vec<ElementaryEffects> {
     let dimensions = points.first().map_or(0, Vec::len);
+    let does_vary = varies(outcomes.iter().flatten().map(|outcome| outcome[0]));
     let mut effects: Vec<Vec<[f64; 2]>> = vec![Vec::new(); dimensions];
     for (points, outcomes) in points.chunks(dimensions + 1).zip(outcomes.chunks(dimensions + 1)) {
         for (pair, ends) in points.windows(2).zip(outcomes.windows(2)) {
@@ -67,7 +71,12 @@ pub fn elementary_effects(points: &[Vec<f64>], outcomes: &[Option<[f64; 2]>]) ->
             }
         }
     }
-    effects.iter().map(|effects| summary(effects)).collect()
+    let shown = |effects: &Vec<[f64; 2]>| if does_vary { summary(effects) } else { none(effects.len()) };
+    effects.iter().map(shown).collect()
+}
+
+fn none(count: usize) -> ElementaryEffects {
+    ElementaryEffects { count, ..summary(&[]) }
 }
 
 fn summary(effects: &[[f64; 2]]) -> ElementaryEffects {
@@ -79,7 +88,7 @@ fn summary(effects: &[[f64; 2]]) -> ElementaryEffects {
         mean_size: sizes.mean,
         standard_error: sizes.standard_error(),
         standard_deviation: signed.standard_deviation,
-        noise: (squares / effects.len().max(1) as f64).sqrt(),
+        noise: (squares / effects.len() as f64).sqrt(),
         count: effects.len(),
     }
 }

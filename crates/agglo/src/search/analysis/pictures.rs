@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use super::refinement::{Convergence, observed_order, settled};
-use super::tables::levels;
-use super::{Axis, Evaluations, Generation, Moments, Status, elementary_effects, variance_shares};
+use super::evaluations::Target;
+use super::refinement::{Convergence, Verdict, differences, observed_order, settled};
+use super::{Axis, Evaluations, Generation, Moments, Status, elementary_effects, variance_shares, varies};
 use crate::plot::{
     Bars, Front, FrontPoint, Histogram, Histograms, Line, LinePanel, Lines, Pairs, Parallel, Series, Settled,
     Staircase,
@@ -82,26 +82,36 @@ fn titled(evaluations: &Evaluations, what: &str) -> String {
 }
 
 fn cost_axis(evaluations: &Evaluations) -> Axis {
-    evaluations.objectives.first().cloned().unwrap_or_else(|| Axis::new("cost", ""))
+    evaluations.objectives.first().map_or_else(|| Axis::new("cost", ""), |first| first.axis.clone())
 }
 
-/// Costs of each generation, and below the measures of the best candidate so far.
+/// What a value of the first objective is times its cost: 1, or -1 where it was to be large.
+fn sign(evaluations: &Evaluations) -> f64 {
+    evaluations.objectives.first().map_or(1.0, super::Objective::sign)
+}
+
+fn is_to_be_large(evaluations: &Evaluations) -> bool {
+    sign(evaluations) < 0.0
+}
+
+/// The first objective over the generations, and below the measures of the best candidate so far.
 fn costs(evaluations: &Evaluations) -> String {
     let generations = evaluations.generations();
-    let at = |g: &Generation, value: f64| [f64::from(g.number), value];
+    let sign = sign(evaluations);
+    let at = |g: &Generation, cost: f64| [f64::from(g.number), sign * cost];
     let with_costs = || generations.iter().filter(|g| g.mean.is_finite());
     let best_row = |g: &Generation| Some((f64::from(g.number), &evaluations.rows[g.best?]));
     let best = || generations.iter().filter_map(best_row);
     let range = Line {
         name: "mean, least to largest".to_owned(),
         points: with_costs().map(|g| at(g, g.mean)).collect(),
-        band: with_costs().map(|g| [g.costs[0], g.costs[2]]).collect(),
+        band: with_costs().map(|g| [sign * g.costs[0], sign * g.costs[2]]).collect(),
     };
     let lines = vec![
         Line {
             name: "best so far ± standard error".to_owned(),
-            points: best().map(|(number, row)| [number, row.costs[0]]).collect(),
-            band: best().map(|(_, row)| around(row.costs[0], row.standard_errors.first())).collect(),
+            points: best().map(|(number, row)| [number, sign * row.costs[0]]).collect(),
+            band: best().map(|(_, row)| around(sign * row.costs[0], row.standard_errors.first())).collect(),
         },
         range,
         Line {
@@ -113,7 +123,8 @@ fn costs(evaluations: &Evaluations) -> String {
     let mut panels = vec![LinePanel { y: cost_axis(evaluations), lines }];
     let has_starts = best().all(|(_, row)| !row.starts.is_empty());
     // A measure that is the objective itself is in the first panel already.
-    let is_new = |axis: &Axis| evaluations.objectives.iter().all(|objective| objective.name != axis.name);
+    let is_new =
+        |axis: &Axis| evaluations.objectives.iter().all(|objective| objective.axis.name != axis.name);
     let measures = evaluations.measures.iter().enumerate().filter(|(_, axis)| has_starts && is_new(axis));
     for (number, axis) in measures.take(PANELS - 1) {
         let moments = || best().map(|(generation, row)| (generation, row.measure(number)));
@@ -125,11 +136,12 @@ fn costs(evaluations: &Evaluations) -> String {
         panels.push(LinePanel { y: axis.clone(), lines: vec![line] });
     }
     let (first, last) = (best().next(), best().next_back());
-    let cost = |row: Option<(f64, &super::EvaluationRow)>| row.map_or(f64::NAN, |(_, row)| row.costs[0]);
+    let cost =
+        |row: Option<(f64, &super::EvaluationRow)>| row.map_or(f64::NAN, |(_, row)| sign * row.costs[0]);
     Lines {
         title: titled(evaluations, "cost by generation"),
         description: format!(
-            "In {} generations the best cost goes from {} to {}.",
+            "In {} generations the best goes from {} to {}.",
             generations.len(),
             cost(first),
             cost(last)
@@ -141,14 +153,15 @@ fn costs(evaluations: &Evaluations) -> String {
 }
 
 fn around(value: f64, error: Option<&f64>) -> [f64; 2] {
-    let error = error.copied().filter(|error| error.is_finite()).unwrap_or(0.0);
+    let error = known(error);
     [value - error, value + error]
 }
 
-/// Every candidate across its parameters and its first cost, or its first measure in a study without objectives.
+/// Every candidate across its parameters and its first objective, or its first measure in a study without objectives.
 fn parallel(evaluations: &Evaluations) -> String {
-    let outcome = evaluations.targets().first().map_or_else(|| cost_axis(evaluations), |&axis| axis.clone());
-    let outcomes = evaluations.target(0);
+    let targets = evaluations.targets();
+    let Some(target) = targets.first() else { return String::new() };
+    let outcomes = evaluations.target(target);
     let rows: Vec<Vec<f64>> = evaluations
         .rows
         .iter()
@@ -156,15 +169,18 @@ fn parallel(evaluations: &Evaluations) -> String {
         .filter(|(row, _)| row.status == Status::Feasible)
         .filter_map(|(row, outcome)| Some([row.values.as_slice(), &[(*outcome)?[0]]].concat()))
         .collect();
+    let is_large_first = is_to_be_large(evaluations);
+    let extreme = if is_large_first { "largest" } else { "smallest" };
     Parallel {
         title: titled(evaluations, "all candidates"),
         description: format!(
-            "Each of {} lines is a candidate that keeps all limits; those with the smallest {} are dark and on top.",
+            "Each of {} lines is a candidate that keeps all limits; those with the {extreme} {} are thick and on top.",
             rows.len(),
-            outcome.name
+            target.axis.name
         ),
-        axes: evaluations.parameters.iter().cloned().chain([outcome]).collect(),
+        axes: evaluations.parameters.iter().cloned().chain([target.axis.clone()]).collect(),
         rows,
+        is_large_first,
     }
     .svg()
 }
@@ -180,17 +196,20 @@ fn pairs(evaluations: &Evaluations) -> String {
         "parameters"
     };
     let values = |row: &super::EvaluationRow| shown.iter().map(|&axis| row.values[axis]).collect();
+    let is_large_first = is_to_be_large(evaluations);
     Pairs {
         title: titled(evaluations, "the good region"),
         description: format!(
-            "The best {} of {} candidates that keep all limits, in all pairs of {which}; the best are dark and on top.",
+            "The best {} of {} candidates that keep all limits, in all pairs of {which}; the best are {} and on top.",
             good.len(),
-            ranked.len()
+            ranked.len(),
+            if is_large_first { "bright" } else { "dark" }
         ),
         axes: shown.iter().map(|&axis| evaluations.parameters[axis].clone()).collect(),
         rows: good.iter().map(|&(row, _)| values(&evaluations.rows[row])).collect(),
         shade: cost_axis(evaluations),
-        shades: good.iter().map(|&(_, cost)| cost).collect(),
+        shades: good.iter().map(|&(_, cost)| sign(evaluations) * cost).collect(),
+        is_large_first,
     }
     .svg()
 }
@@ -216,17 +235,19 @@ fn front(evaluations: &Evaluations) -> String {
         .iter()
         .enumerate()
         .filter(|(_, row)| row.feasible_cost().is_some() && row.costs.len() == 2);
+    let [x, y] = [&evaluations.objectives[0], &evaluations.objectives[1]];
     let points = shown.map(|(number, row)| FrontPoint {
-        costs: [row.costs[0], row.costs[1]],
-        standard_errors: [0, 1].map(|cost| row.standard_errors.get(cost).copied().unwrap_or(0.0)),
+        costs: [x.sign() * row.costs[0], y.sign() * row.costs[1]],
+        standard_errors: [0, 1].map(|cost| known(row.standard_errors.get(cost))),
         is_on_front: best.contains(&number),
     });
     Front {
         title: titled(evaluations, "two costs"),
         description: format!("{} candidates are beaten by no other in both costs.", best.len()),
-        x: evaluations.objectives[0].clone(),
-        y: evaluations.objectives[1].clone(),
+        x: x.axis.clone(),
+        y: y.axis.clone(),
         points: points.collect(),
+        is_large_right: x.is_to_be_large,
     }
     .svg()
 }
@@ -237,34 +258,47 @@ fn staircase(evaluations: &Evaluations, tolerance: f64) -> String {
     let mut x = evaluations.parameters[0].clone();
     x.is_log = x.labels.is_empty()
         && evaluations.rows.iter().all(|row| row.values.first().is_some_and(|v| *v > 0.0));
-    let panel = |(number, axis): (usize, &Axis)| {
-        let (levels, fineness) = levels(evaluations, number);
-        let from = settled(&levels, tolerance).map(|level| fineness[level]);
-        let order = observed_order(&levels);
+    let panel = |target: Target<'_>| {
+        let (levels, fineness) = evaluations.levels(&target);
+        let (from, verdict) = settled(&differences(&levels, tolerance, evaluations.starts));
+        let from = from.map(|level| fineness[level]);
+        let order = observed_order(&levels, evaluations.starts);
         let limit = if let Convergence::Converging(order) = order { Some(order.limit) } else { None };
-        words.push(format!("{}: {}", axis.name, said(order, from.map(|from| x.cell(from)))));
-        let value = levels.last().map_or(f64::NAN, |level| level.mean);
+        words.push(format!("{}: {}", target.axis.name, said(order, from.map(|from| x.cell(from)), verdict)));
+        let value = levels.last().map_or(f64::NAN, |level| level.moments().mean);
         let plotted = levels.iter().zip(&fineness).map(|(level, &fineness)| crate::plot::Level {
             fineness,
-            mean: level.mean,
-            standard_error: level.standard_error,
+            mean: level.moments().mean,
+            standard_error: known(Some(&level.moments().standard_error())),
         });
-        (axis.clone(), plotted.collect(), Settled { value, tolerance: tolerance * value.abs(), from, limit })
+        let settled = Settled { value, tolerance: tolerance * value.abs(), from, limit };
+        (target.axis.clone(), plotted.collect(), settled)
     };
-    let panels = evaluations.targets().into_iter().enumerate().take(PANELS).map(panel).collect();
+    let panels = evaluations.targets().into_iter().take(PANELS).map(panel).collect();
     let title = titled(evaluations, "convergence");
     Staircase { title, description: words.join(" "), x: x.clone(), panels }.svg()
 }
 
-fn said(order: Convergence, from: Option<String>) -> String {
-    let settled = from.map_or("it has not settled".to_owned(), |from| format!("settled from {from} on"));
+/// An error, or 0, which is not drawn, where it is not known.
+fn known(error: Option<&f64>) -> f64 {
+    error.copied().filter(|error| error.is_finite()).unwrap_or(0.0)
+}
+
+fn said(order: Convergence, from: Option<String>, verdict: Verdict) -> String {
+    let settled = match (from, verdict) {
+        (Some(from), _) => format!("settled from {from} on"),
+        (None, Verdict::NotSettled) => "it has not settled".to_owned(),
+        (None, _) => "it is not shown to have settled".to_owned(),
+    };
     let order = match order {
         Convergence::TooFewLevels => "too few levels for an order".to_owned(),
         Convergence::WithinNoise => "differences are within the noise, so there is no order".to_owned(),
         Convergence::Oscillating | Convergence::Diverging => "not in the asymptotic range".to_owned(),
         Convergence::Converging(order) => {
             let range = if order.is_asymptotic == Some(false) { ", not in the asymptotic range" } else { "" };
-            format!("order {:.2} ± {:.2}{range}", order.order, order.order_standard_error)
+            let error = order.order_standard_error;
+            let error = if error.is_finite() { format!(" ± {error:.2}") } else { String::new() };
+            format!("order {:.2}{error}{range}", order.order)
         }
     };
     format!("{settled}; {order}.")
@@ -278,10 +312,18 @@ fn names(evaluations: &Evaluations) -> Vec<String> {
     evaluations.parameters.iter().map(|axis| axis.name.clone()).collect()
 }
 
+/// Says in the title that a target does not vary, so that a picture without bars explains itself.
+fn of_target(evaluations: &Evaluations, what: &str, target: &Target<'_>) -> String {
+    let outcomes = evaluations.target(target);
+    let does_vary = varies(outcomes.iter().flatten().map(|outcome| outcome[0]));
+    let still = if does_vary { "" } else { ", which does not vary" };
+    titled(evaluations, &format!("{what} {}{still}", target.axis.name))
+}
+
 /// Elementary effects on the first target.
 fn effects(evaluations: &Evaluations) -> String {
     let target = evaluations.targets()[0];
-    let effects = elementary_effects(&points_of(evaluations), &evaluations.target(0));
+    let effects = elementary_effects(&points_of(evaluations), &evaluations.target(&target));
     let sizes = Series {
         name: "mean size of effects ± standard error".to_owned(),
         values: effects.iter().map(|effect| effect.mean_size).collect(),
@@ -295,14 +337,19 @@ fn effects(evaluations: &Evaluations) -> String {
         values: effects.iter().map(|effect| effect.standard_deviation).collect(),
         intervals: Vec::new(),
     };
-    let noise = effects.iter().map(|effect| effect.noise).fold(0.0, f64::max);
+    let noise = effects.iter().map(|effect| effect.noise).fold(f64::NAN, f64::max);
+    let noise = if noise.is_nan() {
+        "how much of them is noise is not known".to_owned()
+    } else {
+        format!("effects below {noise:.2e} are within the noise")
+    };
     Bars {
-        title: titled(evaluations, &format!("effects on {}", target.name)),
-        description: format!(
-            "Change of {} per whole range of each parameter; effects below {noise:.2e} are within the noise.",
-            target.name
+        title: of_target(evaluations, "effects on", &target),
+        description: format!("Change of {} per whole range of each parameter; {noise}.", target.axis.name),
+        axis: Axis::new(
+            &format!("change of {} over the parameter's range", target.axis.name),
+            &target.axis.unit,
         ),
-        axis: Axis::new(&format!("change of {} over the parameter's range", target.name), &target.unit),
         names: names(evaluations),
         series: vec![sizes, spreads],
     }
@@ -312,7 +359,7 @@ fn effects(evaluations: &Evaluations) -> String {
 /// Shares in the variance of the first target.
 fn shares(evaluations: &Evaluations, bootstraps: u32, level: f64, seed: u64) -> String {
     let target = evaluations.targets()[0];
-    let outcomes = evaluations.target(0);
+    let outcomes = evaluations.target(&target);
     let shares = variance_shares(evaluations.parameters.len(), &outcomes, bootstraps, level, seed);
     let all = &shares.parameters;
     let alone = Series {
@@ -325,14 +372,18 @@ fn shares(evaluations: &Evaluations, bootstraps: u32, level: f64, seed: u64) -> 
         values: all.iter().map(|share| share.total).collect(),
         intervals: all.iter().map(|share| share.total_interval).collect(),
     };
+    let noise = if shares.noise_share.is_nan() {
+        "how much of the variance is noise of the starts is not known".to_owned()
+    } else {
+        format!("noise of the starts has up to {:.1} % of the variance", 100.0 * shares.noise_share)
+    };
     Bars {
-        title: titled(evaluations, &format!("shares in the variance of {}", target.name)),
+        title: of_target(evaluations, "shares in the variance of", &target),
         description: format!(
-            "Share of each parameter, with {:.0} % confidence intervals; noise of the starts has up to {:.1} % of the variance.",
-            100.0 * level,
-            100.0 * shares.noise_share
+            "Share of each parameter, with {:.0} % confidence intervals; {noise}.",
+            100.0 * level
         ),
-        axis: Axis::new(&format!("share in the variance of {}", target.name), ""),
+        axis: Axis::new(&format!("share in the variance of {}", target.axis.name), ""),
         names: names(evaluations),
         series: vec![alone, total],
     }
@@ -341,8 +392,8 @@ fn shares(evaluations: &Evaluations, bootstraps: u32, level: f64, seed: u64) -> 
 
 /// Each target over the first parameter, or over the number of the candidate where words are listed.
 fn outcomes(evaluations: &Evaluations) -> String {
-    let panel = |(number, axis): (usize, &Axis)| {
-        let outcomes = evaluations.target(number);
+    let panel = |target: Target<'_>| {
+        let outcomes = evaluations.target(&target);
         let mut known: Vec<(f64, [f64; 2])> = evaluations
             .rows
             .iter()
@@ -355,7 +406,7 @@ fn outcomes(evaluations: &Evaluations) -> String {
             points: known.iter().map(|(x, [mean, _])| [*x, *mean]).collect(),
             band: known.iter().map(|(_, [mean, error])| around(*mean, Some(error))).collect(),
         };
-        LinePanel { y: axis.clone(), lines: vec![line] }
+        LinePanel { y: target.axis.clone(), lines: vec![line] }
     };
     let x = evaluations.parameters.first().cloned().unwrap_or_default();
     Lines {
@@ -366,7 +417,7 @@ fn outcomes(evaluations: &Evaluations) -> String {
             evaluations.rows.len()
         ),
         x,
-        panels: evaluations.targets().into_iter().enumerate().take(PANELS).map(panel).collect(),
+        panels: evaluations.targets().into_iter().take(PANELS).map(panel).collect(),
     }
     .svg()
 }

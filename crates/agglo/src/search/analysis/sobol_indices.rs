@@ -21,6 +21,8 @@
 //! Parameters vary independently and uniformly in the unit cube. Noise of the random starts adds to V and to every S_T and
 //! lowers every S; `noise_share` says by how much at most. With common random numbers a part of it cancels.
 //! Intervals take base points as independent; those of a Sobol' sequence are more even, so the intervals are too wide.
+//! An outcome that does not vary beyond round-off has no variance to share out, and a single block tells none: all shares
+//! are then not numbers.
 //!
 //! # Compared with others
 //! SALib's first-order index is Saltelli's, this one is Jansen's; its total index is the same as here.
@@ -37,9 +39,10 @@
 //! assert!((shares.parameters[0].total - 0.8).abs() < 0.03 && (shares.parameters[1].first - 0.2).abs() < 0.03);
 //! ```
 
+use super::varies;
 use crate::math::rng::{Purpose, Stream};
 
-/// Shares of one parameter in the variance.
+/// Shares of one parameter in the variance; not numbers where there is none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Share {
     /// Of the parameter alone.
@@ -57,18 +60,18 @@ pub struct Share {
 pub struct VarianceShares {
     /// For each parameter.
     pub parameters: Vec<Share>,
-    /// Mean of the outcome.
+    /// Mean of the outcome; not a number without blocks.
     pub mean: f64,
-    /// Its variance when all parameters vary.
+    /// Its variance when all parameters vary: 0 where round-off is all; not a number with fewer than two blocks.
     pub variance: f64,
-    /// Mean square of the outcomes' standard errors, as a part of the variance.
+    /// Mean square of the outcomes' standard errors, as a part of the variance; not a number where either is not known.
     pub noise_share: f64,
     /// Blocks without a failure, which alone are used.
     pub blocks: usize,
 }
 
 /// Shares of `dimensions` parameters from the outcome's mean and standard error at each point of the plan (`[n]`, in its
-/// order; none for those that failed), with confidence intervals from `bootstraps` draws of the blocks with repetition.
+/// order; none for those that failed; an error that is not known is not a number), with confidence intervals from `bootstraps` draws of the blocks with repetition.
 pub fn variance_shares(
     dimensions: usize,
     outcomes: &[Option<[f64; 2]>],
@@ -81,6 +84,9 @@ pub fn variance_shares(
     let terms: Vec<Vec<f64>> = blocks.iter().map(|block| terms(block)).collect();
     let every: Vec<usize> = (0..blocks.len()).collect();
     let all = shares(&terms, &every, dimensions);
+    if blocks.len() < 2 || !varies(terms.iter().flat_map(|block| [block[0], block[1]])) {
+        return without_variance(dimensions, all.mean, blocks.len());
+    }
     let mut draws = Vec::with_capacity(bootstraps as usize);
     let mut stream = Stream::new(seed, Purpose::Sampling, BOOTSTRAP);
     for _ in 0..bootstraps {
@@ -89,7 +95,9 @@ pub fn variance_shares(
         draws.push(shares(&terms, &drawn, dimensions).indices);
     }
     let interval = |number: usize| {
-        let mut values: Vec<f64> = draws.iter().map(|draw| draw[number]).collect();
+        // A draw of one block again and again may have no variance.
+        let shown = |draw: &Vec<f64>| Some(draw[number]).filter(|share| share.is_finite());
+        let mut values: Vec<f64> = draws.iter().filter_map(shown).collect();
         values.sort_by(f64::total_cmp);
         [0.5 - 0.5 * level, 0.5 + 0.5 * level].map(|part| quantile(&values, part))
     };
@@ -108,6 +116,13 @@ pub fn variance_shares(
         noise_share: squares / outcomes as f64 / all.variance,
         blocks: blocks.len(),
     }
+}
+
+fn without_variance(dimensions: usize, mean: f64, blocks: usize) -> VarianceShares {
+    let none = f64::NAN;
+    let share = Share { first: none, first_interval: [none; 2], total: none, total_interval: [none; 2] };
+    let variance = if blocks < 2 { none } else { 0.0 };
+    VarianceShares { parameters: vec![share; dimensions], mean, variance, noise_share: none, blocks }
 }
 
 /// The stream that blocks are drawn from.

@@ -1,6 +1,6 @@
 //! Tables of what a study says, as CSV text.
 
-use super::refinement::{Convergence, Level, observed_order, settled};
+use super::refinement::{Convergence, Difference, differences, observed_order, settled};
 use super::{Axis, Evaluations, elementary_effects, variance_shares};
 use crate::search::plan::Plan;
 
@@ -22,62 +22,43 @@ pub fn measures_table(evaluations: &Evaluations) -> String {
         cells.push(row.starts.len().to_string());
         for measure in 0..evaluations.measures.len() {
             let moments = row.measure(measure);
-            let [error, deviation] = [moments.standard_error(), moments.standard_deviation]
-                .map(|v| if moments.count > 1 { v } else { f64::NAN });
-            cells.extend([moments.mean, error, deviation].map(cell));
+            cells.extend([moments.mean, moments.standard_error(), moments.standard_deviation].map(cell));
         }
         add(&mut table, &cells);
     }
     table
 }
 
-/// What a plan says: the name of its file and its CSV text; none for plans that only try values.
+/// What a plan says: the names of its files and their CSV texts; none for plans that only try values.
 ///
 /// `seed` is the one that the plan was started with.
-pub fn study_table(plan: &Plan, evaluations: &Evaluations, seed: u64) -> Option<(&'static str, String)> {
+pub fn study_tables(plan: &Plan, evaluations: &Evaluations, seed: u64) -> Vec<(&'static str, String)> {
     match plan {
-        Plan::Grid(_) | Plan::List(_) => None,
-        Plan::Refinement(refinement) => {
-            Some(("refinement.csv", convergence(evaluations, refinement.tolerance)))
-        }
-        Plan::Morris(_) => Some(("sensitivity.csv", effects(evaluations))),
+        Plan::Grid(_) | Plan::List(_) => Vec::new(),
+        Plan::Refinement(refinement) => vec![
+            ("refinement.csv", convergence(evaluations, refinement.tolerance)),
+            ("differences.csv", differences_of_levels(evaluations, refinement.tolerance)),
+        ],
+        Plan::Morris(_) => vec![("sensitivity.csv", effects(evaluations))],
         Plan::SobolIndices(indices) => {
-            Some(("sensitivity.csv", shares(evaluations, indices.bootstraps, indices.level, seed)))
+            vec![("sensitivity.csv", shares(evaluations, indices.bootstraps, indices.level, seed))]
         }
     }
 }
 
-/// Levels of a refinement study for one target, from coarse to fine, and the fineness of each; failed ones are left out.
-///
-/// Where the parameter rises (rays, grains) the size is 1 over it, where it falls (steps) the parameter itself; of words
-/// there are no sizes, and the order is then not known.
-pub(super) fn levels(evaluations: &Evaluations, target: usize) -> (Vec<Level>, Vec<f64>) {
-    let is_word = evaluations.parameters.first().is_some_and(|axis| !axis.labels.is_empty());
-    let fineness = |row: usize| evaluations.rows[row].values.first().copied().unwrap_or(f64::NAN);
-    let last = evaluations.rows.len().saturating_sub(1);
-    let rises = last > 0 && fineness(last) > fineness(0);
-    let size = |row: usize| match (is_word, rises) {
-        (true, _) => f64::NAN,
-        (false, true) => 1.0 / fineness(row),
-        (false, false) => fineness(row),
-    };
-    let outcomes = evaluations.target(target);
-    let whole = outcomes.iter().enumerate().filter_map(|(row, outcome)| outcome.map(|pair| (row, pair)));
-    whole
-        .map(|(row, [mean, standard_error])| (Level { size: size(row), mean, standard_error }, fineness(row)))
-        .unzip()
-}
-
 fn convergence(evaluations: &Evaluations, tolerance: f64) -> String {
-    let mut table = "target,settled_from,verdict,order,order_standard_error,limit,limit_standard_error,\
+    let mut table =
+        "target,settled_from,settling,verdict,order,order_standard_error,limit,limit_standard_error,\
                      grid_convergence_index,asymptotic\n"
-        .to_owned();
-    for (number, axis) in evaluations.targets().into_iter().enumerate() {
-        let (levels, fineness) = levels(evaluations, number);
-        let from = settled(&levels, tolerance)
-            .map_or_else(String::new, |level| evaluations.parameters[0].cell(fineness[level]));
-        let verdict = observed_order(&levels);
-        let mut cells = vec![axis.column(), from, verdict.word().to_owned()];
+            .to_owned();
+    for target in evaluations.targets() {
+        let (levels, fineness) = evaluations.levels(&target);
+        let (from, settling) = settled(&differences(&levels, tolerance, evaluations.starts));
+        let from = from.map_or_else(String::new, |level| evaluations.parameters[0].cell(fineness[level]));
+        let verdict = observed_order(&levels, evaluations.starts);
+        let words = [settling.word(), verdict.word()].map(str::to_owned);
+        let mut cells = vec![target.axis.column(), from];
+        cells.extend(words);
         match verdict {
             Convergence::Converging(o) => {
                 let figures =
@@ -89,6 +70,29 @@ fn convergence(evaluations: &Evaluations, tolerance: f64) -> String {
             _ => cells.extend(vec![String::new(); 6]),
         }
         add(&mut table, &cells);
+    }
+    table
+}
+
+/// How far each level is from the finest one, with its interval.
+fn differences_of_levels(evaluations: &Evaluations, tolerance: f64) -> String {
+    let mut table = format!(
+        "target,{},starts,mean,difference,difference_standard_error,difference_lower,difference_upper,settling\n",
+        evaluations.parameters[0].column()
+    );
+    for target in evaluations.targets() {
+        let (levels, fineness) = evaluations.levels(&target);
+        let found = differences(&levels, tolerance, evaluations.starts);
+        for ((level, fineness), difference) in levels.iter().zip(fineness).zip(found) {
+            let moments = level.moments();
+            let mut cells = vec![target.axis.column(), evaluations.parameters[0].cell(fineness)];
+            cells.push(moments.count.to_string());
+            let Difference { value, standard_error, half_width, verdict } = difference;
+            let ends = [value - half_width, value + half_width];
+            cells.extend([moments.mean, value, standard_error, ends[0], ends[1]].map(cell));
+            cells.push(verdict.word().to_owned());
+            add(&mut table, &cells);
+        }
     }
     table
 }
@@ -111,10 +115,10 @@ fn effects(evaluations: &Evaluations) -> String {
         "target,parameter,mean_effect,mean_size,mean_size_standard_error,standard_deviation,noise,effects\n"
             .to_owned();
     let points: Vec<Vec<f64>> = evaluations.rows.iter().map(|row| row.point.clone()).collect();
-    for (number, target) in evaluations.targets().into_iter().enumerate() {
-        let effects = elementary_effects(&points, &evaluations.target(number));
+    for target in evaluations.targets() {
+        let effects = elementary_effects(&points, &evaluations.target(&target));
         for (axis, e) in evaluations.parameters.iter().zip(effects) {
-            let mut cells = vec![target.column(), axis.name.clone()];
+            let mut cells = vec![target.axis.column(), axis.name.clone()];
             cells.extend([e.mean, e.mean_size, e.standard_error, e.standard_deviation, e.noise].map(cell));
             cells.push(e.count.to_string());
             add(&mut table, &cells);
@@ -126,12 +130,12 @@ fn effects(evaluations: &Evaluations) -> String {
 fn shares(evaluations: &Evaluations, bootstraps: u32, level: f64, seed: u64) -> String {
     let mut table =
         "target,parameter,first,first_lower,first_upper,total,total_lower,total_upper,variance,noise_share,blocks\n".to_owned();
-    for (number, target) in evaluations.targets().into_iter().enumerate() {
-        let outcomes = evaluations.target(number);
+    for target in evaluations.targets() {
+        let outcomes = evaluations.target(&target);
         let shares = variance_shares(evaluations.parameters.len(), &outcomes, bootstraps, level, seed);
         for (axis, s) in evaluations.parameters.iter().zip(&shares.parameters) {
             let [[a, b], [c, d]] = [s.first_interval, s.total_interval];
-            let mut cells = vec![target.column(), axis.name.clone()];
+            let mut cells = vec![target.axis.column(), axis.name.clone()];
             cells.extend([s.first, a, b, s.total, c, d, shares.variance, shares.noise_share].map(cell));
             cells.push(shares.blocks.to_string());
             add(&mut table, &cells);
@@ -151,5 +155,5 @@ fn add(table: &mut String, cells: &[String]) {
 
 /// A number with as few digits as bring back the same bits; empty where there is none.
 fn cell(value: f64) -> String {
-    if value.is_nan() { String::new() } else { format!("{value}") }
+    if value.is_finite() { format!("{value}") } else { String::new() }
 }

@@ -75,12 +75,20 @@ pub struct Evaluation {
     pub fitness: Fitness,
     /// Figures of its starts that count, one for each column of the model: `[starts][columns]`.
     pub figures: Vec<Vec<f64>>,
+    /// Costs of its starts that count: `[starts][objectives]`.
+    pub costs: Vec<Vec<f64>>,
 }
 
 impl Evaluation {
     /// Whether it has figures.
     pub fn has_figures(&self) -> bool {
         matches!(self.status, Status::Ok | Status::Infeasible)
+    }
+
+    /// Standard errors of its mean costs; not numbers from a single start.
+    pub fn standard_errors(&self) -> Vec<f64> {
+        let known = |error: &f64| if self.starts > 1 { *error } else { f64::NAN };
+        self.fitness.standard_errors.iter().map(known).collect()
     }
 
     /// Means of its figures over its starts, one for each column of the model; empty if it failed.
@@ -117,19 +125,27 @@ struct Scatter {
     candidates: u64,
 }
 
+impl Scatter {
+    fn add(&mut self, costs: &Moments) {
+        let starts = costs.count as u64;
+        if starts > 1 {
+            self.squares += costs.standard_deviation * costs.standard_deviation * (starts - 1) as f64;
+            self.freedom += starts - 1;
+        }
+        self.starts += starts;
+        self.candidates += 1;
+    }
+}
+
 impl Archive {
-    /// Adds an evaluation; `costs` are the first costs of its starts.
-    pub fn add(&mut self, evaluation: Evaluation, costs: &[f64]) {
+    /// Adds an evaluation.
+    pub fn add(&mut self, evaluation: Evaluation) {
         self.runs += u64::from(evaluation.starts);
         self.failures += u64::from(evaluation.status == Status::Failed);
         self.excluded += u64::from(evaluation.status == Status::Excluded);
+        let costs: Vec<f64> = evaluation.costs.iter().filter_map(|costs| costs.first().copied()).collect();
         if evaluation.has_figures() && !costs.is_empty() {
-            let moments = Moments::of(costs);
-            let (starts, deviation) = (moments.count as u64, moments.standard_deviation);
-            self.scatter.squares += deviation * deviation * (starts - 1) as f64;
-            self.scatter.freedom += starts - 1;
-            self.scatter.starts += starts;
-            self.scatter.candidates += 1;
+            self.scatter.add(&Moments::of(&costs));
         }
         let is_better = |best: usize| evaluation.fitness.compare(&self.evaluations[best].fitness).is_lt();
         let counts = evaluation.stage != Stage::Confirm && !evaluation.fitness.is_failure();
@@ -199,18 +215,25 @@ impl Archive {
 mod tests {
     use super::*;
 
+    /// With these mean costs, and these first costs of its starts.
+    fn scattered(number: u64, costs: &[f64], starts: &[f64]) -> Evaluation {
+        let costs_of_starts = starts.iter().map(|cost| vec![*cost]).collect();
+        Evaluation { costs: costs_of_starts, ..evaluation(number, costs) }
+    }
+
     fn evaluation(number: u64, costs: &[f64]) -> Evaluation {
         let candidate = Candidate { point: vec![0.5], values: vec![number as f64], violation: 0.0 };
         let fitness = if costs.is_empty() { Fitness::failed() } else { Fitness::new(costs.to_vec()) };
         let status = if costs.is_empty() { Status::Failed } else { Status::Ok };
-        let (stage, generation, starts, figures) = (Stage::Search, 0, 3, Vec::new());
-        Evaluation { number, stage, generation, candidate, status, starts, fitness, figures }
+        let (stage, generation, starts) = (Stage::Search, 0, 3);
+        let (figures, costs) = (Vec::new(), Vec::new());
+        Evaluation { number, stage, generation, candidate, status, starts, fitness, figures, costs }
     }
 
     fn archive(costs: &[&[f64]]) -> Archive {
         let mut archive = Archive::default();
         for (number, costs) in (0..).zip(costs) {
-            archive.add(evaluation(number, costs), &[]);
+            archive.add(evaluation(number, costs));
         }
         archive
     }
@@ -238,9 +261,9 @@ mod tests {
     #[test]
     fn the_noise_floor_by_hand() {
         let mut archive = Archive::default();
-        archive.add(evaluation(0, &[2.0]), &[1.0, 2.0, 3.0]);
-        archive.add(evaluation(1, &[0.5]), &[0.0, 1.0]);
-        archive.add(evaluation(2, &[]), &[]);
+        archive.add(scattered(0, &[2.0], &[1.0, 2.0, 3.0]));
+        archive.add(scattered(1, &[0.5], &[0.0, 1.0]));
+        archive.add(scattered(2, &[], &[]));
         let noise = archive.noise();
         let deviation = (2.5_f64 / 3.0).sqrt();
         assert_eq!(noise.starts_mean, Some(2.5));

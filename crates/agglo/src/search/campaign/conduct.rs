@@ -60,6 +60,8 @@ pub struct Course<'a> {
     pub confirm: Confirm,
     /// Settings that make a candidate's scenario of the base.
     pub settings: &'a dyn Fn(&Candidate) -> Vec<String>,
+    /// What the evaluations say, in sentences.
+    pub findings: &'a dyn Fn(&[Evaluation]) -> Vec<String>,
     /// What is done once all is evaluated.
     pub closing: &'a mut Closing<'a>,
 }
@@ -332,7 +334,7 @@ impl<'a, M: Model> Conductor<'a, M> {
                 Outcome::Figures { figures, costs: of_it } => {
                     let row = Start { number: start, seed, costs: &of_it, figures: &figures };
                     self.records.start(number, &row)?;
-                    costs.extend(of_it.first());
+                    costs.push(of_it);
                     starts.push(figures);
                 }
                 Outcome::Failed(reason) => failure = Some((start, seed, reason)),
@@ -355,9 +357,10 @@ impl<'a, M: Model> Conductor<'a, M> {
             starts: count,
             fitness,
             figures: starts,
+            costs,
         };
         self.records.evaluation(&evaluation, self.model.columns().len())?;
-        self.archive.add(evaluation, &costs);
+        self.archive.add(evaluation);
         Ok(())
     }
 

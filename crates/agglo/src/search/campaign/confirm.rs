@@ -7,6 +7,7 @@ use serde_json::Value as Json;
 
 use super::archive::{Evaluation, Stage};
 use super::conduct::{Conductor, Course, Stop};
+use super::records::error_of;
 use super::summary::{Best, CampaignSummary, FrontPoint, Named};
 use crate::search::optimiser::Point;
 use crate::search::{Axis, Candidate, Model};
@@ -97,6 +98,7 @@ impl<M: Model> Conductor<'_, M> {
             failures: self.archive.failures,
             excluded: self.archive.excluded,
             noise: self.archive.noise(),
+            findings: (course.findings)(&self.archive.evaluations),
             wall_s: 0.0,
         }
     }
@@ -124,11 +126,6 @@ impl<M: Model> Conductor<'_, M> {
             figures: Named(figures.collect()),
         }
     }
-}
-
-/// Nothing from one start, from which no error can be told.
-fn error_of(evaluation: &Evaluation) -> Option<f64> {
-    evaluation.fitness.standard_errors.first().copied().filter(|_| evaluation.starts > 1)
 }
 
 fn named_parameters(axes: &[Axis], values: &[f64]) -> Named {

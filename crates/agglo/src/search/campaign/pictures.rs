@@ -1,4 +1,4 @@
-//! What all evaluations together say: tables of a study, pictures.
+//! What all evaluations together say: tables of a study, sentences, pictures.
 
 use std::path::Path;
 
@@ -6,14 +6,14 @@ use super::archive::{Evaluation, Stage, Status};
 use super::conduct::Results;
 use crate::record::{RecordError, atomic};
 use crate::search::analysis::{
-    self, EvaluationRow, Evaluations, measures_table, parameter_axis, parameter_value, search_pictures,
-    study_pictures, study_table,
+    self, EvaluationRow, Evaluations, Objective, Starts, measures_table, parameter_axis, parameter_value,
+    search_pictures, study_pictures, study_tables,
 };
-use crate::search::{Axis, Campaign, Problem};
+use crate::search::{Axis, Campaign, Model, Problem};
 
 /// Writes the tables of a study, and pictures.
 pub fn write(campaign: &Campaign, problem: &Problem, results: &Results<'_>) -> Result<(), RecordError> {
-    let evaluations = evaluations(campaign, problem, results);
+    let evaluations = evaluations(campaign, problem, results.evaluations);
     let (root, pictures) = (results.folder.root(), results.folder.pictures());
     std::fs::create_dir_all(&pictures).map_err(RecordError::file("make the folder", &pictures))?;
     let Some(plan) = &campaign.plan else {
@@ -21,10 +21,16 @@ pub fn write(campaign: &Campaign, problem: &Problem, results: &Results<'_>) -> R
     };
     let keep = |name: &str, text: &str| atomic::write(&root.join(name), text.as_bytes());
     keep("measures.csv", &measures_table(&evaluations))?;
-    if let Some((name, text)) = study_table(plan, &evaluations, campaign.seed) {
+    for (name, text) in study_tables(plan, &evaluations, campaign.seed) {
         keep(name, &text)?;
     }
     study_pictures(&pictures, plan, &evaluations, campaign.seed).map(drop)
+}
+
+/// What a study says, in sentences.
+pub fn findings(campaign: &Campaign, problem: &Problem, known: &[Evaluation]) -> Vec<String> {
+    let said = |plan| analysis::findings(plan, &evaluations(campaign, problem, known), campaign.seed);
+    campaign.plan.as_ref().map_or_else(Vec::new, said)
 }
 
 /// Takes away what an earlier sitting may have left half done.
@@ -37,17 +43,17 @@ pub fn clear(folder: &Path) -> Result<(), RecordError> {
     }
 }
 
-fn evaluations(campaign: &Campaign, problem: &Problem, results: &Results<'_>) -> Evaluations {
+fn evaluations(campaign: &Campaign, problem: &Problem, known: &[Evaluation]) -> Evaluations {
     let plain = |name: &str| analysis::Axis::new(name, "");
-    let objective = |(formula, is_to_be_large): (&str, bool)| {
-        plain(&if is_to_be_large { format!("-({formula})") } else { formula.to_owned() })
-    };
-    let searched = results.evaluations.iter().filter(|evaluation| evaluation.stage != Stage::Confirm);
+    let objective =
+        |(formula, is_to_be_large): (&str, bool)| Objective { axis: plain(formula), is_to_be_large };
+    let searched = known.iter().filter(|evaluation| evaluation.stage != Stage::Confirm);
     Evaluations {
         title: campaign.title.clone(),
         parameters: problem.axes().iter().map(parameter_axis).collect(),
         objectives: problem.objectives().map(objective).collect(),
-        measures: results.columns.iter().map(|name| plain(name)).collect(),
+        measures: problem.columns().iter().map(|name| plain(name)).collect(),
+        starts: if campaign.ensemble.common_random_numbers { Starts::Shared } else { Starts::Own },
         rows: searched.map(|evaluation| row(problem.axes(), evaluation)).collect(),
     }
 }
@@ -58,7 +64,8 @@ fn row(axes: &[Axis], evaluation: &Evaluation) -> EvaluationRow {
         point: evaluation.candidate.point.clone(),
         values: axes.iter().zip(&evaluation.candidate.values).map(number).collect(),
         costs: evaluation.fitness.costs.clone(),
-        standard_errors: evaluation.fitness.standard_errors.clone(),
+        standard_errors: evaluation.standard_errors(),
+        start_costs: evaluation.costs.clone(),
         status: match evaluation.status {
             Status::Ok => analysis::Status::Feasible,
             Status::Infeasible => analysis::Status::Infeasible,

@@ -94,6 +94,7 @@ impl Records {
     /// [`RecordError::File`].
     pub fn evaluation(&mut self, evaluation: &Evaluation, columns: usize) -> Result<(), RecordError> {
         let (fitness, figures) = (&evaluation.fitness, evaluation.mean_figures());
+        let errors = evaluation.standard_errors();
         let table = &mut self.evaluations;
         table.count(evaluation.number);
         table.count(evaluation.generation);
@@ -101,11 +102,11 @@ impl Records {
         table.word(evaluation.status.word());
         table.count(u64::from(evaluation.starts));
         table.number(fitness.violation.is_finite().then_some(fitness.violation));
-        for known in [&fitness.costs, &fitness.standard_errors] {
-            (0..self.objectives).for_each(|k| table.number(known.get(k).copied()));
+        for known in [&fitness.costs, &errors] {
+            (0..self.objectives).for_each(|k| table.number(finite(known.get(k).copied())));
         }
         parameters(table, &self.parameters, &evaluation.candidate.values);
-        (0..columns).for_each(|k| table.number(figures.get(k).copied().filter(|figure| figure.is_finite())));
+        (0..columns).for_each(|k| table.number(finite(figures.get(k).copied())));
         table.end_row()
     }
 
@@ -119,7 +120,7 @@ impl Records {
         table.count(u64::from(start.number));
         table.count(start.seed);
         start.costs.iter().for_each(|cost| table.number(*cost));
-        start.figures.iter().for_each(|figure| table.number(figure.is_finite().then_some(*figure)));
+        start.figures.iter().for_each(|figure| table.number(finite(Some(*figure))));
         table.end_row()
     }
 
@@ -164,7 +165,7 @@ impl Records {
         let best = archive.best();
         table.count(best.map(|best| best.number));
         table.number(best.map(|best| best.fitness.cost()));
-        table.number(best.and_then(|best| best.fitness.standard_errors.first().copied()));
+        table.number(best.and_then(error_of));
         table.end_row()
     }
 
@@ -218,9 +219,17 @@ impl Records {
 }
 
 fn cost_with_error(table: &mut Table, evaluation: Option<&Evaluation>) {
-    let fitness = evaluation.map(|evaluation| &evaluation.fitness);
-    table.number(fitness.and_then(|fitness| fitness.costs.first().copied()));
-    table.number(fitness.and_then(|fitness| fitness.standard_errors.first().copied()));
+    table.number(evaluation.and_then(|evaluation| evaluation.fitness.costs.first().copied()));
+    table.number(evaluation.and_then(error_of));
+}
+
+/// The standard error of its first cost; nothing from a single start, of which none is known.
+pub(super) fn error_of(evaluation: &Evaluation) -> Option<f64> {
+    finite(evaluation.standard_errors().first().copied())
+}
+
+fn finite(number: Option<f64>) -> Option<f64> {
+    number.filter(|number| number.is_finite())
 }
 
 fn parameters(table: &mut Table, axes: &[Axis], values: &[f64]) {

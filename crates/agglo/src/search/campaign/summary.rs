@@ -35,6 +35,9 @@ pub struct CampaignSummary {
     pub excluded: u64,
     /// How much of the differences between candidates may be chance.
     pub noise: Noise,
+    /// What a study says, in sentences; empty for a search.
+    #[serde(default)]
+    pub findings: Vec<String>,
     /// Wall time [s], all sittings together.
     pub wall_s: f64,
 }
@@ -129,6 +132,7 @@ impl CampaignSummary {
         let starts = self.noise.starts_mean.map(|mean| format!(", {} a candidate", figure(mean)));
         rows.push(("runs".to_owned(), format!("{}{}", self.runs, starts.unwrap_or_default())));
         rows.extend(self.noise_row().map(|row| ("noise".to_owned(), row)));
+        rows.extend(self.findings.iter().map(|finding| ("finding".to_owned(), finding.clone())));
         rows.push(("wall time".to_owned(), readable(self.wall_s, "s")));
         rows
     }

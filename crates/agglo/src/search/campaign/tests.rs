@@ -49,6 +49,7 @@ fn conducted(
         polish: Some(&|_| Method::Random(Random { points: 5 }).start(2, 1, 12)),
         confirm: Confirm { candidates: 3, starts: 5 },
         settings: &|candidate| candidate.values.iter().map(|value| format!("x={value}")).collect(),
+        findings: &|known| vec![format!("{} candidates were tried", known.len())],
         closing: &mut |results, _| {
             let file = results.folder.root().join("closed.txt");
             fs::write(&file, format!("{:?}", results.best)).map_err(RecordError::file("write", &file))?;

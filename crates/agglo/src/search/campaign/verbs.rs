@@ -91,6 +91,7 @@ pub fn resume(
         polish: campaign.polish.as_ref().map(|_| &polish as &Polish<'_>),
         confirm: if is_search { campaign.confirm } else { Confirm { candidates: 0, starts: 0 } },
         settings: &|candidate| problem.settings(candidate),
+        findings: &|known| pictures::findings(&campaign, &problem, known),
         closing: &mut |results, ask| {
             pictures::clear(&results.folder.pictures())?;
             pictures::write(&campaign, &problem, results)?;

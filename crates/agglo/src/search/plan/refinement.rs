@@ -10,7 +10,8 @@ use crate::search::optimiser::Point;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Refinement {
-    /// The outcome has settled at a level if all finer levels' means are within this part of the finest one's.
+    /// The outcome has settled at a level from which on the differences from the finest one, with their intervals at 95 %
+    /// confidence, are within this part of the finest one's value.
     pub tolerance: f64,
 }
 
