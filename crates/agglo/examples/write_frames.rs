@@ -1,4 +1,5 @@
-//! Writes grains, bonds and rays as VTK reads them: two frames, and a list of them.
+//! Writes grains, bonds and rays as VTK reads them: two frames, and a list of them. And a table of numbers that are hard
+//! to write.
 //!
 //! `cargo run -p agglo --example write_frames -- out` writes into the folder `out`.
 
@@ -7,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use agglo::math::Vec3;
 use agglo::particles::{Particles, Row};
+use agglo::record::Series;
 use agglo::record::frames::{Collection, Field, write_grains, write_lines, write_rays};
 
 /// Five grains; the one named k is in memory at place 4 - k.
@@ -26,6 +28,19 @@ fn grains(time: f64) -> Particles {
         });
     }
     grains
+}
+
+/// Numbers of every size, each beside its bits and a count.
+fn table(path: &Path) -> Result<(), Box<dyn Error>> {
+    let mut table = Series::create(path, &["value", "high_bits", "low_bits", "count"])?;
+    for value in
+        [0.1, 1.0 / 3.0, 1e-28, -1e-28, 5e-324, f64::MAX, 1e22, 1e16, 123_456_789.125, 2.5e-7, 1512.0]
+    {
+        let bits = value.to_bits();
+        table.row(&[value, (bits >> 32) as f64, f64::from(bits as u32), 1512.0])?;
+    }
+    table.flush()?;
+    Ok(())
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -53,5 +68,5 @@ fn main() -> Result<(), Box<dyn Error>> {
         list.add(time, &name("grains"));
     }
     list.write(&folder.join("grains.pvd"))?;
-    Ok(())
+    table(&folder.join("numbers.csv"))
 }

@@ -2,20 +2,24 @@
 
 use std::path::PathBuf;
 
-use crate::scenario::readable;
+use crate::scenario::{readable, told_apart};
 
 /// Solid fraction at which random sequential addition of equal spheres comes to its end.
 pub const SATURATION: f64 = 0.382;
+
+/// One of two values that differ, with enough digits to see it.
+fn apart(values: [f64; 2], unit: &str, which: usize) -> String {
+    told_apart(values, unit)[which].clone()
+}
 
 /// Why the grains could not be placed. `group` is the place in the scenario's list `grains`, from 0.
 #[derive(Debug, thiserror::Error)]
 pub enum PackingError {
     /// Random sequential addition found no more room.
     #[error(
-        "grains[{group}]: no room left after {placed} of {wanted} grains (solid fraction {reached:.3}, asked for \
-         {solid_fraction:.3}); random placement of equal spheres ends at {limit}. Ask for fewer grains, give a \
+        "grains[{group}]: no room left after {placed} of {wanted} grains (solid fraction {}, asked for {}); random placement of equal spheres ends at {limit}. Ask for fewer grains, give a \
          larger region, or use `lattice` placement",
-        limit = SATURATION
+        apart([*reached, *solid_fraction], "", 0), apart([*reached, *solid_fraction], "", 1), limit = SATURATION
     )]
     Saturated {
         /// Which group.
@@ -31,8 +35,9 @@ pub enum PackingError {
     },
     /// A grain is larger than the region it should lie in.
     #[error(
-        "grains[{group}]: a grain of radius {radius:e} m does not fit into the region, whose largest inner sphere \
-         has radius {room:e} m; give smaller grains or a larger region"
+        "grains[{group}]: a grain of radius {} does not fit into the region, whose largest inner sphere has radius {}; \
+         give smaller grains or a larger region",
+        apart([*radius, *room], "m", 0), apart([*radius, *room], "m", 1)
     )]
     TooLarge {
         /// Which group.

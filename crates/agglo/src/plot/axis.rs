@@ -1,6 +1,7 @@
 //! What an axis stands for.
 
 use super::scale::Scale;
+use crate::record::number;
 
 /// What an axis stands for: a quantity with its unit, or a choice from a list.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -65,7 +66,7 @@ impl Axis {
 
     /// A value in a table: a number that reads back with the same bits, or a word.
     pub fn cell(&self, value: f64) -> String {
-        self.labels.get(value as usize).cloned().unwrap_or_else(|| format!("{value}"))
+        self.labels.get(value as usize).cloned().unwrap_or_else(|| number(value))
     }
 
     /// A scale that has room for the values.

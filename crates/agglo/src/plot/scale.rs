@@ -158,25 +158,19 @@ fn superscript(power: i32) -> String {
     power.to_string().chars().map(raise).collect()
 }
 
-/// A number for a text, to four digits.
-pub(super) fn figure(value: f64) -> String {
-    let size = value.abs();
-    if size != 0.0 && !(1e-3..1e5).contains(&size) && value.is_finite() {
-        let power = size.log10().floor() as i32;
-        return minus(format!("{:.3}×10{}", value / 10.0_f64.powi(power), superscript(power)));
-    }
-    let decimals = if size == 0.0 { 0.0 } else { (3.0 - size.log10().floor()).clamp(0.0, 6.0) };
-    minus(format!("{value:.0$}", decimals as usize))
-}
-
 /// A number and its error, to two digits of the error.
 pub(super) fn with_error(value: f64, error: f64) -> String {
-    let plain = (1e-4..1e5).contains(&value.abs()) && (1e-6..1e5).contains(&error);
-    if !plain {
-        return format!("{} ± {}", figure(value), figure(error));
-    }
-    let decimals = (1.0 - error.log10().floor()).clamp(0.0, 7.0) as usize;
-    minus(format!("{value:.decimals$} ± {error:.decimals$}"))
+    let text = crate::scenario::with_error(value, error);
+    text.split(" +- ").map(typeset).collect::<Vec<_>>().join(" ± ")
+}
+
+/// "1.5e-9" as it is printed: 1.5×10⁻⁹.
+fn typeset(number: &str) -> String {
+    let power = number.split_once('e').and_then(|(mantissa, power)| Some((mantissa, power.parse().ok()?)));
+    minus(power.map_or_else(
+        || number.to_owned(),
+        |(mantissa, power)| format!("{mantissa}×10{}", superscript(power)),
+    ))
 }
 
 #[cfg(test)]

@@ -6,7 +6,11 @@ pub mod atomic;
 pub mod checkpoint;
 mod error;
 pub mod frames;
+mod number;
 mod series;
 
 pub use error::RecordError;
+#[cfg(test)]
+pub(crate) use number::AWKWARD;
+pub use number::{Number, fractional, number};
 pub use series::{Cell, Series};

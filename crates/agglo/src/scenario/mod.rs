@@ -22,7 +22,7 @@ mod walk;
 pub use explain::{PAGES, Page, explain, nearest_law};
 pub(crate) use fault::nearest;
 pub use fault::{Fault, Faults};
-pub use figures::readable;
+pub use figures::{column, readable, told_apart, with_error};
 pub(crate) use keys::{KeyKind, Keys};
 pub use labels::Engine as LawEngine;
 pub(crate) use parse::{Document, load, read};

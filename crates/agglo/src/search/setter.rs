@@ -2,6 +2,7 @@
 
 use serde_json::{Map, Number, Value as Json};
 
+use crate::record::{fractional, number as text};
 use crate::scenario::KeyKind;
 
 /// A key of a scenario and what it can be set to.
@@ -25,7 +26,7 @@ impl Setter {
             // The kind was checked: whole numbers come from whole ranges, and derived ones are rounded.
             KeyKind::Whole if value.is_finite() => Json::from(value.round() as i64),
             KeyKind::Field(dimension) if value.is_finite() => {
-                Json::from(format!("{value} {}", dimension.symbol()))
+                Json::from(format!("{} {}", text(value), dimension.symbol()))
             }
             _ => Number::from_f64(value).map_or(Json::Null, Json::Number),
         }
@@ -59,19 +60,17 @@ impl Setter {
         let key = &self.key;
         match (&self.kind, value) {
             (KeyKind::Quantity(dimension), Json::Number(number)) => {
-                format!("{key}=\"{} {}\"", short(number.as_f64().unwrap_or(f64::NAN)), dimension.symbol())
+                format!("{key}=\"{} {}\"", text(si(number)), dimension.symbol())
             }
             (KeyKind::Number, Json::Number(number)) => {
                 // Always with a point, so that it is read as a number and not as a whole one.
-                format!("{key}={:?}", number.as_f64().unwrap_or(f64::NAN))
+                format!("{key}={}", fractional(si(number)))
             }
             _ => format!("{key}={value}"),
         }
     }
 }
 
-/// The shorter one of two texts that bring back the same bits: with an exponent or without.
-fn short(value: f64) -> String {
-    let (plain, scientific) = (format!("{value}"), format!("{value:e}"));
-    if scientific.len() < plain.len() { scientific } else { plain }
+fn si(number: &Number) -> f64 {
+    number.as_f64().unwrap_or(f64::NAN)
 }

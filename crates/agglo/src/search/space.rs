@@ -1,5 +1,6 @@
 //! The space of a search: from the unit cube to values of parameters and back.
 
+use crate::record::number;
 use crate::scenario::readable;
 use crate::units::Dimension;
 
@@ -60,7 +61,7 @@ impl Axis {
             Scale::Choices(choices) => {
                 choices.get(value as usize).map_or_else(String::new, |choice| choice.label.clone())
             }
-            _ => format!("{value}"),
+            _ => number(value),
         }
     }
 

@@ -17,6 +17,8 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Error, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use crate::record::Number;
+
 /// A value in SI units whose dimension kg^KG m^M s^S K^K A^A is part of its type.
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
 pub struct Quantity<const KG: i8, const M: i8, const S: i8, const K: i8, const A: i8>(pub f64);
@@ -87,7 +89,7 @@ impl<const KG: i8, const M: i8, const S: i8, const K: i8, const A: i8> Serialize
     for Quantity<KG, M, S, K, A>
 {
     fn serialize<Z: Serializer>(&self, serializer: Z) -> Result<Z::Ok, Z::Error> {
-        serializer.collect_str(&format_args!("{} {}", self.0, Self::DIMENSION.symbol()))
+        serializer.collect_str(&format_args!("{} {}", Number(self.0), Self::DIMENSION.symbol()))
     }
 }
 

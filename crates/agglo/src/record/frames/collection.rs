@@ -6,7 +6,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::polydata::escaped;
-use crate::record::{RecordError, atomic};
+use crate::record::{Number, RecordError, atomic};
 
 /// The frames written so far. It belongs into checkpoints, so that a resumed run goes on with the same list.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -67,9 +67,9 @@ impl Collection {
             "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n",
         );
         for (time, file) in &self.frames {
-            let file = escaped(file);
+            let (time, file) = (Number(*time), escaped(file));
             // Writing to a string cannot fail.
-            let _ = writeln!(text, "<DataSet timestep=\"{time:?}\" group=\"\" part=\"0\" file=\"{file}\"/>");
+            let _ = writeln!(text, "<DataSet timestep=\"{time}\" group=\"\" part=\"0\" file=\"{file}\"/>");
         }
         text += "</Collection>\n</VTKFile>\n";
         atomic::write(path, text.as_bytes())
@@ -79,6 +79,20 @@ impl Collection {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::record::AWKWARD;
+
+    #[test]
+    fn awkward_times_come_back() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("grains.pvd");
+        let mut list = Collection::default();
+        for time in AWKWARD {
+            list.add(time, "frame.vtp");
+        }
+        list.write(&path).unwrap();
+        let read = Collection::read(&path).unwrap();
+        assert_eq!(read.frames().map(|(time, _)| time).collect::<Vec<_>>(), AWKWARD);
+    }
 
     #[test]
     fn the_list_names_every_frame() {
@@ -89,7 +103,7 @@ mod tests {
         list.add(2.5e-7, "frames/a&b.vtp");
         list.write(&path).unwrap();
         let text = std::fs::read_to_string(&path).unwrap();
-        assert!(text.contains("timestep=\"0.0\" group=\"\" part=\"0\" file=\"frames/grains-0.vtp\""));
+        assert!(text.contains("timestep=\"0\" group=\"\" part=\"0\" file=\"frames/grains-0.vtp\""));
         assert!(text.contains("timestep=\"2.5e-7\" group=\"\" part=\"0\" file=\"frames/a&amp;b.vtp\""));
         assert_eq!(list.len(), 2);
         assert_eq!(Collection::read(&path).unwrap().frames().next(), Some((0.0, "frames/grains-0.vtp")));

@@ -6,8 +6,8 @@ use std::path::Path;
 
 use crate::math::Vec3;
 use crate::particles::ColumnValues;
-use crate::record::RecordError;
 use crate::record::atomic::{self, Durability};
+use crate::record::{Number, RecordError};
 
 /// A named quantity, one value per point or per line.
 #[derive(Clone, Debug)]
@@ -143,10 +143,10 @@ impl PolyData<'_> {
         head.text += "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" \
                       header_type=\"UInt64\">\n<PolyData>\n<FieldData>\n";
         head.line(format_args!(
-            "<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{:?}</DataArray>\n\
+            "<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{}</DataArray>\n\
              </FieldData>\n<Piece NumberOfPoints=\"{count}\" NumberOfVerts=\"{vertices}\" NumberOfLines=\"{lines}\" \
              NumberOfStrips=\"0\" NumberOfPolys=\"0\">",
-            self.time
+            Number(self.time)
         ));
         let point_fields = self.point_fields.iter().map(|field| Array::of(field, self.order));
         head.section("PointData", point_fields);

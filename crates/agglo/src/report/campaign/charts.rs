@@ -3,7 +3,7 @@
 use super::folder::Folder;
 use crate::report::chart::{Axis, Chart, Dimension, Kind, Series};
 use crate::report::sheet::Sheet;
-use crate::scenario::readable;
+use crate::scenario::{column, readable};
 use crate::search::optimiser::Method;
 
 /// How many of the best make a mean, where the method does not say how many parents it has.
@@ -156,10 +156,9 @@ fn front(folder: &Folder, searched: &Sheet) -> Option<Chart> {
         y: front.iter().map(|point| point[1]).collect(),
         ..Series::default()
     };
-    let words = front.iter().map(|[a, b]| {
-        let [a, b] = [a, b].map(|cost| readable(*cost, ""));
-        format!("{} = {a} with {} = {b}", goals[0], goals[1])
-    });
+    let [firsts, seconds] = [0, 1].map(|at| column(&front.iter().map(|point| point[at]).collect::<Vec<_>>()));
+    let words =
+        firsts.iter().zip(&seconds).map(|(a, b)| format!("{} = {a} with {} = {b}", goals[0], goals[1]));
     Some(Chart {
         id: "front".to_owned(),
         title: "Front".to_owned(),

@@ -3,7 +3,7 @@
 use super::folder::Folder;
 use crate::report::Figures;
 use crate::report::sheet::Sheet;
-use crate::scenario::readable;
+use crate::scenario::column;
 
 /// Rows of failures at the most.
 const MOST_FAILURES: usize = 50;
@@ -74,18 +74,29 @@ fn picked(sheet: &Sheet, columns: &[&str], title: &str, about: &str) -> Option<F
     let says_something = |at: &usize| sheet.rows.iter().any(|row| !row[*at].is_empty());
     let places: Vec<usize> =
         columns.iter().filter_map(|name| sheet.place(name)).filter(says_something).collect();
-    let rows: Vec<Vec<String>> =
-        sheet.rows.iter().map(|row| places.iter().map(|&at| shown(&row[at])).collect()).collect();
-    if rows.is_empty() {
+    if sheet.rows.is_empty() {
         return None;
     }
+    let columns: Vec<Vec<String>> = places.iter().map(|&at| shown(sheet, at)).collect();
+    let row = |row: usize| columns.iter().map(|column| column[row].clone()).collect();
+    let rows = (0..sheet.rows.len()).map(row).collect();
     let head = places.iter().map(|&at| sheet.names[at].clone()).collect();
     Some(Figures { title: title.to_owned(), about: about.to_owned(), is_first: true, head, rows })
 }
 
-/// An entry as people read it: numbers in four digits.
-fn shown(entry: &str) -> String {
-    entry.parse().map_or_else(|_| entry.to_owned(), |value: f64| readable(value, ""))
+/// A column as people read it: numbers with enough digits to be told apart, words and counts as they are.
+fn shown(sheet: &Sheet, at: usize) -> Vec<String> {
+    let number = |row: &Vec<String>| match row[at].parse::<i64>() {
+        Ok(_) => None,
+        Err(_) => row[at].parse::<f64>().ok(),
+    };
+    let numbers: Vec<f64> = sheet.rows.iter().filter_map(number).collect();
+    let mut texts = column(&numbers).into_iter();
+    let mut text = |row: &Vec<String>| match number(row) {
+        Some(_) => texts.next().unwrap_or_default(),
+        None => row[at].clone(),
+    };
+    sheet.rows.iter().map(&mut text).collect()
 }
 
 fn figures(folder: &Folder) -> Option<Figures> {

@@ -5,7 +5,7 @@ use super::contact::needs;
 use crate::acoustics::{Acoustics, Beam, Profile, RayForce, Strength};
 use crate::domain::Region;
 use crate::math::Vec3;
-use crate::scenario::figures::readable;
+use crate::scenario::figures::told_apart;
 use crate::scenario::types::Scenario;
 use crate::units::vector;
 
@@ -81,7 +81,7 @@ fn pulses(check: &mut Check, key: &str, beam: &Beam, scenario: &Scenario) {
         None => {}
     }
     if scenario.time.end.si() > 0.0 && pulses.first >= scenario.time.end {
-        let (first, end) = (readable(pulses.first.si(), "s"), readable(scenario.time.end.si(), "s"));
+        let [first, end] = told_apart([pulses.first.si(), scenario.time.end.si()], "s");
         let message = format!("the first pulse at {first} comes after the end of the run at {end}");
         check.fail(&format!("{key}.first"), message);
     }

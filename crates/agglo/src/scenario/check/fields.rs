@@ -3,7 +3,7 @@
 use super::Check;
 use crate::fields::near_field::NearFieldLaw;
 use crate::fields::{Drag, NearField};
-use crate::scenario::figures::readable;
+use crate::scenario::figures::told_apart;
 use crate::scenario::types::Scenario;
 
 pub(super) fn check(check: &mut Check, scenario: &Scenario) {
@@ -43,7 +43,7 @@ fn near_field(check: &mut Check, scenario: &Scenario, law: &NearField) {
     if let Some(cutoff) = law.cutoff {
         let largest = scenario.grains.iter().map(|group| group.size.largest()).fold(0.0, f64::max);
         if cutoff.si() <= 2.0 * largest {
-            let (found, least) = (readable(cutoff.si(), "m"), readable(2.0 * largest, "m"));
+            let [found, least] = told_apart([cutoff.si(), 2.0 * largest], "m");
             let message =
                 format!("{found} is not above the largest diameter {least}: touching grains are left out");
             check.fail_with("fields.near_field.cutoff", message, "it counts from centre to centre");

@@ -7,7 +7,7 @@ use super::materials::named;
 use super::{Check, placement};
 use crate::domain::Volume;
 use crate::packing::{GrainList, LengthRatio, Placement, Size, VelocitySpread};
-use crate::scenario::figures::readable;
+use crate::scenario::figures::told_apart;
 use crate::scenario::types::{GrainGroup, Scenario};
 use crate::units::Length;
 
@@ -122,8 +122,7 @@ fn length_ratio(check: &mut Check, key: &str, law: &LengthRatio, group: &GrainGr
     let is_close = |a: f64, b: f64| (a - b).abs() <= 1e-9 * b.abs();
     let cube = is_close(edges.y, edges.x) && is_close(edges.z, edges.x);
     if cube && edges.x > 0.0 && !is_close(2.0 * law.half_edge.si(), edges.x) {
-        let found = readable(law.half_edge.si(), "m");
-        let half = readable(0.5 * edges.x, "m");
+        let [found, half] = told_apart([law.half_edge.si(), 0.5 * edges.x], "m");
         let message = format!("found {found}; half the edge of [volume] is {half}");
         check.fail(&format!("{key}.half_edge"), message);
     }
@@ -148,8 +147,7 @@ fn ordered(check: &mut Check, key: &str, bounds: &[(&str, Length)]) {
         if let [(low, small), (high, large)] = pair
             && small > large
         {
-            let found = readable(large.si(), "m");
-            let bound = readable(small.si(), "m");
+            let [found, bound] = told_apart([large.si(), small.si()], "m");
             check.fail(&format!("{key}.{high}"), format!("{high} = {found} is below {low} = {bound}"));
         }
     }

@@ -14,7 +14,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::fault::Fault;
-use super::figures::readable;
+use super::figures::{readable, told_apart};
 use super::types::Scenario;
 use crate::domain::Region;
 use crate::math::Vec3;
@@ -112,7 +112,7 @@ impl Check {
         for (axis, name) in ["x", "y", "z"].iter().enumerate() {
             let (low, high) = (lower[axis].si(), upper[axis].si());
             if high <= low {
-                let (low, high) = (readable(low, "m"), readable(high, "m"));
+                let [low, high] = told_apart([low, high], "m");
                 let message = format!("upper {name} = {high} is not above lower {name} = {low}");
                 self.fail(&format!("{key}.upper.{axis}"), message);
             }

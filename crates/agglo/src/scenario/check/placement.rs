@@ -3,7 +3,7 @@
 use super::{Check, shown};
 use crate::domain::{Region, Volume};
 use crate::packing::{Fill, Lattice, Placement, RandomAddition, SATURATION, Size};
-use crate::scenario::figures::{digits, readable};
+use crate::scenario::figures::{digits, told_apart};
 use crate::scenario::types::{GrainGroup, Scenario};
 use crate::units::Length;
 
@@ -109,9 +109,9 @@ fn saturation(check: &mut Check, key: &str, fraction: f64, wanted: &Amount, size
         return;
     }
     let of_what = if gap.si() > 0.0 { ", with half the gap around each grain," } else { "" };
+    let [swollen_is, limit_is] = told_apart([swollen, limit], "");
     let message = format!(
-        "the solid fraction{of_what} is {}; random sequential addition saturates at {limit}",
-        digits(swollen)
+        "the solid fraction{of_what} is {swollen_is}; random sequential addition saturates at {limit_is}"
     );
     if let Size::LengthRatio(law) = size {
         // In a box of side 2D the solid fraction is (4/3) pi L³/8.
@@ -146,7 +146,7 @@ fn lattice(check: &mut Check, key: &str, law: &Lattice, size: &Size) {
     check.positive(&format!("{key}.spacing"), law.spacing);
     // The bound leaves room for the rounding of a spacing that is written as twice a radius.
     if law.spacing.si() > 0.0 && law.spacing.si() < diameter * (1.0 - 1e-12) {
-        let (spacing, least) = (readable(law.spacing.si(), "m"), readable(diameter, "m"));
+        let [spacing, least] = told_apart([law.spacing.si(), diameter], "m");
         let message = format!("{spacing} is less than the largest diameter {least}: grains would overlap");
         check.fail(&format!("{key}.spacing"), message);
     }

@@ -3,7 +3,7 @@
 use super::Check;
 use crate::engine::Engine;
 use crate::engine::hard::TimeStepped;
-use crate::scenario::figures::readable;
+use crate::scenario::figures::told_apart;
 use crate::scenario::types::Scenario;
 
 pub(super) fn check(check: &mut Check, scenario: &Scenario) {
@@ -42,8 +42,7 @@ fn engine(check: &mut Check, engine: &Engine) {
             check.positive(&key("initial_step"), law.initial_step);
             check.positive(&key("largest_step"), law.largest_step);
             if law.initial_step > law.largest_step {
-                let (first, largest) =
-                    (readable(law.initial_step.si(), "s"), readable(law.largest_step.si(), "s"));
+                let [first, largest] = told_apart([law.initial_step.si(), law.largest_step.si()], "s");
                 check.fail(&key("initial_step"), format!("{first} is longer than largest_step = {largest}"));
             }
             if law.tolerance <= 0.0 || law.tolerance >= 1.0 {
@@ -80,8 +79,7 @@ fn time_stepped(check: &mut Check, law: &TimeStepped) {
     check.positive(&key("shortest_step"), law.shortest_step);
     check.positive(&key("longest_step"), law.longest_step);
     if law.longest_step.si() > 0.0 && law.shortest_step > law.longest_step {
-        let (shortest, longest) =
-            (readable(law.shortest_step.si(), "s"), readable(law.longest_step.si(), "s"));
+        let [shortest, longest] = told_apart([law.shortest_step.si(), law.longest_step.si()], "s");
         let message = format!("{shortest} is longer than longest_step = {longest}");
         check.fail(&key("shortest_step"), message);
     }

@@ -2,6 +2,7 @@
 
 use super::refinement::{Convergence, Difference, differences, observed_order, settled};
 use super::{Axis, Evaluations, elementary_effects, variance_shares};
+use crate::record::number;
 use crate::search::plan::Plan;
 
 /// Mean, standard error, standard deviation and number of starts of each measure, one line for each candidate; columns
@@ -155,5 +156,5 @@ fn add(table: &mut String, cells: &[String]) {
 
 /// A number with as few digits as bring back the same bits; empty where there is none.
 fn cell(value: f64) -> String {
-    if value.is_finite() { format!("{value}") } else { String::new() }
+    if value.is_finite() { number(value) } else { String::new() }
 }

@@ -4,6 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::*;
 use crate::math::rng::{Purpose, Stream};
+use crate::record::AWKWARD;
 use crate::search::plan::{Morris, Plan, Refinement, SobolIndices};
 
 fn exact(levels: &[(f64, f64)]) -> Vec<Level> {
@@ -547,6 +548,30 @@ fn sensitivity_has_its_table_and_picture() {
                 ["sensitivity.svg"]
             );
         });
+    }
+}
+
+/// Parameters and means of studies, of any size, come back from the table as the same doubles.
+#[test]
+fn awkward_numbers_come_back_from_study_tables() {
+    let row = |value: f64| EvaluationRow {
+        values: vec![value],
+        starts: vec![vec![value]],
+        ..EvaluationRow::default()
+    };
+    let evaluations = Evaluations {
+        parameters: vec![Axis::new("p", "")],
+        measures: vec![Axis::new("m", "")],
+        rows: AWKWARD.map(row).to_vec(),
+        ..Evaluations::default()
+    };
+    let table = measures_table(&evaluations);
+    assert!(table.lines().all(|line| line.len() < 80), "{table}");
+    for (line, value) in table.lines().skip(1).zip(AWKWARD) {
+        let cells: Vec<&str> = line.split(',').collect();
+        for cell in [cells[1], cells[3]] {
+            assert_eq!(cell.parse::<f64>().unwrap().to_bits(), value.to_bits(), "{line}");
+        }
     }
 }
 

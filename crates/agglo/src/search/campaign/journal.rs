@@ -16,7 +16,7 @@ use std::io::{Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use crate::record::RecordError;
+use crate::record::{Number, RecordError};
 use crate::search::pool::Finished;
 
 /// What a start came to in an earlier sitting.
@@ -112,7 +112,7 @@ impl Journal {
             Ok(figures) => {
                 line.push_str("ok");
                 figures.iter().for_each(|figure| {
-                    let _ = write!(line, ",{figure:?}");
+                    let _ = write!(line, ",{}", Number(*figure));
                 });
             }
             Err(reason) => {
@@ -164,7 +164,8 @@ mod tests {
     }
 
     fn written(path: &Path) -> BTreeMap<(u64, u32), Entry> {
-        let figures = [0.1 + 0.2, -0.0, f64::INFINITY, 1e-300];
+        let mut figures = vec![0.1 + 0.2, -0.0, f64::INFINITY, 1e-300];
+        figures.extend(crate::record::AWKWARD);
         let (journal, past) = open(path);
         assert_eq!(past, Past::default());
         let outcomes: [Result<&[f64], &str>; 4] =

@@ -6,7 +6,7 @@ use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::Value as Json;
 
-use crate::scenario::readable;
+use crate::scenario::{readable, with_error};
 
 /// What a campaign came to; `summary.json` holds the same.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -141,8 +141,7 @@ impl CampaignSummary {
         let goal = self.objectives.first();
         let sign = if goal.is_some_and(|goal| goal.is_to_be_large) { -1.0 } else { 1.0 };
         let value = |cost: f64, error: Option<f64>| {
-            let error = error.map(|error| format!(" +- {}", figure(error))).unwrap_or_default();
-            format!("{}{error}", figure(sign * cost))
+            error.map_or_else(|| figure(sign * cost), |error| with_error(sign * cost, error))
         };
         let name = goal.map_or("cost", |goal| goal.formula.as_str());
         let starts = match (best.starts, best.is_confirmed) {

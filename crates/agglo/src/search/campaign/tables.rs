@@ -6,7 +6,7 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use crate::record::RecordError;
+use crate::record::{Number, RecordError};
 
 /// A CSV table whose cells may be words.
 #[derive(Debug)]
@@ -45,7 +45,7 @@ impl Table {
         self.separate();
         if let Some(value) = value.into() {
             // Writing to a string cannot fail. An empty sum may be a negative zero, which no reader expects.
-            let _ = write!(self.line, "{:?}", value + 0.0);
+            let _ = write!(self.line, "{}", Number(value + 0.0));
         }
     }
 
@@ -97,6 +97,23 @@ fn quoted(word: &str) -> Cow<'_, str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::record::AWKWARD;
+
+    #[test]
+    fn awkward_numbers_come_back() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("table.csv");
+        let mut table = Table::create(&path, ["a"]).unwrap();
+        for value in AWKWARD {
+            table.number(value);
+            table.end_row().unwrap();
+        }
+        table.flush().unwrap();
+        let text = std::fs::read_to_string(&path).unwrap();
+        let read = text.lines().skip(1).map(|line| line.parse().unwrap());
+        assert_eq!(read.collect::<Vec<f64>>(), AWKWARD);
+        assert!(text.lines().all(|line| line.len() <= 24), "{text}");
+    }
 
     #[test]
     fn rows_of_numbers_and_words() {

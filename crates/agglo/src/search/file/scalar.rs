@@ -6,6 +6,8 @@ use std::fmt;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 
+use crate::record::Number;
+
 /// A value as a file writes it: a number, true or false, or a text, which may be a quantity with its unit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
@@ -26,7 +28,7 @@ impl fmt::Display for Scalar {
         match self {
             Self::Flag(flag) => write!(f, "{flag}"),
             Self::Whole(number) => write!(f, "{number}"),
-            Self::Number(number) => write!(f, "{number}"),
+            Self::Number(number) => write!(f, "{}", Number(*number)),
             Self::Text(text) => write!(f, "{text}"),
         }
     }
