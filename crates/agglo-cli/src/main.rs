@@ -18,7 +18,8 @@ mod watch;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-use agglo::scenario::{Plan, TEMPLATES, nearest_template, schema, template};
+use agglo::forecast::Plan;
+use agglo::scenario::{TEMPLATES, nearest_template, schema, template};
 use agglo::search::campaign_schema;
 use clap::Parser;
 
@@ -102,5 +103,7 @@ fn check(file: &std::path::Path, settings: &[String]) -> Result<(), Failure> {
         return search::check(file, settings);
     }
     let read = read::scenario(file, settings)?;
-    print(&format!("{} is sound\n{}", file.display(), Plan::new(&read.scenario, &read.base)))
+    let plan = Plan::new(&read.scenario, &read.base)
+        .map_err(|error| Failure::bad_input(format!("error: {}: {error}", file.display())))?;
+    print(&format!("{} is sound\n{plan}", file.display()))
 }

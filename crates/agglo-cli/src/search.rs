@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::atomic::Ordering;
 
-use agglo::scenario::Plan;
+use agglo::forecast::Plan;
 use agglo::search::campaign::{
     self, CampaignEnding, CampaignError, CampaignObserver, CampaignSummary, evaluations_at_most,
 };
@@ -87,7 +87,8 @@ pub(crate) fn check(file: &Path, settings: &[String]) -> Result<(), Failure> {
     let mut parts = vec![format!("{} is sound", file.display()), columns(&rows(&campaign, &problem))];
     parts.extend(problem.refused_ends().iter().map(|note| format!("note: {note}")));
     if let Ok(scenario) = problem.scenario(&problem.centre()) {
-        let plan = Plan::new(&scenario, problem.folder());
+        let plan = Plan::new(&scenario, problem.folder())
+            .map_err(|error| Failure::bad_input(format!("error: {}: {error}", file.display())))?;
         parts.push(format!("\nOne run, with all parameters in the middle of their ranges:\n{plan}"));
     }
     print(&parts.join("\n"))

@@ -23,6 +23,7 @@ pub mod engine;
 pub mod measure;
 pub mod record;
 
+pub mod forecast;
 pub mod run;
 pub mod scenario;
 

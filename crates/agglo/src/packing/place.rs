@@ -24,7 +24,16 @@ use crate::units::vector;
 /// [`PackingError`] where there is no room, a table cannot be read, a value cannot be, two grains would be at exactly
 /// the same place, or hard spheres could not start.
 pub fn place(scenario: &Scenario, base: &Path) -> Result<Particles, PackingError> {
+    place_groups(scenario, base).map(|(grains, _)| grains)
+}
+
+/// As [`place`], with the number of grains of each group; those of a group follow one another.
+///
+/// # Errors
+/// As for [`place`].
+pub fn place_groups(scenario: &Scenario, base: &Path) -> Result<(Particles, Vec<u64>), PackingError> {
     let mut grains = Particles::default();
+    let mut counts = Vec::new();
     for (group, request) in scenario.grains.iter().enumerate() {
         let found = scenario.materials.iter().enumerate().find(|(_, (name, _))| **name == request.material);
         let Some((material, (_, properties))) = found else {
@@ -41,12 +50,13 @@ pub fn place(scenario: &Scenario, base: &Path) -> Result<Particles, PackingError
             let row = grain(request, properties, spot);
             grains.push(Row { id: grains.len() as u32, material: material as u32, ..row });
         }
+        counts.push(grains.len() as u64 - counts.iter().sum::<u64>());
     }
     refuse_coincident(&grains)?;
     if scenario.engine.is_hard() {
         make_ready_for_impacts(&mut grains, scenario.volume.as_ref())?;
     }
-    Ok(grains)
+    Ok((grains, counts))
 }
 
 /// Where a grain is, how large, and what its row of a table or list says of it.

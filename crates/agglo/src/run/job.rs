@@ -72,6 +72,10 @@ pub trait Job: Sized {
     fn is_finished(&self) -> bool;
     /// Goes on for a little while, not past `due` [s] if it can stop there without a trace.
     fn advance(&mut self, due: f64) -> Result<(), SimError>;
+    /// Whether rays fly, so that steps are of another kind than without.
+    fn is_ray_flight(&self) -> bool {
+        false
+    }
     /// Warnings that came up for the first time since the last call.
     fn fresh_warnings(&mut self) -> Vec<String>;
     /// What happens now, in words.

@@ -7,6 +7,7 @@ mod hard;
 mod job;
 mod quiet;
 mod recorder;
+mod rehearsal;
 mod session;
 mod soft;
 mod summary;
@@ -21,6 +22,7 @@ use std::time::Instant;
 pub use error::RunError;
 pub use hard::{Growth, HardSummary};
 pub use quiet::quiet;
+pub(crate) use rehearsal::{Paces, Rehearsal, rehearse};
 pub use soft::{Clusters, EnergyFigures, PulseFigures, SoftSummary};
 pub use summary::Summary;
 

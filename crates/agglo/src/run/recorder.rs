@@ -82,7 +82,7 @@ impl Recorder {
             self.write_rows(job)?;
         }
         if self.timers.frames.is_due(time) {
-            job.record_frame(&mut self.frames)?;
+            self.write_frame(job)?;
         }
         Ok(())
     }
@@ -97,7 +97,7 @@ impl Recorder {
             self.write_rows(job)?;
         }
         if self.frames.last_time().is_none_or(|last| last < time) {
-            job.record_frame(&mut self.frames)?;
+            self.write_frame(job)?;
         }
         job.record_end(folder)?;
         self.sync()
@@ -124,8 +124,20 @@ impl Recorder {
         self.tables.sync()
     }
 
-    fn write_rows<J: Job>(&mut self, job: &mut J) -> Result<(), RecordError> {
+    /// Writes a row in each table over time, due or not.
+    ///
+    /// # Errors
+    /// [`RecordError`] where a file cannot be written.
+    pub fn write_rows<J: Job>(&mut self, job: &mut J) -> Result<(), RecordError> {
         self.last_row = job.time();
         job.record_rows(&mut self.tables)
+    }
+
+    /// Writes a frame, due or not.
+    ///
+    /// # Errors
+    /// [`RecordError`] where a file cannot be written.
+    pub fn write_frame<J: Job>(&mut self, job: &mut J) -> Result<(), RecordError> {
+        job.record_frame(&mut self.frames)
     }
 }

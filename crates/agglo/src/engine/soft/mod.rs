@@ -2,6 +2,7 @@
 
 mod advance;
 mod books;
+mod first_pulse;
 mod laws;
 mod loads;
 mod pulses;
@@ -15,6 +16,7 @@ mod types;
 mod validity;
 pub mod verlet;
 
+pub use first_pulse::FirstPulse;
 pub use laws::Laws;
 pub use loads::{Loads, Rates, Supplies, Supply};
 pub use pulses::Pulses;

@@ -211,10 +211,14 @@ impl Pulses {
         self.state.flight.pulses()
     }
 
+    /// How long a hit presses [s]; 0 without beams.
+    pub fn duration(&self) -> f64 {
+        self.setup.as_ref().map_or(0.0, |setup| setup.duration)
+    }
+
     /// Acoustic energy [J] of all pulses so far: their powers times how long a hit presses.
     pub fn energy(&self) -> f64 {
-        let duration = self.setup.as_ref().map_or(0.0, |setup| setup.duration);
-        self.counts().iter().map(|pulse| pulse.power_in).sum::<f64>() * duration
+        self.counts().iter().map(|pulse| pulse.power_in).sum::<f64>() * self.duration()
     }
 
     /// The rays in flight.

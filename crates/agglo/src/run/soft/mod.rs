@@ -77,6 +77,10 @@ impl Job for Soft {
         self.simulation.step()
     }
 
+    fn is_ray_flight(&self) -> bool {
+        !self.simulation.pulses.flight().rays().is_empty()
+    }
+
     fn fresh_warnings(&mut self) -> Vec<String> {
         self.simulation.warnings.take_fresh()
     }

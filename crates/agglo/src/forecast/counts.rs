@@ -7,8 +7,10 @@ use std::path::Path;
 use super::Plan;
 use crate::domain::{Region, Volume};
 use crate::packing::{Lattice, LatticeKind, Placement, SATURATION};
-use crate::scenario::types::{GrainGroup, Scenario};
+use crate::scenario::{GrainGroup, Scenario};
 
+/// The program itself, with what writes its tables.
+const BYTES_OF_PROGRAM: f64 = 25e6;
 const BYTES_PER_GRAIN: f64 = 400.0;
 const BYTES_PER_CONTACT: f64 = 200.0;
 const BYTES_PER_RAY: f64 = 120.0;
@@ -30,9 +32,14 @@ pub(super) fn grains(plan: &mut Plan, scenario: &Scenario, base: &Path) -> Vec<u
         counts.push(count);
     }
     plan.grains = counts.iter().sum();
-    let contacts = if scenario.engine.is_hard() { 0.0 } else { CONTACTS_PER_GRAIN };
-    plan.memory = plan.grains as f64 * (BYTES_PER_GRAIN + contacts * BYTES_PER_CONTACT);
     counts
+}
+
+/// Memory of the run.
+pub(super) fn memory(plan: &mut Plan, scenario: &Scenario) {
+    let contacts = if scenario.engine.is_hard() { 0.0 } else { CONTACTS_PER_GRAIN };
+    let grains = plan.grains as f64 * (BYTES_PER_GRAIN + contacts * BYTES_PER_CONTACT);
+    plan.memory = BYTES_OF_PROGRAM + grains + plan.rays_per_pulse as f64 * BYTES_PER_RAY;
 }
 
 pub(super) fn pulses(plan: &mut Plan, scenario: &Scenario) {
@@ -40,7 +47,6 @@ pub(super) fn pulses(plan: &mut Plan, scenario: &Scenario) {
         plan.rays_per_pulse += u64::from(beam.rays);
         plan.pulses += u64::from(pulses_before(beam, scenario.time.end.si()));
     }
-    plan.memory += plan.rays_per_pulse as f64 * BYTES_PER_RAY;
 }
 
 /// Pulses of a beam that start before the end of the run [s].

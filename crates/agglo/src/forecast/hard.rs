@@ -1,8 +1,8 @@
 //! What is planned for hard spheres, and what to keep in mind of their laws.
 
-use super::Plan;
-use super::forecast::{Forecast, MeanField, Now};
 use super::gas::Gas;
+use super::mean_field::{Forecast, MeanField, Now};
+use super::{Plan, about};
 use crate::domain::Boundary;
 use crate::engine::Engine;
 use crate::engine::hard::{Distance, Pairs, TimeStepped};
@@ -13,70 +13,89 @@ use crate::impact::restitution::hardness::{ForceTime, Hardness, Solver};
 use crate::impact::tangential::SlipLimit;
 use crate::impact::{Impact, Restitution, Sticking, softening};
 use crate::particles::Material;
+use crate::run::{Rehearsal, Summary};
 use crate::scenario::figures::{digits, readable};
-use crate::scenario::types::{GrainGroup, Scenario};
+use crate::scenario::{GrainGroup, Scenario};
 
-/// Time [s] of one impact: the laws, and two searches for the next one.
-const SECONDS_PER_IMPACT: f64 = 2e-6;
-/// Time [s] of one move into the next cell.
-const SECONDS_PER_CROSSING: f64 = 1e-6;
-/// Time [s] of one step for one grain: its move and its search for neighbours.
-const SECONDS_PER_GRAIN: f64 = 2e-7;
+/// Impacts whose number says something of those to come.
+const ENOUGH_IMPACTS: u64 = 30;
 /// The fastest pair that matters for the step is about this many times as fast as the mean one.
 const FASTEST: f64 = 2.0;
 
-/// Impacts, steps and time of a run of hard spheres.
-pub(super) fn estimate(plan: &mut Plan, scenario: &Scenario, counts: &[u64]) {
-    let Some(gas) = Gas::at_start(scenario, counts) else { return };
-    let (end, grains) = (scenario.time.end.si(), plan.grains as f64);
+/// Impacts, steps and time of a run of hard spheres: as means have it, held to what the first moments came to.
+pub(super) fn estimate(plan: &mut Plan, scenario: &Scenario, gas: &Gas, tried: Option<&Rehearsal>) {
+    let (grains, end) = (plan.grains as f64, scenario.time.end.si());
+    let found = means(scenario, gas, grains, end);
+    plan.impacts = found.impacts;
+    let reckoned = Some((found.grains, ", reckoned as equal ones"));
+    let whose = match tried.map(|tried| (tried, &tried.summary)) {
+        Some((Rehearsal { trouble: Some(trouble), time, .. }, _)) => {
+            plan.notes.push(format!("a run would fail at {time} s: {trouble}"));
+            None
+        }
+        Some((tried, Summary::Hard(summary))) if tried.is_finished => {
+            (plan.impacts, plan.steps) = (summary.impacts as f64, Some(summary.steps as f64));
+            plan.seconds = Some(tried.start_s + tried.quiet.all.wall_s);
+            Some((summary.grains_end as f64, ""))
+        }
+        Some((tried, Summary::Hard(summary))) => {
+            let part = means(scenario, gas, grains, tried.time);
+            carry_on(plan, end, tried, summary.impacts, [&found, &part]);
+            reckoned
+        }
+        _ => reckoned,
+    };
+    if let Some((left, how)) = whose {
+        expectations(plan, left, how);
+    }
+    describe(plan, scenario, gas, grains);
+}
+
+/// What becomes of the means until `end` [s].
+pub(super) fn means(scenario: &Scenario, gas: &Gas, grains: f64, end: f64) -> Forecast {
     let stepped = match &scenario.engine {
         Engine::TimeStepped(law) => Some(law),
         _ => None,
     };
     let length = |now: &Now| stepped.map_or(f64::INFINITY, |law| step(law, now).min(end));
-    let at_rest = |step: f64| Forecast {
-        grains,
-        steps: end / step,
-        grain_steps: grains * end / step,
-        ..Forecast::default()
-    };
-    let found = match MeanField::new(scenario, &gas, grains) {
-        Some(field) => field.run(end, &length),
-        None => at_rest(stepped.map_or(f64::INFINITY, |law| law.longest_step.si().min(end))),
-    };
-    plan.impacts = found.impacts;
-    plan.seconds = found.impacts * SECONDS_PER_IMPACT;
-    if stepped.is_some() {
-        plan.steps = found.steps;
-        plan.seconds += found.grain_steps * SECONDS_PER_GRAIN;
-    } else {
-        plan.seconds += found.crossings * SECONDS_PER_CROSSING;
+    if let Some(field) = MeanField::new(scenario, gas, grains) {
+        return field.run(end, &length);
     }
-    expectations(plan, &found);
-    describe(plan, scenario, &gas, grains);
+    let step = stepped.map_or(f64::INFINITY, |law| law.longest_step.si().min(end));
+    Forecast { grains, steps: end / step, ..Forecast::default() }
 }
 
-/// What will become of the grains, as far as means can tell.
-fn expectations(plan: &mut Plan, found: &Forecast) {
+/// Carries what was tried on to the end: as many more impacts and steps as the means have more until then.
+fn carry_on(plan: &mut Plan, end: f64, tried: &Rehearsal, impacts: u64, [whole, part]: [&Forecast; 2]) {
+    let (so_far, latest) = (tried.quiet.all, tried.quiet.latest());
+    let is_known = impacts >= ENOUGH_IMPACTS && part.impacts > 0.0;
+    if is_known {
+        plan.impacts *= impacts as f64 / part.impacts;
+    }
+    let more = if part.steps > 0.0 {
+        so_far.steps * (whole.steps / part.steps - 1.0)
+    } else if is_known {
+        so_far.steps * (whole.impacts / part.impacts - 1.0)
+    } else {
+        latest.steps * (end - tried.time) / latest.time
+    };
+    plan.steps = Some(so_far.steps + more);
+    plan.seconds = Some(tried.start_s + so_far.wall_s + more * latest.wall_s / latest.steps.max(1.0));
+}
+
+/// What will become of the grains: `left` at the end, and how that is known.
+fn expectations(plan: &mut Plan, left: f64, how: &str) {
+    let impacts = plan.impacts;
+    let change = (left / plan.grains as f64).ln();
     let mut row = |label: &str, words: String| plan.figures.push((label.to_owned(), words));
-    if found.impacts > 0.0 {
-        row("impacts", format!("about {}", about(found.impacts)));
+    if impacts > 0.0 {
+        row("impacts", format!("about {}", about(impacts)));
     }
-    if found.steps > 0.0 {
-        row("steps", format!("about {}, as long as the distances allow", about(found.steps)));
-    }
-    let start = plan.grains as f64;
-    let change = (found.grains / start).ln();
     if change < -0.01 {
-        row("grains at the end", format!("about {}, reckoned as equal ones", about(found.grains.round())));
+        row("grains at the end", format!("about {}{how}", about(left.round())));
     } else if change > 0.01 {
         row("grains at the end", "more than at the start".to_owned());
     }
-}
-
-/// Two significant digits: "1600", "3.2e6".
-fn about(value: f64) -> String {
-    digits(format!("{:.1e}", value.max(1.0)).parse().unwrap_or(value))
 }
 
 /// A mean step of the time-stepped engine [s].

@@ -6,10 +6,12 @@
 //! uniform stream, 14 % high for velocities that scatter uniformly along one axis.
 
 use std::f64::consts::PI;
+use std::ops::Range;
 
 use crate::math::Vec3;
-use crate::packing::{Placement, VelocitySpread};
-use crate::scenario::types::{GrainGroup, Scenario};
+use crate::packing::VelocitySpread;
+use crate::particles::Particles;
+use crate::scenario::{GrainGroup, Scenario};
 use crate::units::vector;
 
 /// A gas above this solid fraction is none.
@@ -31,8 +33,6 @@ pub(super) struct Gas {
     pub mass: f64,
     /// Kinetic energy [J], as seen by one at rest and by one who moves with the centre of mass.
     pub kinetic: [f64; 2],
-    /// Sum over the axes of the size of the mean velocity, averaged over the groups [m/s].
-    pub drift: f64,
     /// The group with most of the mass.
     pub heaviest: Option<GrainGroup>,
 }
@@ -49,15 +49,20 @@ struct Kind {
 }
 
 impl Gas {
-    /// The gas that a scenario of hard spheres starts from; `counts` are the grains of each group.
-    pub fn at_start(scenario: &Scenario, counts: &[u64]) -> Option<Self> {
+    /// The gas that a scenario of hard spheres starts from; `counts` are the grains of each group, and `placed` all of
+    /// them, group after group, where they were placed.
+    pub fn at_start(scenario: &Scenario, counts: &[u64], placed: Option<&Particles>) -> Option<Self> {
         let volume = scenario.volume.as_ref()?.volume();
-        let kinds: Vec<Kind> = scenario
-            .grains
-            .iter()
-            .zip(counts)
-            .map(|(group, count)| kind(scenario, group, *count as f64))
-            .collect();
+        let mut first = 0;
+        let mut kinds = Vec::new();
+        for (group, &count) in scenario.grains.iter().zip(counts) {
+            let range = first..first + count as usize;
+            first = range.end;
+            kinds.push(match placed {
+                Some(grains) => Kind::of_grains(grains, range),
+                None => Kind::of_group(scenario, group, count as f64),
+            });
+        }
         let solid = |kind: &Kind| kind.count * 4.0 / 3.0 * PI * kind.radius.powi(3);
         let solid_fraction = kinds.iter().map(solid).sum::<f64>() / volume;
         let phi = solid_fraction.min(DENSEST);
@@ -74,12 +79,9 @@ impl Gas {
             }
         }
         let heaviest = (0..kinds.len()).max_by(|a, b| kinds[*a].mass.total_cmp(&kinds[*b].mass));
-        let drift =
-            |kind: &Kind| kind.count / count * kind.mean.to_array().into_iter().map(f64::abs).sum::<f64>();
         Some(Self {
             mass: kinds.iter().map(|kind| kind.mass).sum(),
             kinetic: kinetic(&kinds),
-            drift: kinds.iter().map(drift).sum(),
             heaviest: heaviest.map(|at| scenario.grains[at].clone()),
             solid_fraction,
             // Each impact is one of two grains.
@@ -105,23 +107,32 @@ fn relative_speed(a: &Kind, b: &Kind) -> f64 {
     ((a.mean - b.mean).norm_squared() + 8.0 / (3.0 * PI) * (a.scatter + b.scatter)).sqrt()
 }
 
-fn kind(scenario: &Scenario, group: &GrainGroup, count: f64) -> Kind {
-    let density = scenario.materials.get(&group.material).map_or(0.0, |material| material.density.si());
-    let mass = count * density * group.size.mean_volume();
-    let radius = (0.75 * group.size.mean_volume() / PI).cbrt();
-    let scatter = match &group.velocity_spread {
-        None => 0.0,
-        Some(VelocitySpread::Uniform(law)) => vector(law.bounds).norm_squared() / 3.0,
-        Some(VelocitySpread::Maxwell(law)) => 3.0 * law.deviation.si().powi(2),
-    };
-    if let Placement::List(list) = &group.placement
-        && !list.velocities.is_empty()
-    {
-        let velocities = || list.velocities.iter().map(|velocity| vector(*velocity));
-        let part = 1.0 / list.velocities.len() as f64;
-        let mean = velocities().fold(Vec3::ZERO, |sum, v| sum + v * part);
-        let scatter = velocities().map(|v| part * (v - mean).norm_squared()).sum();
-        return Kind { count, mass, radius, mean, scatter };
+impl Kind {
+    /// Grains as they were placed.
+    fn of_grains(grains: &Particles, range: Range<usize>) -> Self {
+        let count = range.len() as f64;
+        let part = 1.0 / count.max(1.0);
+        let cubes: f64 = range.clone().map(|at| part * grains.radius[at].powi(3)).sum();
+        let mean = range.clone().fold(Vec3::ZERO, |sum, at| sum + grains.velocity[at] * part);
+        Self {
+            count,
+            mass: range.clone().map(|at| grains.mass[at]).sum(),
+            radius: cubes.cbrt(),
+            mean,
+            scatter: range.map(|at| part * (grains.velocity[at] - mean).norm_squared()).sum(),
+        }
     }
-    Kind { count, mass, radius, mean: vector(group.velocity), scatter }
+
+    /// Grains as the scenario asks for them.
+    fn of_group(scenario: &Scenario, group: &GrainGroup, count: f64) -> Self {
+        let density = scenario.materials.get(&group.material).map_or(0.0, |material| material.density.si());
+        let mass = count * density * group.size.mean_volume();
+        let radius = (0.75 * group.size.mean_volume() / PI).cbrt();
+        let scatter = match &group.velocity_spread {
+            None => 0.0,
+            Some(VelocitySpread::Uniform(law)) => vector(law.bounds).norm_squared() / 3.0,
+            Some(VelocitySpread::Maxwell(law)) => 3.0 * law.deviation.si().powi(2),
+        };
+        Self { count, mass, radius, mean: vector(group.velocity), scatter }
+    }
 }

@@ -18,7 +18,7 @@ use std::f64::consts::PI;
 use super::gas::Gas;
 use crate::impact::{Body, ImpactLaws};
 use crate::math::Vec3;
-use crate::scenario::types::Scenario;
+use crate::scenario::Scenario;
 
 /// Impacts that stand for all: each has the mean square of u over one of as many parts of equal probability.
 const QUANTILES: u32 = 16;
@@ -36,10 +36,6 @@ pub(super) struct Forecast {
     pub grains: f64,
     /// Steps of the time-stepped engine.
     pub steps: f64,
-    /// Sum over the steps of the grains that are there.
-    pub grain_steps: f64,
-    /// Moves from cell to cell of the event-driven engine.
-    pub crossings: f64,
 }
 
 /// The grains at one moment.
@@ -113,7 +109,8 @@ impl<'a> MeanField<'a> {
             let dt = if fastest * rest <= CHANGE || count >= STEPS { rest } else { CHANGE / fastest };
             let middle = [0, 1].map(|k| self.state[k] + (0.5 * dt * slopes[k]).clamp(-1.0, 1.0));
             let (now, slopes) = (self.at(middle), self.slopes(middle));
-            self.book(&mut forecast, &now, dt, step(&now));
+            forecast.impacts += now.rate * dt;
+            forecast.steps += dt / step(&now);
             self.warm(&now, middle, dt);
             for (value, slope) in self.state.iter_mut().zip(slopes) {
                 *value += dt * slope;
@@ -176,16 +173,6 @@ impl<'a> MeanField<'a> {
         }
         let part = 1.0 / f64::from(QUANTILES);
         Means { more: part * means.more, lost: part * means.lost, temperature: part * means.temperature }
-    }
-
-    fn book(&self, forecast: &mut Forecast, now: &Now, dt: f64, step: f64) {
-        forecast.impacts += now.rate * dt;
-        forecast.steps += dt / step;
-        forecast.grain_steps += now.grains * dt / step;
-        // Three components, each sqrt(2/π) s in the mean, besides the common motion.
-        let speed = self.gas.drift + 3.0 * (2.0 / PI).sqrt() * now.deviation;
-        let spacing = (self.volume / now.grains).cbrt();
-        forecast.crossings += now.grains * dt * speed / (2.0 * now.radius).max(0.6 * spacing);
     }
 
     /// Those that had an impact are as hot as it made them, less what they gave off since; where nothing is given off, heat of

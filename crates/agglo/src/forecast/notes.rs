@@ -12,15 +12,15 @@ use crate::fields::near_field::{NearFieldLaw, Scaling};
 use crate::math::Vec3;
 use crate::packing::Placement;
 use crate::scenario::figures::{digits, readable};
-use crate::scenario::types::{GrainGroup, Scenario};
+use crate::scenario::{GrainGroup, Scenario};
 use crate::units::vector;
 
 /// Below this wave number times radius, sound goes around grains instead of being reflected as rays.
 const SMALLEST_KA: f64 = 10.0;
 
-pub(super) fn collect(plan: &mut Plan, scenario: &Scenario, pushes: &[Push]) {
+pub(super) fn collect(plan: &mut Plan, scenario: &Scenario, pushes: &[Push], smallest: f64) {
     let notes = &mut plan.notes;
-    wavelengths(notes, scenario, pushes);
+    wavelengths(notes, scenario, smallest);
     published_laws(notes, scenario);
     hard::notes(notes, scenario);
     motion(notes, scenario, pushes);
@@ -28,9 +28,8 @@ pub(super) fn collect(plan: &mut Plan, scenario: &Scenario, pushes: &[Push]) {
     packing(notes, scenario);
 }
 
-fn wavelengths(notes: &mut Vec<String>, scenario: &Scenario, pushes: &[Push]) {
+fn wavelengths(notes: &mut Vec<String>, scenario: &Scenario, smallest: f64) {
     let Some(acoustics) = &scenario.acoustics else { return };
-    let smallest = pushes.iter().map(|push| push.radius).fold(f64::INFINITY, f64::min);
     let sound = scenario.medium.sound_speed.si();
     let needed = readable(SMALLEST_KA * sound / (TAU * smallest), "Hz");
     for (index, beam) in acoustics.beams.iter().enumerate() {
@@ -78,19 +77,19 @@ fn motion(notes: &mut Vec<String>, scenario: &Scenario, pushes: &[Push]) {
     let drag = scenario.fields.drag.as_ref().map(|drag| drag.law);
     let limit = scenario.limits.strain;
     for push in pushes {
-        let (beam, group, reynolds) = (push.beam, push.group, digits(push.reynolds));
+        let (beam, reynolds) = (push.beam, digits(push.reynolds));
         match drag {
             Some(DragLaw::Stokes) if push.reynolds > 1.0 => notes.push(format!(
-                "beam {beam} makes grains {group} so fast that their Reynolds number is about {reynolds}; stokes holds below 1, schiller_naumann up to 1000"
+                "beam {beam} makes grains so fast that the largest Reynolds number is about {reynolds}; stokes holds below 1, schiller_naumann up to 1000"
             )),
             Some(DragLaw::SchillerNaumann) if push.reynolds > 1000.0 => notes.push(format!(
-                "beam {beam} makes grains {group} so fast that their Reynolds number is about {reynolds}; schiller_naumann holds up to 1000"
+                "beam {beam} makes grains so fast that the largest Reynolds number is about {reynolds}; schiller_naumann holds up to 1000"
             )),
             _ => {}
         }
         if push.strain.is_some_and(|strain| strain > limit) {
             notes.push(format!(
-                "beam {beam} makes grains {group} so fast that they overlap by more than limits.strain = {limit} when they meet"
+                "beam {beam} makes grains so fast that they overlap by more than limits.strain = {limit} when they meet"
             ));
         }
     }

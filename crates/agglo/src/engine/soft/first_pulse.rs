@@ -1,0 +1,82 @@
+//! What the first pulse of a beam does to grains that are held still. It is a look ahead, no part of a run: the rays
+//! bounce among the grains by the run's own laws, but nothing moves while they fly.
+
+use crate::acoustics::PulseCount;
+use crate::math::Vec3;
+use crate::particles::Particles;
+use crate::scenario::Scenario;
+use crate::units::Quantity;
+
+use super::simulation::Simulation;
+
+/// Parts of the widest way through the grains in which the rays are followed.
+const PARTS_OF_THE_WAY: f64 = 16.0;
+/// Parts after which rays that are still about are left to themselves.
+const MOST_PARTS: u32 = 4000;
+
+/// A pulse that has flown.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FirstPulse {
+    /// Its books.
+    pub count: PulseCount,
+    /// Time until its last ray has left [s], a little more.
+    pub flight_s: f64,
+    /// How long a hit presses [s].
+    pub duration_s: f64,
+    /// Change of velocity of each grain [m/s], by the grains' names; [n].
+    pub kicks: Vec<Vec3>,
+}
+
+impl FirstPulse {
+    /// The first pulse of beam number `beam` of a checked scenario of soft spheres, with no more rays than
+    /// `most_rays`: fewer rays of the same beam carry more power each.
+    pub fn of(scenario: &Scenario, grains: Particles, beam: usize, most_rays: u32) -> Self {
+        let names = grains.len();
+        let mut simulation = Simulation::with(&alone(scenario, beam, most_rays), grains);
+        let part = widest_way(&simulation.system.grains) / PARTS_OF_THE_WAY;
+        let dt = part / scenario.medium.sound_speed.si();
+        let Simulation { system, pulses, .. } = &mut simulation;
+        pulses.launch_due(0.0);
+        let mut found =
+            Self { duration_s: pulses.duration(), kicks: vec![Vec3::ZERO; names], ..Self::default() };
+        for number in 0..MOST_PARTS {
+            if pulses.flight().rays().is_empty() {
+                break;
+            }
+            let now = f64::from(number) * dt;
+            pulses.fly(system, now, dt);
+            found.flight_s = now + dt;
+            // A force presses for as long as the law says, an impulse is whole.
+            let time = if pulses.are_impulses() { 1.0 } else { pulses.duration() };
+            for at in 0..names {
+                let kick = system.ray_loads.force[at] * (time / system.inertial_mass[at]);
+                found.kicks[system.grains.id[at] as usize] += kick;
+            }
+        }
+        found.count = pulses.counts().first().copied().unwrap_or_default();
+        found
+    }
+}
+
+/// The scenario with one pulse of one beam at once, and nothing but rays.
+fn alone(scenario: &Scenario, beam: usize, most_rays: u32) -> Scenario {
+    let mut alone = scenario.clone();
+    (alone.contact, alone.bonds, alone.fields.near_field) = (None, None, None);
+    if let Some(acoustics) = &mut alone.acoustics {
+        let mut beam = acoustics.beams.swap_remove(beam);
+        beam.rays = beam.rays.min(most_rays);
+        beam.pulses.first = Quantity(0.0);
+        (beam.pulses.period, beam.pulses.count) = (None, 1);
+        acoustics.beams = vec![beam];
+    }
+    alone
+}
+
+/// Diagonal [m] of the box around the grains.
+fn widest_way(grains: &Particles) -> f64 {
+    let reach = |radius: f64| Vec3::new(radius, radius, radius);
+    let ends = || grains.position.iter().zip(&grains.radius);
+    let lower = ends().map(|(&r, &radius)| r - reach(radius)).reduce(Vec3::min);
+    let upper = ends().map(|(&r, &radius)| r + reach(radius)).reduce(Vec3::max);
+    lower.zip(upper).map_or(0.0, |(lower, upper)| (upper - lower).norm())
+}

@@ -1,0 +1,118 @@
+//! Steps, time on the clock and bytes on the disk, carried on from the first moments of a run to its end.
+
+use super::Plan;
+use super::push::Push;
+use crate::acoustics::RayForce;
+use crate::engine::Engine;
+use crate::run::{Paces, Rehearsal};
+use crate::scenario::{Output, Scenario};
+use crate::units::Time;
+
+/// Pairs of grains at a distance in one evaluation of forces, above which not even one is tried: some seconds' work.
+const MOST_PAIRS: f64 = 1e9;
+/// Checkpoints that stay in a run's folder.
+const CHECKPOINTS_KEPT: f64 = 2.0;
+/// Bytes of a report without its frames: charts, words and what draws them.
+const BYTES_PER_REPORT: f64 = 2.2e6;
+
+/// Why the first steps are not tried, if they are not.
+pub(super) fn too_much_to_try(scenario: &Scenario, grains: usize) -> Option<String> {
+    let field = scenario.fields.near_field.as_ref()?;
+    let pairs = (grains as f64).powi(2);
+    (field.cutoff.is_none() && pairs > MOST_PAIRS)
+        .then(|| format!("fields.near_field has no cutoff, and {pairs:.1e} pairs act in every step"))
+}
+
+/// What a second of simulated time takes.
+#[derive(Clone, Copy, Debug)]
+struct Rate {
+    steps: f64,
+    wall_s: f64,
+}
+
+impl Rate {
+    fn of(paces: &Paces) -> Option<Self> {
+        let latest = paces.latest();
+        (latest.time > 0.0)
+            .then(|| Self { steps: latest.steps / latest.time, wall_s: latest.wall_s / latest.time })
+    }
+
+    /// As many steps a second, each as long on the clock as before.
+    fn at(self, steps: f64) -> Self {
+        Self { steps, wall_s: self.wall_s * steps / self.steps }
+    }
+}
+
+/// Steps and time of a run of soft spheres.
+pub(super) fn of_soft(plan: &mut Plan, scenario: &Scenario, tried: &Rehearsal, pushes: &[Push]) {
+    let so_far = tried.quiet.all.steps + tried.flying.all.steps;
+    let wall_s = tried.start_s + tried.quiet.all.wall_s + tried.flying.all.wall_s;
+    if let Some(trouble) = &tried.trouble {
+        plan.notes.push(format!("a run would fail at {} s: {trouble}", tried.time));
+        return;
+    }
+    let left = scenario.time.end.si() - tried.time;
+    let flights = flights(scenario, pushes) - tried.flying.all.time;
+    let flying = if tried.is_finished { 0.0 } else { flights.clamp(0.0, left) };
+    let Some([quiet_rate, flying_rate]) = rates(scenario, tried, pushes) else { return };
+    let quiet = left - flying;
+    plan.steps = Some(so_far + quiet * quiet_rate.steps + flying * flying_rate.steps);
+    plan.seconds = Some(wall_s + quiet * quiet_rate.wall_s + flying * flying_rate.wall_s);
+}
+
+/// Rates without and with rays in flight. Where only one kind was tried, the other is told from the scheme.
+fn rates(scenario: &Scenario, tried: &Rehearsal, pushes: &[Push]) -> Option<[Rate; 2]> {
+    let found = [Rate::of(&tried.quiet), Rate::of(&tried.flying)];
+    match found {
+        [Some(quiet), Some(flying)] => Some([quiet, flying]),
+        [None, Some(flying)] => Some([flying.at(without_rays(scenario).unwrap_or(flying.steps)), flying]),
+        [Some(quiet), None] => {
+            let flights = flights(scenario, pushes);
+            let traced: f64 = pushes.iter().map(|push| push.pulses * push.wall_s).sum();
+            let rate =
+                quiet.at(with_rays(pushes, scenario).map_or(quiet.steps, |steps| steps.max(quiet.steps)));
+            let tracing = if flights > 0.0 { traced / flights } else { 0.0 };
+            Some([quiet, Rate { wall_s: rate.wall_s + tracing, ..rate }])
+        }
+        [None, None] => None,
+    }
+}
+
+/// Steps a second that the scheme takes where nothing happens, if it says.
+fn without_rays(scenario: &Scenario) -> Option<f64> {
+    match &scenario.engine {
+        Engine::Staggered(scheme) => Some(1.0 / scheme.largest_step.si()),
+        _ => None,
+    }
+}
+
+/// Steps a second that the law of the rays' force asks for, if it does.
+fn with_rays(pushes: &[Push], scenario: &Scenario) -> Option<f64> {
+    let is_stepped = matches!(
+        scenario.acoustics.as_ref().map(|acoustics| &acoustics.force),
+        Some(RayForce::PublishedStep(_))
+    );
+    pushes.first().filter(|_| is_stepped).map(|push| 1.0 / push.duration)
+}
+
+/// Time [s] in which rays fly.
+fn flights(scenario: &Scenario, pushes: &[Push]) -> f64 {
+    let all: f64 = pushes.iter().map(|push| push.pulses * push.flight_s).sum();
+    all.min(scenario.time.end.si())
+}
+
+/// Bytes of a run's folder: what was written, and as much more as is due until the end.
+pub(super) fn of_files(plan: &mut Plan, scenario: &Scenario, tried: &Rehearsal, pushes: &[Push]) {
+    let Some(weights) = tried.weights.filter(|_| tried.trouble.is_none()) else { return };
+    let Output { series, frames, .. } = scenario.resolved().output;
+    let left = scenario.time.end.si() - tried.time;
+    let due = |interval: Option<Time>| interval.map_or(0.0, |interval| left / interval.si());
+    let flying_part =
+        if left > 0.0 { (flights(scenario, pushes) - tried.flying.all.time).max(0.0) / left } else { 0.0 };
+    let quiet = weights.frame.or(weights.flying_frame).unwrap_or(0.0);
+    let flying = weights.flying_frame.unwrap_or(quiet);
+    let frame = quiet + flying_part.min(1.0) * (flying - quiet);
+    let kept = CHECKPOINTS_KEPT * weights.checkpoint;
+    plan.disk =
+        Some(weights.so_far + due(series) * weights.row + due(frames) * frame + kept + BYTES_PER_REPORT);
+}

@@ -1,0 +1,207 @@
+//! What a checked scenario will ask of the machine, and how far its models are to be believed.
+//!
+//! The grains are placed as a run places them. One pulse of each beam is sent through them while they are held still
+//! ([`push`]), and the first second of the run is tried ([`crate::run`]): what comes of that is carried on to the end
+//! ([`cost`]). Impacts of hard spheres follow from means ([`mean_field`]). What cannot be known so is said to be unknown.
+
+mod cost;
+mod counts;
+mod gas;
+mod hard;
+mod mean_field;
+mod notes;
+mod push;
+
+use std::fmt;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use crate::packing::{PackingError, place_groups};
+use crate::particles::Particles;
+use crate::run::{Rehearsal, rehearse};
+use crate::scenario::Scenario;
+use crate::scenario::figures::{digits, readable};
+use gas::Gas;
+
+/// How much a forecast may try out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Effort {
+    /// More grains than this are not placed, and little is then known.
+    pub most_grains: u64,
+    /// Time on the clock in which the first steps are tried.
+    pub budget: Duration,
+}
+
+impl Effort {
+    /// Nothing is placed or tried.
+    pub const NONE: Self = Self { most_grains: 0, budget: Duration::ZERO };
+}
+
+impl Default for Effort {
+    /// 2,000,000 grains, 1.5 s.
+    fn default() -> Self {
+        Self { most_grains: 2_000_000, budget: Duration::from_millis(1500) }
+    }
+}
+
+/// The plan of a run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Plan {
+    /// Number of grains; expected where they were not placed.
+    pub grains: u64,
+    /// Rays of all beams in one pulse each.
+    pub rays_per_pulse: u64,
+    /// Pulses of all beams that start before the end.
+    pub pulses: u64,
+    /// Expected number of impacts of hard spheres.
+    pub impacts: f64,
+    /// Expected number of steps; of events, from impact to impact. Nothing where it is not known.
+    pub steps: Option<f64>,
+    /// Expected memory [B].
+    pub memory: f64,
+    /// Expected size of the run's folder [B], where it is known.
+    pub disk: Option<f64>,
+    /// Expected time of the run on this machine [s], where it is known.
+    pub seconds: Option<f64>,
+    /// What else is worth knowing: label and value.
+    pub figures: Vec<(String, String)>,
+    /// What to keep in mind: validity of the models, laws that do not converge, settings without effect.
+    pub notes: Vec<String>,
+}
+
+impl Plan {
+    /// Works out the plan; `base` is the folder that the scenario's tables are relative to.
+    ///
+    /// # Errors
+    /// [`PackingError`] where a run could not place its grains.
+    pub fn new(scenario: &Scenario, base: &Path) -> Result<Self, PackingError> {
+        Self::with(scenario, base, Effort::default())
+    }
+
+    /// As [`Plan::new`], with no more effort than this.
+    ///
+    /// # Errors
+    /// [`PackingError`] where grains are placed and a run could not place them.
+    pub fn with(scenario: &Scenario, base: &Path, effort: Effort) -> Result<Self, PackingError> {
+        let mut plan = Self::default();
+        let mut counts = counts::grains(&mut plan, scenario, base);
+        counts::pulses(&mut plan, scenario);
+        let began = Instant::now();
+        let mut placed = None;
+        if plan.grains <= effort.most_grains {
+            let (grains, found) = place_groups(scenario, base)?;
+            plan.grains = grains.len() as u64;
+            counts = found;
+            placed = Some(grains);
+        }
+        let placed_s = began.elapsed().as_secs_f64();
+        let gas =
+            if scenario.engine.is_hard() { Gas::at_start(scenario, &counts, placed.as_ref()) } else { None };
+        let pushes = placed.as_ref().map_or_else(Vec::new, |grains| push::all(scenario, grains));
+        let smallest = smallest(scenario, placed.as_ref());
+        push::describe(&mut plan, &pushes);
+        let tried = placed.and_then(|grains| plan.rehearsal(scenario, grains, effort.budget));
+        match (&gas, &tried) {
+            (Some(gas), tried) => hard::estimate(&mut plan, scenario, gas, tried.as_ref()),
+            (None, Some(tried)) => cost::of_soft(&mut plan, scenario, tried, &pushes),
+            (None, None) => {}
+        }
+        if let Some(tried) = &tried {
+            cost::of_files(&mut plan, scenario, tried, &pushes);
+        }
+        plan.seconds = plan.seconds.map(|seconds| seconds + placed_s);
+        counts::memory(&mut plan, scenario);
+        notes::collect(&mut plan, scenario, &pushes, smallest);
+        Ok(plan)
+    }
+
+    /// Tries the first steps; nothing where that would take too long, or where the start fails.
+    fn rehearsal(&mut self, scenario: &Scenario, grains: Particles, budget: Duration) -> Option<Rehearsal> {
+        if let Some(reason) = cost::too_much_to_try(scenario, grains.len()) {
+            self.notes.push(format!("steps and time are not known: {reason}"));
+            return None;
+        }
+        let mut tried = scenario.clone();
+        if tried.start.relax.take().is_some() {
+            self.notes.push(
+                "start.relax: how long it takes is not known; time and steps are without it".to_owned(),
+            );
+        }
+        match rehearse(&tried, grains, budget) {
+            Ok(rehearsal) => Some(rehearsal),
+            Err(error) => {
+                self.notes.push(format!("a run would fail at its start: {error}"));
+                None
+            }
+        }
+    }
+
+    fn rows(&self) -> Vec<(String, String)> {
+        const UNKNOWN: &str = "not known";
+        let mut rows = vec![("grains".to_owned(), self.grains.to_string())];
+        let mut row = |label: &str, value: String| rows.push((label.to_owned(), value));
+        if self.pulses > 0 {
+            row("rays per pulse", self.rays_per_pulse.to_string());
+            row("pulses", self.pulses.to_string());
+        }
+        row("steps", self.steps.map_or(UNKNOWN.to_owned(), |steps| format!("about {}", about(steps))));
+        rows.extend(self.figures.iter().cloned());
+        let mut row = |label: &str, value: String| rows.push((label.to_owned(), value));
+        row("memory", format!("about {}", readable(rounded(self.memory), "B")));
+        row(
+            "disk",
+            self.disk.map_or(UNKNOWN.to_owned(), |disk| format!("about {}", readable(rounded(disk), "B"))),
+        );
+        row("time of the run", self.seconds.map_or(UNKNOWN.to_owned(), duration));
+        rows
+    }
+}
+
+/// Radius [m] of the smallest grain; as the scenario asks for it where none were placed.
+fn smallest(scenario: &Scenario, placed: Option<&Particles>) -> f64 {
+    let least = |radii: &mut dyn Iterator<Item = f64>| radii.fold(f64::INFINITY, f64::min);
+    match placed {
+        Some(grains) => least(&mut grains.radius.iter().copied()),
+        None => least(&mut scenario.grains.iter().map(|group| group.size.smallest())),
+    }
+}
+
+/// Two significant digits: what is told from the start of a run is no better.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.1e}").parse().unwrap_or(value)
+}
+
+/// A count in words: "1600", "3.2e6".
+fn about(value: f64) -> String {
+    digits(rounded(value.max(1.0)))
+}
+
+/// A time as people say it: "about 3 s", "about 12 min", "about 5 h".
+fn duration(seconds: f64) -> String {
+    match seconds {
+        s if s < 1.0 => "less than 1 s".to_owned(),
+        s if s < 120.0 => format!("about {s:.0} s"),
+        s if s < 7200.0 => format!("about {:.0} min", s / 60.0),
+        s if s < 172_800.0 => format!("about {:.0} h", s / 3600.0),
+        s => format!("about {:.0} days", s / 86_400.0),
+    }
+}
+
+impl fmt::Display for Plan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let rows = self.rows();
+        let width = rows.iter().map(|(label, _)| label.chars().count()).max().unwrap_or(0);
+        for (label, value) in &rows {
+            writeln!(f, "  {label:<width$}  {value}")?;
+        }
+        for note in &self.notes {
+            writeln!(f, "note: {note}")?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod hard_tests;
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,168 @@
+//! How fast a pulse makes the grains, and how deep they then collide: one pulse of each beam is sent through the
+//! grains at their start, by the run's own rays and forces ([`FirstPulse`]).
+
+use std::f64::consts::{PI, SQRT_2};
+use std::time::Instant;
+
+use super::{Plan, counts};
+use crate::acoustics::{Beam, Strength};
+use crate::contact::Normal;
+use crate::engine::soft::FirstPulse;
+use crate::math::Vec3;
+use crate::particles::{Material, Particles};
+use crate::scenario::Scenario;
+use crate::scenario::figures::{digits, readable};
+
+/// More rays than this are not followed: as many carry the power of all.
+const MOST_RAYS: u32 = 100_000;
+
+/// What one pulse of a beam does to the grains.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Push {
+    pub beam: usize,
+    /// Pulses before the end.
+    pub pulses: f64,
+    /// Power and pressure of the beam [W, Pa].
+    pub power: f64,
+    pub pressure: f64,
+    /// How long a hit presses [s].
+    pub duration: f64,
+    /// Hits by rays in one pulse, and the part of the power that enters grains.
+    pub hits: f64,
+    pub absorbed: f64,
+    /// How long its rays fly [s].
+    pub flight_s: f64,
+    /// Time on the clock [s] to follow them.
+    pub wall_s: f64,
+    /// Speeds that it gives the grains [m/s]: in the mean, of the fastest, of their common center.
+    pub mean_speed: f64,
+    pub fastest: f64,
+    pub common_speed: f64,
+    /// Speed at which two grains meet, root of the mean square [m/s].
+    pub meeting_speed: f64,
+    /// Reynolds number of the grain for which it is largest.
+    pub reynolds: f64,
+    /// Overlap strain when two like grains meet at that speed, if a law of contact repels them.
+    pub strain: Option<f64>,
+}
+
+/// One push for each beam.
+pub(super) fn all(scenario: &Scenario, grains: &Particles) -> Vec<Push> {
+    let Some(acoustics) = &scenario.acoustics else { return Vec::new() };
+    let of = |(beam, number): (&Beam, usize)| {
+        let area = PI * beam.radius.si().powi(2);
+        let impedance = scenario.medium.density.si() * scenario.medium.sound_speed.si();
+        let (power, pressure) = power_and_pressure(beam.strength, area, impedance);
+        let began = Instant::now();
+        let pulse = FirstPulse::of(scenario, grains.clone(), number, MOST_RAYS);
+        let pulses = f64::from(counts::pulses_before(beam, scenario.time.end.si()));
+        let wall_s = began.elapsed().as_secs_f64();
+        let push = Push { beam: number, pulses, power, pressure, wall_s, ..Push::default() };
+        push.with_pulse(scenario, grains, &pulse, f64::from(beam.rays))
+    };
+    acoustics.beams.iter().zip(0..).map(of).collect()
+}
+
+/// Power and pressure of a beam: power = p² A/(rho c).
+pub(super) fn power_and_pressure(strength: Strength, area: f64, impedance: f64) -> (f64, f64) {
+    match strength {
+        Strength::Power(power) => (power.si(), (power.si() * impedance / area).sqrt()),
+        Strength::Pressure(pressure) => (pressure.si().powi(2) * area / impedance, pressure.si()),
+    }
+}
+
+impl Push {
+    fn with_pulse(self, scenario: &Scenario, grains: &Particles, pulse: &FirstPulse, rays: f64) -> Self {
+        let count = &pulse.count;
+        let mass: f64 = grains.mass.iter().sum();
+        let weighted = grains.mass.iter().zip(&pulse.kicks);
+        let common = weighted.map(|(mass, kick)| *kick * *mass).fold(Vec3::ZERO, |sum, part| sum + part)
+            * (1.0 / mass);
+        let part = 1.0 / grains.len() as f64;
+        let speeds = || pulse.kicks.iter().map(|kick| kick.norm());
+        let scatter: f64 = pulse.kicks.iter().map(|kick| part * (*kick - common).norm_squared()).sum();
+        let reynolds =
+            grains.radius.iter().zip(speeds()).map(|(radius, speed)| {
+                scenario.medium.reynolds_number(*radius, speed).unwrap_or(f64::INFINITY)
+            });
+        let meeting_speed = SQRT_2 * scatter.sqrt();
+        Self {
+            duration: pulse.duration_s,
+            hits: count.reflections as f64 * rays / f64::from(count.rays),
+            absorbed: count.power_absorbed / count.power_in,
+            flight_s: pulse.flight_s,
+            mean_speed: part * speeds().sum::<f64>(),
+            fastest: speeds().fold(0.0, f64::max),
+            common_speed: common.norm(),
+            meeting_speed,
+            reynolds: reynolds.fold(0.0, f64::max),
+            strain: deepest(scenario, grains, meeting_speed),
+            ..self
+        }
+    }
+}
+
+/// Largest overlap strain of all materials, for grains as they are in the mean.
+fn deepest(scenario: &Scenario, grains: &Particles, speed: f64) -> Option<f64> {
+    let of = |(number, material): (usize, &Material)| {
+        let all = || (0..grains.len()).filter(|&at| grains.material[at] as usize == number);
+        let part = 1.0 / all().count() as f64;
+        let mean = |column: &[f64]| all().map(|at| part * column[at]).sum::<f64>();
+        let grain = [mean(&grains.radius), mean(&grains.mass), mean(&grains.contact_stiffness)];
+        (part <= 1.0).then(|| strain_at(scenario, material, grain, speed))?
+    };
+    scenario.materials.values().enumerate().filter_map(of).reduce(f64::max)
+}
+
+/// Largest overlap strain of two equal grains [radius, mass, stiffness] that meet at a relative speed, without losses.
+fn strain_at(
+    scenario: &Scenario,
+    material: &Material,
+    [radius, mass, stiffness]: [f64; 3],
+    speed: f64,
+) -> Option<f64> {
+    let reduced = 0.5 * mass;
+    let overlap = match &scenario.contact.as_ref()?.normal {
+        Normal::Hertz(_) => {
+            let poisson = material.poisson_ratio?;
+            let modulus = 0.5 * material.youngs_modulus?.si() / (1.0 - poisson * poisson);
+            (15.0 * reduced * speed * speed / (16.0 * modulus * (0.5 * radius).sqrt())).powf(0.4)
+        }
+        Normal::Hooke(law) => speed * (reduced / law.stiffness.si()).sqrt(),
+        Normal::StrainPower(law) => {
+            // Energy of F = K (δ/2r)^p π r δ, the law at small overlap.
+            let p = law.exponent;
+            let energy = 0.5 * reduced * speed * speed;
+            let product = energy * (p + 2.0) * (2.0 * radius).powf(p) / (stiffness * PI * radius);
+            product.powf(1.0 / (p + 2.0))
+        }
+    };
+    Some(overlap / (2.0 * radius))
+}
+
+/// Adds the figures of all pushes to a plan.
+pub(super) fn describe(plan: &mut Plan, pushes: &[Push]) {
+    let mut row = |label: String, value: String| plan.figures.push((label, value));
+    for push in pushes {
+        let Push { beam, power, pressure, .. } = *push;
+        row(format!("beam {beam}"), format!("{}, {}", readable(power, "W"), readable(pressure, "Pa")));
+        let flight = readable(push.flight_s, "s");
+        let what = format!(
+            "{} hits, {} % of the power enters grains, rays fly for {flight}",
+            digits(push.hits.round()),
+            digits(100.0 * push.absorbed)
+        );
+        row("  its first pulse".to_owned(), what);
+        let [mean, fastest, common] =
+            [push.mean_speed, push.fastest, push.common_speed].map(|speed| readable(speed, "m/s"));
+        row(
+            "  speeds after it".to_owned(),
+            format!("{mean} in the mean, {fastest} at most; all together {common}"),
+        );
+        if let Some(strain) = push.strain {
+            let value = if strain < 1.0 { digits(strain) } else { "1: through one another".to_owned() };
+            let speed = readable(push.meeting_speed, "m/s");
+            row("  overlap strain".to_owned(), format!("{value} when two meet at {speed}"));
+        }
+    }
+}

@@ -1,0 +1,212 @@
+use super::*;
+
+use crate::run::rehearse;
+use crate::scenario::TEMPLATES;
+
+/// The plan of grains that are placed and pushed, with a single step tried.
+fn plan_of(text: &str) -> Plan {
+    let one_step = Effort { budget: Duration::ZERO, ..Effort::default() };
+    Plan::with(&Scenario::from_toml(text).unwrap(), Path::new(""), one_step).unwrap()
+}
+
+fn template(name: &str) -> &'static str {
+    TEMPLATES.iter().find(|template| template.name == name).unwrap().text
+}
+
+/// The sample problem, worked out by hand: 2000 grains, four pulses of 10,000 rays, 150 MPa <-> 4.7e10 W.
+#[test]
+fn the_sample_problem() {
+    let plan = plan_of(template("acoustic"));
+    assert_eq!((plan.grains, plan.rays_per_pulse, plan.pulses), (2000, 10_000, 4));
+    assert!((plan.memory - (25e6 + 2000.0 * 1000.0 + 10_000.0 * 120.0)).abs() < 1.0);
+    let page = plan.to_string();
+    // p = sqrt(7.06e13 W x 1.5e6 / pi m²) = 5.806 GPa.
+    assert!(page.contains("5.806 GPa"), "{page}");
+    for law in ["regularised", "strain_bond", "published_step", "stokes"] {
+        assert!(plan.notes.iter().any(|note| note.contains(law)), "{law} in\n{page}");
+    }
+}
+
+/// One grain of 10 cm in a beam of 1 m: a ray hits it with the probability 0.01, and no ray hits twice. A ray head-on gives
+/// sqrt(I (1-R) rho c a) with R = (17/19)². Beyond sin i = 1/3 all is reflected, so that a ninth of the hits push, and
+/// no one harder than head-on.
+#[test]
+fn a_single_grain_is_hit_by_the_rays_that_its_cross_section_meets() {
+    let text = template("acoustic-sound")
+        .replace("count = 2000", "count = 1")
+        .replace("region.sphere = { radius = \"1 m\" }", "region.sphere = { radius = \"0.1 m\" }")
+        .replace("radius = \"5 cm\"", "radius = \"10 cm\"");
+    let scenario = Scenario::from_toml(&text).unwrap();
+    let push = &push::all(&scenario, &crate::packing::place(&scenario, Path::new("")).unwrap())[0];
+    assert!((push.power / 4.712_389e10 - 1.0).abs() < 1e-6);
+    // 10,000 rays: 100 hits, with a standard deviation of 10.
+    assert!((push.hits - 100.0).abs() < 40.0, "{}", push.hits);
+    let by_hand = (4.712_389e6_f64 * (1.0 - 289.0 / 361.0) * 2.7e7 * 3.141_593e-4).sqrt();
+    let mass = 6000.0 * 4.0 / 3.0 * std::f64::consts::PI * 1e-3;
+    let head_on = push.hits * by_hand * 1e-5 / mass;
+    let part = push.fastest / head_on;
+    assert!(part < 1.3 / 9.0 && part > 0.6 / 9.0, "{part}");
+    assert_eq!((push.mean_speed, push.common_speed, push.meeting_speed), (push.fastest, push.fastest, 0.0));
+}
+
+/// A grain of 1 m in a beam of 1 cm cannot be hit by more rays than there are.
+#[test]
+fn a_narrow_beam_hits_no_more_often_than_it_has_rays() {
+    let text = template("acoustic-sound")
+        .replace("count = 2000", "count = 1")
+        .replace("radius = \"5 cm\"", "radius = \"1 m\"")
+        .replace("radius = \"1 m\"\nrays = 10000", "radius = \"1 cm\"\nrays = 1000");
+    let scenario = Scenario::from_toml(&text).unwrap();
+    let push = &push::all(&scenario, &crate::packing::place(&scenario, Path::new("")).unwrap())[0];
+    assert_eq!(push.hits, 1000.0);
+}
+
+/// The speeds are those that the run's own first pulse gives. It moves the grains while it flies, by some per cent of a radius, and
+/// so hits a little otherwise than among grains that stand still.
+#[test]
+fn speeds_after_a_pulse_are_those_of_a_run() {
+    let settings = [
+        "time.end=20 ms",
+        "grains.0.placement.random.count=300",
+        "grains.0.placement.random.region.sphere.radius=0.6 m",
+        "acoustics.beams.0.radius=0.6 m",
+        "acoustics.beams.0.rays=3000",
+        "acoustics.beams.0.pulses.count=1",
+    ];
+    let scenario = Scenario::with_overrides(template("acoustic-sound"), &settings).unwrap();
+    let grains = crate::packing::place(&scenario, Path::new("")).unwrap();
+    let push = &push::all(&scenario, &grains)[0];
+    let mut free = scenario.clone();
+    (free.contact, free.bonds, free.fields) = (None, None, crate::fields::Fields::default());
+    free.limits.on_breach = crate::engine::soft::Breach::Warn;
+    let mut run = crate::engine::soft::Simulation::start(&free, grains).unwrap();
+    while !run.is_finished() {
+        run.step().unwrap();
+    }
+    let speeds = || run.system.grains.velocity.iter().map(|velocity| velocity.norm());
+    let (mean, fastest) = (speeds().sum::<f64>() / 300.0, speeds().fold(0.0, f64::max));
+    assert!((push.mean_speed / mean - 1.0).abs() < 0.03, "{} {mean}", push.mean_speed);
+    assert!((push.fastest / fastest - 1.0).abs() < 0.1, "{} {fastest}", push.fastest);
+    let hits = run.pulses.counts()[0].reflections as f64;
+    assert!((push.hits / hits - 1.0).abs() < 0.03, "{} {hits}", push.hits);
+}
+
+/// Overlap of a Hertz impact against the energy balance m* v²/2 = (8/15) E* sqrt(R*) delta^(5/2).
+#[test]
+fn the_overlap_of_an_impact() {
+    let scenario = Scenario::from_toml(template("acoustic-sound")).unwrap();
+    let push = &push::all(&scenario, &crate::packing::place(&scenario, Path::new("")).unwrap())[0];
+    let mass = 6000.0 * 4.0 / 3.0 * std::f64::consts::PI * 0.05_f64.powi(3);
+    let overlap = push.strain.unwrap() * 0.1;
+    let stored = 8.0 / 15.0 * (0.5e9 / (1.0 - 0.0625)) * 0.025_f64.sqrt() * overlap.powf(2.5);
+    assert!((stored / (0.25 * mass * push.meeting_speed.powi(2)) - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn low_frequencies_are_noted() {
+    let audible = template("microscale").replace("250 MHz", "20 kHz");
+    let plan = plan_of(&audible);
+    // The smallest grain that was placed counts: k a = 2 pi 2e4 Hz x R / 1500 m/s.
+    let scenario = Scenario::from_toml(&audible).unwrap();
+    let grains = crate::packing::place(&scenario, Path::new("")).unwrap();
+    let smallest = grains.radius.iter().copied().fold(f64::INFINITY, f64::min);
+    let ka = format!("k a = {}", digits(std::f64::consts::TAU * 2e4 * smallest / 1500.0));
+    assert!(plan.notes.iter().any(|note| note.contains(&ka)), "{ka} in {:?}", plan.notes);
+    assert!(!plan_of(template("microscale")).notes.iter().any(|note| note.contains("k a")));
+    let silent = template("microscale").replace("frequency = \"250 MHz\"", "");
+    assert!(plan_of(&silent).notes.iter().any(|note| note.contains("no frequency")));
+}
+
+/// The plan counts the grains that are placed, cuts of a lognormal included: 0.25 (300 um)³/(21.996 um)³ = 634.
+#[test]
+fn the_plan_counts_what_is_placed() {
+    let scenario = Scenario::from_toml(template("microscale")).unwrap();
+    let placed = crate::packing::place(&scenario, Path::new("")).unwrap().len() as u64;
+    let counted = Plan::with(&scenario, Path::new(""), Effort::NONE).unwrap();
+    assert_eq!((counted.grains, counted.seconds, placed), (634, None, 634));
+}
+
+#[test]
+fn lattices_are_counted() {
+    let text = include_str!("../../tests/scenario/good/a_single_grain.toml").replace(
+        "placement.list.positions = [[\"0 m\", \"0 m\", \"0 m\"]]",
+        "placement.lattice = { kind = \"cubic\", spacing = \"80 um\", region.box = { lower = [\"0 m\", \"0 m\", \"0 m\"], upper = [\"0.88 mm\", \"0.88 mm\", \"0.88 mm\"] } }",
+    );
+    // Centres fill a cube of 0.8 mm: ten spacings along each edge. By volume, and one by one with both ends.
+    let counted = Plan::with(&Scenario::from_toml(&text).unwrap(), Path::new(""), Effort::NONE).unwrap();
+    assert_eq!((counted.grains, plan_of(&text).grains), (1000, 1331));
+}
+
+#[test]
+fn a_beam_that_misses_is_noted() {
+    let misses = |text: &str| plan_of(text).notes.iter().any(|note| note.contains("misses all grains"));
+    let text = template("microscale");
+    assert!(!misses(text));
+    assert!(misses(&text.replace("direction = [1.0, 0.0, 0.0]", "direction = [-1.0, 0.0, 0.0]")));
+    // Grains reach to 0.3 mm and the beam is as wide: it misses them from 0.6 mm on.
+    assert!(misses(&text.replace("\"-0.33 mm\", \"0 mm\"", "\"-0.33 mm\", \"0.61 mm\"")));
+    assert!(!misses(&text.replace("\"-0.33 mm\", \"0 mm\"", "\"-0.33 mm\", \"0.59 mm\"")));
+}
+
+#[test]
+fn a_plan_says_what_has_no_effect() {
+    let text = template("acoustic").replace("end = \"2 s\"", "end = \"0.6 s\"");
+    let notes = plan_of(&text).notes;
+    assert!(notes.iter().any(|note| note.contains("only 2 of 4 pulses")), "{notes:?}");
+}
+
+/// Steps, time and files of a run that is cut off early are carried on: 100 grains at rest, 2,000 steps, of which some are tried.
+#[test]
+fn what_is_tried_is_carried_on_to_the_end() {
+    let text = include_str!("../../tests/scenario/good/a_single_grain.toml");
+    let scenario = Scenario::from_toml(text).unwrap();
+    let mut tried = rehearse(
+        &scenario,
+        crate::packing::place(&scenario, Path::new("")).unwrap(),
+        Duration::from_secs(600),
+    )
+    .unwrap();
+    let (steps, seconds) = (tried.quiet.all.steps, tried.start_s + tried.quiet.all.wall_s);
+    assert!(tried.is_finished && steps > 10.0);
+    let mut plan = Plan::default();
+    cost::of_soft(&mut plan, &scenario, &tried, &[]);
+    assert_eq!((plan.steps, plan.seconds), (Some(steps), Some(seconds)));
+    // As if half of the time were left.
+    tried.time *= 0.5;
+    tried.is_finished = false;
+    cost::of_soft(&mut plan, &scenario, &tried, &[]);
+    // The pace of the last steps, which are all alike.
+    let more = plan.steps.unwrap() / steps;
+    assert!((more - 1.5).abs() < 0.1, "{more}");
+}
+
+#[test]
+fn a_run_that_would_fail_says_so() {
+    let text = template("acoustic-sound").replace("largest_strain = 0.1", "");
+    let deep = text.replace("[time]", "[limits]\nstrain = 1e-9\n\n[time]");
+    let plan = Plan::new(&Scenario::from_toml(&deep).unwrap(), Path::new("")).unwrap();
+    assert_eq!((plan.seconds, plan.disk), (None, None));
+    assert!(plan.notes.iter().any(|note| note.contains("a run would fail at")), "{plan}");
+    assert!(plan.to_string().contains("time of the run    not known"), "{plan}");
+}
+
+/// `check` refuses what `run` refuses: a table is read, not only counted.
+#[test]
+fn tables_are_read_as_a_run_reads_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = include_str!("../../tests/scenario/good/a_single_grain.toml").replace(
+        "placement.list.positions = [[\"0 m\", \"0 m\", \"0 m\"]]",
+        "placement.table.file = \"grains.csv\"",
+    );
+    let scenario = Scenario::from_toml(&text).unwrap();
+    for (table, words) in [
+        ("x_m,y_m\n1,2\n", "column z_m: the column is missing"),
+        ("x_m,y_m,z_m\n1,2,NaN\n", "`NaN` is not a finite number"),
+        ("x_m,y_m,z_m,radius_m\n1,2,3,-1\n", "a radius must be above zero"),
+        ("x_m,y_m,z_m\n1,2,3\n1,2,3\n", "same place"),
+    ] {
+        std::fs::write(folder.path().join("grains.csv"), table).unwrap();
+        let found = Plan::new(&scenario, folder.path()).unwrap_err().to_string();
+        assert!(found.contains(words), "{table}: {found}");
+    }
+}
