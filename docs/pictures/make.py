@@ -270,7 +270,7 @@ def rays_picture(sound, path):
         ("y", 0, SKY, "-.", "along y"),
         ("z", 0, GREEN, ":", "along z"),
     ]:
-        power = np.append(start, rays[f"beam_{name}"][rows])
+        power = np.append(start, rays[f"flying_{name}"][rows])
         right.plot(np.append(0, time), power, color=colour, linestyle=style, linewidth=2, label=label)
     right.set_ylabel("power in flight over that launched")
     right.legend(loc="upper right")

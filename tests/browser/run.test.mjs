@@ -185,6 +185,7 @@ test("charts hold the numbers of the tables", async () => {
     clusters: ["clusters", { clusters: "clusters", bonds: "bonds" }],
     rays: ["rays", { "in flight": "in_flight", reflections: "reflections" }],
     beam: ["rays", { "along x": "beam_x", "in all": "beam_magnitude" }],
+    flying: ["rays", { "along x": "flying_x", "in all": "flying_magnitude" }],
     speed: ["moments", { largest: "largest_speed_m_s" }],
     step: ["steps", { "step size": "step_size_s" }],
   };

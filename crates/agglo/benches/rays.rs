@@ -1,13 +1,13 @@
 //! Rays: the whole of a first pulse, and segments per second at three sizes, on one thread.
 
 use agglo::acoustics::fresnel::Interface;
-use agglo::acoustics::{Beam, Flight, Medium, Pattern, Profile, Pulses, Strength, Tracer, default_region};
+use agglo::acoustics::{Beam, Ends, Flight, Medium, Pattern, Profile, Pulses, Strength, Targets, Tracer};
 use agglo::math::Vec3;
 use agglo::math::rng::{Purpose, Stream};
 use agglo::units::Quantity;
 use divan::counter::ItemsCount;
 
-const CERAMIC: Interface = Interface { impedance_ratio: 18.0, speed_ratio: 1.0 / 3.0 };
+const CERAMIC: Interface = Interface { impedance_ratio: 18.0, speed_ratio: 1.0 / 3.0, shear_ratio: 0.0 };
 
 fn main() {
     // One thread for all: what is measured is the cost of a segment.
@@ -58,12 +58,12 @@ fn beam() -> Beam {
 #[divan::bench]
 fn first_pulse_of_10_000_rays_on_2_000_spheres(bencher: divan::Bencher<'_, '_>) {
     let (positions, radii, material) = packing(2000);
-    let region = default_region(&positions, &radii, &[beam()]);
+    let targets = Targets { positions: &positions, radii: &radii, material: &material, mach: 0.0 };
     bencher.bench_local(|| {
-        let mut tracer = Tracer::new(region.clone(), vec![CERAMIC], 0.0);
+        let mut tracer = Tracer::new(Ends::default(), vec![CERAMIC]);
         let mut flight = Flight::default();
         flight.launch(&beam(), &Medium::default(), 1, 0, 0);
-        tracer.trace(&mut flight, &positions, &radii, &material).len()
+        tracer.trace(&mut flight, &targets).len()
     });
 }
 
@@ -71,16 +71,16 @@ fn first_pulse_of_10_000_rays_on_2_000_spheres(bencher: divan::Bencher<'_, '_>) 
 #[divan::bench(args = [2_000, 20_000, 200_000])]
 fn segments(bencher: divan::Bencher<'_, '_>, count: usize) {
     let (positions, radii, material) = packing(count);
-    let region = default_region(&positions, &radii, &[beam()]);
-    let mut tracer = Tracer::new(region, vec![CERAMIC], 0.0);
+    let targets = Targets { positions: &positions, radii: &radii, material: &material, mach: 0.0 };
+    let mut tracer = Tracer::new(Ends::default(), vec![CERAMIC]);
     let mut start = Flight::default();
     start.launch(&beam(), &Medium::default(), 1, 0, 0);
     let mut end = start.clone();
-    tracer.trace(&mut end, &positions, &radii, &material);
+    tracer.trace(&mut end, &targets);
     bencher
         .counter(ItemsCount::new(end.pulses()[0].segments))
         .with_inputs(|| start.clone())
-        .bench_local_refs(|flight| tracer.trace(flight, &positions, &radii, &material).len());
+        .bench_local_refs(|flight| tracer.trace(flight, &targets).len());
 }
 
 /// Building the grid, as when grains have moved by the margin.
@@ -105,14 +105,16 @@ fn grid_build(bencher: divan::Bencher<'_, '_>, count: usize) {
 #[divan::bench]
 fn pulse_in_steps(bencher: divan::Bencher<'_, '_>) {
     let (positions, radii, material) = packing(2000);
-    let region = default_region(&positions, &radii, &[beam()]);
-    let mut tracer = Tracer::new(region, vec![CERAMIC], 0.0);
+    let targets = Targets { positions: &positions, radii: &radii, material: &material, mach: 0.0 };
+    let mut tracer = Tracer::new(Ends::default(), vec![CERAMIC]);
     let mut start = Flight::default();
     start.launch(&beam(), &Medium::default(), 1, 0, 0);
     bencher.with_inputs(|| start.clone()).bench_local_refs(|flight| {
         let mut steps = 0;
         while flight.rays().len() > 100 {
-            tracer.advance(flight, &positions, &radii, &material, 0.1 * radii[0]);
+            tracer.advance(flight, &targets, 0.1 * radii[0], |hits| {
+                divan::black_box(hits.len());
+            });
             steps += 1;
         }
         steps

@@ -54,14 +54,36 @@ pub struct PulseCount {
     pub power_in: f64,
     /// Power that grains took [W].
     pub power_absorbed: f64,
-    /// Power that left the region [W].
+    /// Power of rays that left for good [W].
     pub power_escaped: f64,
-    /// Power of rays that were dropped [W].
+    /// Power of rays that were dropped [W]: at the truncation, at the largest number of bounces, crushed between grains, or
+    /// inside one at the start.
     pub power_truncated: f64,
+    /// Sum of power times direction of the rays that ended, as they were then [W].
+    pub flow_ended: Vec3,
+    /// Sum of the squared powers of the rays that ended, as they were then [W²].
+    pub squares_ended: f64,
+    /// Rays that were dropped at the largest number of bounces.
+    pub capped: u32,
+    /// Rays that were dropped between grains that closed in on them.
+    pub crushed: u32,
+    /// Rays that were dropped at the start, inside a grain.
+    pub blocked: u32,
     /// Bounces of the ray that bounced most.
     pub longest_chain: u32,
     /// Rays in flight.
     pub in_flight: u32,
+}
+
+/// What is left of pulses' power, over the power that they started with ([A] 39).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BeamPower {
+    /// Sum of I_q d_q.
+    pub flow: Vec3,
+    /// Sum of |I_q|: 1 at the start.
+    pub magnitude: f64,
+    /// Root of the sum of |I_q|², as Fig. 10 d of [A] has it: 1/sqrt(rays) at the start.
+    pub root_of_squares: f64,
 }
 
 /// All rays in flight, of all pulses, and the books of the pulses.
@@ -82,7 +104,7 @@ impl Ray {
 impl Flight {
     /// Launches a pulse: `pulse` counts those of its beam from 0, `number` is the beam's in the scenario.
     ///
-    /// Whether the rays start inside their region is checked before: [`Beam::starts_inside`].
+    /// Whether the rays start inside a given region is checked before: [`Beam::starts_inside`].
     pub fn launch(&mut self, beam: &Beam, medium: &Medium, seed: u64, number: u32, pulse: u32) {
         let place = self.pulses.len() as u32;
         let (direction, area) = (beam.axis(), beam.ray_area());
@@ -134,39 +156,71 @@ impl Flight {
         self.rays.iter().filter(|ray| ray.pulse as usize == pulse).map(|ray| ray.power).sum()
     }
 
-    /// Power left in a pulse over its power at the start: components along x, y, z, and magnitude ([A] 39).
-    ///
-    /// The components are the sums of I_q d_q. The magnitude is the sum of |I_q|: the part of the power that is
-    /// still in flight, 1 at the start. The paper's Fig. 10 d prints the root of the sum of squares there, which is
-    /// 1/sqrt(rays) at the start and depends on the number of rays for ever; that is not offered.
-    pub fn pulse_power(&self, pulse: usize) -> [f64; 4] {
-        let power_in = self.pulses.get(pulse).map_or(0.0, |count| count.power_in);
-        normalised(self.rays.iter().filter(|ray| ray.pulse as usize == pulse), power_in)
+    /// What is left of a pulse ([A] 39), summed over all its rays: those that ended count with the power and the direction
+    /// that they had then. A ray that was dropped counts too, since nobody knows what would have become of it; the pulse's
+    /// `power_truncated` bounds that doubt.
+    pub fn pulse_power(&self, pulse: usize) -> BeamPower {
+        self.power_left(|place| place == pulse)
     }
 
-    /// [`Flight::pulse_power`] of all rays in flight, over the power of the latest pulse of each beam.
-    ///
-    /// With one beam whose pulses do not overlap it is that of the pulse in flight; rays of earlier pulses that are
-    /// still about add to it.
-    pub fn beam_power(&self) -> [f64; 4] {
-        let is_latest = |(place, pulse): &(usize, &PulseCount)| {
-            self.pulses[place + 1..].iter().all(|later| later.beam != pulse.beam)
-        };
-        let latest = self.pulses.iter().enumerate().filter(is_latest);
-        normalised(self.rays.iter(), latest.map(|(_, pulse)| pulse.power_in).sum())
+    /// [`Flight::pulse_power`] of the latest pulse of each beam together.
+    pub fn beam_power(&self) -> BeamPower {
+        self.power_left(|place| self.is_latest(place))
+    }
+
+    /// Of the rays in flight alone, of all pulses, over the power of the latest pulse of each beam: how far the grains
+    /// still hold rays. It falls to nothing as they leave.
+    pub fn power_flying(&self) -> BeamPower {
+        let latest = (0..self.pulses.len()).filter(|&place| self.is_latest(place));
+        let power_in = latest.map(|place| self.pulses[place].power_in).sum();
+        let mut sum = Sum::default();
+        self.rays.iter().for_each(|ray| sum.add(ray));
+        sum.over(power_in)
+    }
+
+    fn is_latest(&self, place: usize) -> bool {
+        self.pulses[place + 1..].iter().all(|later| later.beam != self.pulses[place].beam)
+    }
+
+    fn power_left(&self, counts: impl Fn(usize) -> bool) -> BeamPower {
+        let (mut sum, mut power_in) = (Sum::default(), 0.0);
+        let counted: Vec<bool> = (0..self.pulses.len()).map(counts).collect();
+        for (pulse, _) in self.pulses.iter().zip(&counted).filter(|(_, counted)| **counted) {
+            power_in += pulse.power_in;
+            sum.flow += pulse.flow_ended;
+            sum.magnitude += pulse.power_escaped + pulse.power_truncated;
+            sum.squares += pulse.squares_ended;
+        }
+        self.rays.iter().filter(|ray| counted[ray.pulse as usize]).for_each(|ray| sum.add(ray));
+        sum.over(power_in)
     }
 }
 
-fn normalised<'a>(rays: impl Iterator<Item = &'a Ray>, power_in: f64) -> [f64; 4] {
-    if power_in <= 0.0 {
-        return [0.0; 4];
+/// Sums over rays: of I d, |I| and |I|².
+#[derive(Clone, Copy, Debug, Default)]
+struct Sum {
+    flow: Vec3,
+    magnitude: f64,
+    squares: f64,
+}
+
+impl Sum {
+    fn add(&mut self, ray: &Ray) {
+        self.flow += ray.direction * ray.power;
+        self.magnitude += ray.power;
+        self.squares += ray.power * ray.power;
     }
-    let (mut sum, mut magnitude) = (Vec3::ZERO, 0.0);
-    for ray in rays {
-        sum += ray.direction * ray.power;
-        magnitude += ray.power;
+
+    fn over(&self, power_in: f64) -> BeamPower {
+        if power_in <= 0.0 {
+            return BeamPower::default();
+        }
+        BeamPower {
+            flow: self.flow / power_in,
+            magnitude: self.magnitude / power_in,
+            root_of_squares: self.squares.sqrt() / power_in,
+        }
     }
-    [sum.x, sum.y, sum.z, magnitude].map(|value| value / power_in)
 }
 
 #[cfg(test)]
@@ -192,17 +246,23 @@ mod tests {
     #[test]
     fn power_of_fresh_pulses() {
         let mut flight = Flight::default();
-        assert_eq!(flight.beam_power(), [0.0; 4]);
+        assert_eq!(flight.beam_power(), BeamPower::default());
         let medium = Medium::default();
         flight.launch(&beam([0.0, 3.0, 4.0], 2.0), &medium, 1, 0, 2);
-        let close = |found: [f64; 4], known: [f64; 4]| (0..4).all(|k| (found[k] - known[k]).abs() < 1e-14);
+        let close = |found: BeamPower, known: [f64; 4]| {
+            let [x, y, z, magnitude] = known;
+            (found.flow - Vec3::new(x, y, z)).norm() < 1e-14 && (found.magnitude - magnitude).abs() < 1e-14
+        };
+        assert!((flight.beam_power().root_of_squares - 1.0 / 8.0).abs() < 1e-14, "of 64 rays");
         assert!(close(flight.beam_power(), [0.0, 0.6, 0.8, 1.0]));
         flight.launch(&beam([-1.0, 0.0, 0.0], 6.0), &medium, 1, 1, 0);
         assert!(close(flight.beam_power(), [-0.75, 0.15, 0.2, 1.0]));
         assert!(close(flight.pulse_power(0), [0.0, 0.6, 0.8, 1.0]));
-        // A second pulse of beam 0 while all of its first is about: (2 + 2 + 6)/(2 + 6).
+        // A second pulse of beam 0 while all of its first is about: that counts among those in flight, (2 + 2 + 6)/(2 + 6),
+        // and not among the rays of the latest pulses.
         flight.launch(&beam([0.0, 3.0, 4.0], 2.0), &medium, 1, 0, 3);
-        assert!(close(flight.beam_power(), [-0.75, 0.3, 0.4, 1.25]));
+        assert!(close(flight.power_flying(), [-0.75, 0.3, 0.4, 1.25]));
+        assert!(close(flight.beam_power(), [-0.75, 0.15, 0.2, 1.0]));
         assert_eq!([0, 1, 2].map(|k| flight.pulses()[k].start_s), [2.0, 1.0, 2.5]);
     }
 

@@ -2,6 +2,7 @@
 
 mod beam;
 mod flight;
+mod follow;
 pub mod fresnel;
 mod medium;
 mod ray_force;
@@ -10,11 +11,12 @@ mod tracer;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use beam::{Beam, Gaussian, Pattern, Profile, Pulses, RayStart, Strength, default_region};
-pub use flight::{Flight, PulseCount, Ray};
+pub use beam::{Beam, Gaussian, Pattern, Profile, Pulses, RayStart, Strength};
+pub use flight::{BeamPower, Flight, PulseCount, Ray};
+pub use follow::{ALLOWANCE, Followed};
 pub use medium::Medium;
-pub use ray_force::{Impulse, PublishedStep, RadiationPressure, RayForce};
-pub use tracer::{Hit, Tracer};
+pub use ray_force::{Impedance, Impulse, PublishedStep, RadiationPressure, RayForce};
+pub use tracer::{Ends, Hit, Targets, Tracer};
 
 use crate::domain::Region;
 
@@ -24,12 +26,26 @@ use crate::domain::Region;
 pub struct Acoustics {
     /// How a ray pushes the grain that it hits.
     pub force: RayForce,
-    /// Rays live inside; a sphere about the grains and the beams' starts if left out.
+    /// Rays that leave it are lost; if left out, they live until they can hit no grain any more, wherever the grains go.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub region: Option<Region>,
     /// A ray whose power falls below this part of its first power is dropped (and counted); 0 follows all.
     #[serde(default)]
     pub truncation: f64,
+    /// A ray that bounced this often is dropped (and counted).
+    #[serde(default = "most_bounces")]
+    pub bounces: u32,
     /// The beams.
     pub beams: Vec<Beam>,
+}
+
+fn most_bounces() -> u32 {
+    Ends::default().bounces
+}
+
+impl Acoustics {
+    /// How its rays end.
+    pub fn ends(&self) -> Ends {
+        Ends { region: self.region.clone(), truncation: self.truncation, bounces: self.bounces }
+    }
 }

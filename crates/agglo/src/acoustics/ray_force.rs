@@ -4,6 +4,10 @@
 //! $$ |F| = \sqrt{I (1 - \mathcal R)\, \rho_t c_t\, a_r} \quad\text{along the refracted ray} $$ ([A] 7)
 //! $$ F = \frac{I}{c_i} \left( d_{in} - \mathcal R\, d_{out} \right) $$ (A13, `radiation_pressure`)
 //!
+//! In a solid with a `shear_sound_speed` two waves enter: the first law adds up the same for each, with its own part of the
+//! power, its own impedance (rho_t c_t or rho_t c_s) and its own direction. So F²/(impedance a_r) summed over the two is
+//! the power that enters, as in the paper. The second law does not care what enters.
+//!
 //! The force acts at the point of impact: its moment about the grain's centre is (r_contact - r_i) x F ([A] 18).
 //!
 //! # Source
@@ -14,7 +18,8 @@
 //! |--------------|--------------------------|--------|----------------------------------------|
 //! | I            | `Hit::power_in`          | W      | power of the ray that arrives          |
 //! | R            | `Hit::reflectance`       | 1      | part of it that is reflected           |
-//! | rho_t c_t    | `impedance`              | Pa s/m | impedance of the grain                 |
+//! | rho_t c_t    | `Impedance::sound`       | Pa s/m | impedance of the grain                 |
+//! | rho_t c_s    | `Impedance::shear`       | Pa s/m | the same of its shear waves            |
 //! | a_r          | `Hit::ray_area`          | m²     | area of the ray in its beam            |
 //! | c_i          | `Medium::sound_speed`    | m/s    | speed of sound in the medium           |
 //! | d_in, d_out  | `Hit::direction_in/_out` | 1      | unit vectors before and after          |
@@ -37,12 +42,13 @@
 //!
 //! # Example
 //! ```
-//! use agglo::acoustics::{Hit, Impulse, Medium, RayForce};
+//! use agglo::acoustics::{Hit, Impedance, Impulse, Medium, RayForce};
 //! use agglo::{math::Vec3, units::Quantity};
 //! let law = RayForce::Impulse(Impulse { duration: Quantity(1e-6) });
 //! let down = -Vec3::AXES[2];
 //! let hit = Hit { power_in: 100.0, reflectance: 0.75, ray_area: 1e-4, refracted: down, ..Hit::default() };
-//! let force = law.force(&hit, 27e6, &Medium::default());
+//! let ceramic = Impedance { sound: 27e6, shear: 0.0 };
+//! let force = law.force(&hit, ceramic, &Medium::default());
 //! let by_hand = (100.0 * 0.25 * 27e6 * 1e-4_f64).sqrt(); // 260 N
 //! assert!((force - down * by_hand).norm() < 1e-12);
 //! ```
@@ -95,13 +101,25 @@ pub struct RadiationPressure {
     pub duration: Time,
 }
 
+/// Impedances of a grain [Pa s/m]: its density times the speed of a wave in it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Impedance {
+    /// Of sound.
+    pub sound: f64,
+    /// Of shear waves; 0 in a fluid.
+    pub shear: f64,
+}
+
 impl RayForce {
-    /// Force [N] on the grain that is hit; `impedance` [Pa s/m] is the grain's.
-    pub fn force(&self, hit: &Hit, impedance: f64, medium: &Medium) -> Vec3 {
+    /// Force [N] on the grain that is hit, whose `impedance` it is.
+    pub fn force(&self, hit: &Hit, impedance: Impedance, medium: &Medium) -> Vec3 {
         match self {
             Self::Impulse(_) | Self::PublishedStep(_) => {
-                let entering = hit.power_in * (1.0 - hit.reflectance);
-                hit.refracted * (entering * impedance * hit.ray_area).sqrt()
+                // Rounding may leave less than nothing where only a shear wave enters.
+                let entering = (hit.power_in * (1.0 - hit.reflectance - hit.sheared)).max(0.0);
+                let sound = hit.refracted * (entering * impedance.sound * hit.ray_area).sqrt();
+                let shearing = hit.power_in * hit.sheared;
+                sound + hit.refracted_shear * (shearing * impedance.shear * hit.ray_area).sqrt()
             }
             Self::RadiationPressure(_) => {
                 let lost = hit.direction_in - hit.direction_out * hit.reflectance;
@@ -126,12 +144,20 @@ mod tests {
     use crate::acoustics::fresnel::Interface;
     use crate::units::Quantity;
 
-    const CERAMIC: f64 = 6000.0 * 4500.0;
+    const CERAMIC: Impedance = Impedance { sound: 6000.0 * 4500.0, shear: 6000.0 * 2700.0 };
 
     fn hit(cos: f64) -> Hit {
+        hit_on(cos, 0.0)
+    }
+
+    /// A hit on ceramic in water whose shear waves have this speed [m/s].
+    fn hit_on(cos: f64, shear_speed: f64) -> Hit {
         let direction_in = Vec3::new((1.0 - cos * cos).sqrt(), 0.0, -cos);
-        let out = Interface::new(&Medium::default(), 6000.0, 4500.0).scatter(direction_in, Vec3::AXES[2]);
+        let interface = Interface::new(&Medium::default(), 6000.0, 4500.0, shear_speed);
+        let out = interface.scatter(direction_in, Vec3::AXES[2]);
         Hit {
+            sheared: out.sheared,
+            refracted_shear: out.refracted_shear,
             normal: Vec3::AXES[2],
             direction_in,
             direction_out: out.reflected,
@@ -161,7 +187,7 @@ mod tests {
     fn power_equals_force_times_wave_velocity() {
         let hit = hit(0.97);
         let force = impulse().force(&hit, CERAMIC, &Medium::default()).norm();
-        let power = force * force / (CERAMIC * hit.ray_area);
+        let power = force * force / (CERAMIC.sound * hit.ray_area);
         assert!((power / (hit.power_in * (1.0 - hit.reflectance)) - 1.0).abs() < 1e-14);
         // Along the refracted ray: Snell's sine, three times that of the ray that comes.
         let sine = impulse().force(&hit, CERAMIC, &Medium::default()).x / force;
@@ -179,13 +205,38 @@ mod tests {
         assert!((force - expected).norm() < 1e-12 * expected.norm());
     }
 
+    /// Sound and shear each carry F²/(impedance a_r), together the power that enters; at 15 degrees both enter, at 25 degrees
+    /// only shear does (19.5 and 33.7 degrees are critical), along its own direction, sin 25° · 2700/1500.
+    #[test]
+    fn a_solid_is_pushed_by_both_waves() {
+        for degrees in [15.0_f64, 25.0] {
+            let hit = hit_on(degrees.to_radians().cos(), 2700.0);
+            let force = impulse().force(&hit, CERAMIC, &Medium::default());
+            let power = hit.power_in
+                * [1.0 - hit.reflectance - hit.sheared, hit.sheared][usize::from(degrees > 19.5)];
+            let wave = [hit.refracted, hit.refracted_shear][usize::from(degrees > 19.5)];
+            let (own, other) = ([CERAMIC.sound, CERAMIC.shear], [hit.refracted_shear, Vec3::ZERO]);
+            let part = wave * (power * own[usize::from(degrees > 19.5)] * hit.ray_area).sqrt();
+            let rest = force - part;
+            if degrees < 19.5 {
+                let shear = rest.norm_squared() / (CERAMIC.shear * hit.ray_area) / hit.power_in;
+                assert!((shear - hit.sheared).abs() < 1e-12 && hit.sheared > 0.01);
+                assert!((rest.normalized() - other[0]).norm() < 1e-12);
+            } else {
+                assert!(rest.norm() < 1e-12 * force.norm() && hit.sheared > 0.1);
+                let sine = force.x / force.norm();
+                assert!((sine / (degrees.to_radians().sin() * 1.8) - 1.0).abs() < 1e-13);
+            }
+        }
+    }
+
     /// F_rad/F = v_t (1 + R)/(c_i (1 - R)) at normal incidence, as the module's page says.
     #[test]
     fn the_two_laws_differ_by_the_wave_s_velocity() {
         let (hit, medium) = (hit(1.0), Medium::default());
         let published = impulse().force(&hit, CERAMIC, &medium).norm();
         let law = RayForce::RadiationPressure(RadiationPressure { duration: Quantity(1.0) });
-        let wave = published / (CERAMIC * hit.ray_area);
+        let wave = published / (CERAMIC.sound * hit.ray_area);
         let factor = wave * (1.0 + hit.reflectance) / (1500.0 * (1.0 - hit.reflectance));
         assert!((law.force(&hit, CERAMIC, &medium).norm() / published / factor - 1.0).abs() < 1e-13);
     }

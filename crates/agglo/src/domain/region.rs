@@ -105,6 +105,28 @@ impl Region {
         }
     }
 
+    /// The point of the region [m] that is nearest to a point: itself, if it lies inside.
+    pub fn nearest_point(&self, point: Vec3) -> Vec3 {
+        match self {
+            Self::Sphere(ball) => {
+                let from = point - vector(ball.center);
+                let distance = from.norm();
+                let radius = ball.radius.si();
+                if distance <= radius { point } else { vector(ball.center) + from * (radius / distance) }
+            }
+            Self::Box(block) => point.max(vector(block.lower)).min(vector(block.upper)),
+            Self::Cylinder(cylinder) => {
+                let axis = Vec3::from(cylinder.axis).normalized();
+                let from = point - vector(cylinder.center);
+                let half = 0.5 * cylinder.length.si();
+                let (along, aside) = (from.dot(axis).clamp(-half, half), from.rejected_from(axis));
+                let (distance, radius) = (aside.norm(), cylinder.radius.si());
+                let part = if distance <= radius { 1.0 } else { radius / distance };
+                vector(cylinder.center) + axis * along + aside * part
+            }
+        }
+    }
+
     /// Smallest box that holds the region: lower and upper corner [m].
     pub fn bounds(&self) -> (Vec3, Vec3) {
         let center = self.center();
@@ -323,6 +345,26 @@ mod tests {
                 let exit = origin + direction * distance;
                 let slack = Vec3::new(1e-9, 1e-9, 1e-9);
                 assert_eq!(exit.max(lower - slack).min(upper + slack), exit);
+            }
+        }
+    }
+
+    /// The nearest point lies in the region, and no sampled point of it is nearer.
+    #[test]
+    fn no_point_of_a_region_is_nearer_than_the_nearest() {
+        let mut stream = Stream::new(2, Purpose::Sampling, 0);
+        for region in regions() {
+            for _ in 0..200 {
+                let point = region.center() + stream.direction() * (4.0 * stream.uniform());
+                let nearest = region.nearest_point(point);
+                let inward = nearest + (region.center() - nearest) * 1e-12;
+                assert!(region.contains(inward, 0.0));
+                let least = (point - nearest).norm() * (1.0 - 1e-12);
+                assert!((0..200).all(|_| {
+                    let other = region.sample(0.0, &mut stream).unwrap();
+                    (other - point).norm() >= least
+                }));
+                assert!(!region.contains(point, 0.0) || nearest == point || (nearest - point).norm() < 1e-12);
             }
         }
     }

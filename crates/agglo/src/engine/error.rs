@@ -83,6 +83,21 @@ pub enum SimError {
         /// The laws that act.
         laws: String,
     },
+    /// Rays start inside a grain before any grain has moved.
+    #[error(
+        "{at}: acoustics.beams.{beam}: {rays} rays of its disc start inside grains, the first of them in grain {grain}; move \
+         the beam's start away from the grains, or make its radius smaller"
+    )]
+    BeamInGrain {
+        /// When.
+        at: Moment,
+        /// Number of the beam.
+        beam: u32,
+        /// How many rays.
+        rays: u32,
+        /// Stable name of one of the grains.
+        grain: u32,
+    },
     /// The grains do not come to rest before the clock starts.
     #[error(
         "start.relax: after {time:.3e} s the fastest grain still moves at {speed:.3e} m/s, more than {limit:.3e} m/s; \

@@ -15,10 +15,15 @@ pub struct Warnings {
 impl Warnings {
     /// Counts a warning; the first time it is also told.
     pub fn add(&mut self, text: &str) {
+        self.add_times(text, 1);
+    }
+
+    /// Counts a warning that came up several times at once.
+    pub fn add_times(&mut self, text: &str, times: u64) {
         if let Some(count) = self.counts.get_mut(text) {
-            *count += 1;
+            *count += times;
         } else {
-            self.counts.insert(text.to_owned(), 1);
+            self.counts.insert(text.to_owned(), times);
             self.fresh.push(text.to_owned());
         }
     }

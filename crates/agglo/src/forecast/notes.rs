@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::counts::{SLOW_FRACTION, asked_fraction, pulses_before};
 use super::push::Push;
 use super::{Plan, hard};
-use crate::acoustics::RayForce;
+use crate::acoustics::{Beam, RayForce};
 use crate::contact::{Bonds, Friction, Normal};
 use crate::fields::DragLaw;
 use crate::fields::near_field::{NearFieldLaw, Scaling};
@@ -17,6 +17,9 @@ use crate::units::vector;
 
 /// Below this wave number times radius, sound goes around grains instead of being reflected as rays.
 const SMALLEST_KA: f64 = 10.0;
+
+/// Up to this one the push of rays is a per cent and more off that of a wave, on hard grains too.
+const CLOSE_KA: f64 = 60.0;
 
 pub(super) fn collect(plan: &mut Plan, scenario: &Scenario, pushes: &[Push], smallest: f64) {
     let notes = &mut plan.notes;
@@ -40,6 +43,12 @@ fn wavelengths(notes: &mut Vec<String>, scenario: &Scenario, smallest: f64) {
             continue;
         };
         let ka = TAU * frequency.si() * smallest / sound;
+        if (SMALLEST_KA..CLOSE_KA).contains(&ka) {
+            notes.push(format!(
+                "beam {index}: k a = {}: a wave pushes less than rays do, at 10 to 20 by 3 % on a rigid grain to some 30 % on polystyrene (docs/validity.md)",
+                digits(ka)
+            ));
+        }
         if ka < SMALLEST_KA {
             notes.push(format!(
                 "beam {index}: k a = {} at {}: rays do not hold below 10, here {needed}; the sound would go around the grains",
@@ -108,7 +117,8 @@ fn without_effect(notes: &mut Vec<String>, scenario: &Scenario) {
             notes.push(format!("beam {index}: only {fired} of {wanted} pulses start before the end"));
         }
     }
-    passing_by(notes, scenario);
+    aims(notes, scenario);
+    trains(notes, scenario);
     let charged = scenario.grains.iter().any(|group| group.charge.si() != 0.0);
     let by_charge = match scenario.fields.near_field.as_ref().map(|field| &field.law) {
         Some(NearFieldLaw::Coulomb(_)) => true,
@@ -125,21 +135,77 @@ fn without_effect(notes: &mut Vec<String>, scenario: &Scenario) {
     }
 }
 
-/// Beams whose straight way does not meet the region of any group.
-fn passing_by(notes: &mut Vec<String>, scenario: &Scenario) {
+/// Beams that miss all grains, reach them too late, or start where grains may be.
+fn aims(notes: &mut Vec<String>, scenario: &Scenario) {
+    let (sound, end) = (scenario.medium.sound_speed.si(), scenario.time.end.si());
     for (index, beam) in scenario.acoustics.iter().flat_map(|acoustics| &acoustics.beams).enumerate() {
-        let (start, axis) = (vector(beam.start), Vec3::from(beam.direction).normalized());
-        let meets = |group: &GrainGroup| {
-            let region = match &group.placement {
-                Placement::Random(law) => &law.region,
-                Placement::Lattice(law) => &law.region,
-                Placement::Table(_) | Placement::List(_) | Placement::Fill(_) => return true,
-            };
-            let (way, reach) = (region.center() - start, region.enclosing_radius());
-            way.rejected_from(axis).norm() < reach + beam.radius.si() && way.dot(axis) > -reach
-        };
-        if !scenario.grains.iter().any(meets) {
+        let ways: Vec<Option<f64>> = scenario.grains.iter().map(|group| way_to(beam, group)).collect();
+        let Some(shortest) = ways.iter().copied().flatten().min_by(f64::total_cmp) else {
             notes.push(format!("beam {index} misses all grains: it passes by or flies away from them"));
+            continue;
+        };
+        let late = pulses_before(beam, end) - pulses_before(beam, end - shortest / sound);
+        if late > 0 {
+            notes.push(format!(
+                "beam {index}: {late} of its pulses would reach the first grain after the end: rays fly {} to it",
+                readable(shortest / sound, "s")
+            ));
+        }
+        let inside = |group: &GrainGroup| match &group.placement {
+            Placement::Random(law) => beam.disc().distance_to(&law.region) == 0.0,
+            Placement::Lattice(law) => beam.disc().distance_to(&law.region) == 0.0,
+            Placement::List(list) => {
+                let reach = group.size.largest() * (1.0 - 1e-9);
+                list.positions.iter().any(|place| beam.disc().distance(vector(*place)) < reach)
+            }
+            Placement::Table(_) | Placement::Fill(_) => false,
+        };
+        for group in (0..scenario.grains.len()).filter(|group| inside(&scenario.grains[*group])) {
+            notes.push(format!(
+                "beam {index} starts where grains.{group} are placed: a ray that starts in a grain stops the run, or is dropped once grains have moved"
+            ));
+        }
+    }
+}
+
+/// Way [m] that a beam's rays fly at least until they meet a grain of a group; 0 where that is not known, none if they miss.
+fn way_to(beam: &Beam, group: &GrainGroup) -> Option<f64> {
+    let disc = beam.disc();
+    let region = match &group.placement {
+        Placement::Random(law) => &law.region,
+        Placement::Lattice(law) => &law.region,
+        Placement::List(list) => {
+            let positions: Vec<Vec3> = list.positions.iter().map(|place| vector(*place)).collect();
+            return beam.first_meeting(&positions, &vec![group.size.largest(); positions.len()]);
+        }
+        Placement::Table(_) | Placement::Fill(_) => return Some(0.0),
+    };
+    (disc.distance_of_way_to(region) == 0.0).then(|| disc.distance_to(region))
+}
+
+/// Pulses that overlap in time, or are too short to have a frequency.
+fn trains(notes: &mut Vec<String>, scenario: &Scenario) {
+    let Some(acoustics) = &scenario.acoustics else { return };
+    let duration = match &acoustics.force {
+        RayForce::Impulse(law) => law.duration.si(),
+        RayForce::RadiationPressure(law) => law.duration.si(),
+        RayForce::PublishedStep(_) => return,
+    };
+    let long = readable(duration, "s");
+    for (index, beam) in acoustics.beams.iter().enumerate() {
+        if let Some(period) =
+            beam.pulses.period.filter(|period| beam.pulses.count > 1 && period.si() < duration)
+        {
+            notes.push(format!(
+                "beam {index}: pulses overlap in time: each presses for {long}, and the next starts {} after it",
+                readable(period.si(), "s")
+            ));
+        }
+        if let Some(frequency) = beam.frequency.filter(|frequency| frequency.si() * duration < 1.0) {
+            notes.push(format!(
+                "beam {index}: a pulse of {long} is shorter than a cycle of {}: it has no such frequency",
+                readable(frequency.si(), "Hz")
+            ));
         }
     }
 }

@@ -112,7 +112,9 @@ fn low_frequencies_are_noted() {
     let smallest = grains.radius.iter().copied().fold(f64::INFINITY, f64::min);
     let ka = format!("k a = {}", digits(std::f64::consts::TAU * 2e4 * smallest / 1500.0));
     assert!(plan.notes.iter().any(|note| note.contains(&ka)), "{ka} in {:?}", plan.notes);
-    assert!(!plan_of(template("microscale")).notes.iter().any(|note| note.contains("k a")));
+    let notes = plan_of(template("microscale")).notes;
+    assert!(!notes.iter().any(|note| note.contains("do not hold")));
+    assert!(notes.iter().any(|note| note.contains("a wave pushes less than rays do")), "{notes:?}");
     let silent = template("microscale").replace("frequency = \"250 MHz\"", "");
     assert!(plan_of(&silent).notes.iter().any(|note| note.contains("no frequency")));
 }
@@ -146,6 +148,23 @@ fn a_beam_that_misses_is_noted() {
     // Grains reach to 0.3 mm and the beam is as wide: it misses them from 0.6 mm on.
     assert!(misses(&text.replace("\"-0.33 mm\", \"0 mm\"", "\"-0.33 mm\", \"0.61 mm\"")));
     assert!(!misses(&text.replace("\"-0.33 mm\", \"0 mm\"", "\"-0.33 mm\", \"0.59 mm\"")));
+    // Grains in a box: the ball about it would reach the beam, the box does not.
+    let box_of = |high: &str| {
+        let region = format!(
+            "region.box = {{ lower = [\"-0.3 mm\", \"-0.3 mm\", \"-0.3 mm\"], upper = [\"0.3 mm\", \"{high}\", \"0.3 mm\"] }}"
+        );
+        text.replace("region.sphere = { radius = \"300 um\" }", &region)
+            .replace("\"-0.33 mm\", \"0 mm\"", "\"-0.33 mm\", \"0.7 mm\"")
+    };
+    assert!(misses(&box_of("0.39 mm")) && !misses(&box_of("0.41 mm")));
+    // A single grain, named by its place: the beam passes it within a tenth of its radius.
+    let one = |y: &str| {
+        let grain = format!("placement.list.positions = [[\"0 m\", \"{y}\", \"0 m\"]]\n");
+        let (head, rest) = text.split_once("[grains.size.lognormal]").unwrap();
+        let (_, rest) = rest.split_once("[contact.normal.hertz]").unwrap();
+        format!("{head}size.constant.radius = \"20 um\"\n{grain}[contact.normal.hertz]{rest}")
+    };
+    assert!(misses(&one("0.322 mm")) && !misses(&one("0.318 mm")));
 }
 
 #[test]
@@ -209,4 +228,32 @@ fn tables_are_read_as_a_run_reads_them() {
         let found = Plan::new(&scenario, folder.path()).unwrap_err().to_string();
         assert!(found.contains(words), "{table}: {found}");
     }
+}
+
+/// Beams that overlap in time, that are shorter than a cycle, that arrive after the end, or that start among grains.
+#[test]
+fn beams_that_cannot_do_what_they_say_are_noted() {
+    let text = template("microscale");
+    let says = |text: &str, words: &str| plan_of(text).notes.iter().any(|note| note.contains(words));
+    let overlaps = |text: &str| says(text, "pulses overlap in time");
+    assert!(!overlaps(text) && !overlaps(&text.replace("period = \"50 us\"", "period = \"50 ns\"")));
+    assert!(overlaps(&text.replace("period = \"50 us\"", "period = \"49 ns\"")));
+    // 50 ns is a cycle of 20 MHz.
+    let short = |text: &str| says(text, "shorter than a cycle");
+    assert!(!short(&text.replace("250 MHz", "20 MHz")) && short(&text.replace("250 MHz", "19.9 MHz")));
+    // From -0.33 mm to the ball of 0.3 mm it is 30 um, 20 ns in water; pulses start at 0 and then every 50 us.
+    let late =
+        |end: &str| says(&text.replace("end = \"300 us\"", &format!("end = \"{end}\"")), "after the end");
+    assert!(!late("300 us") && late("50.019 us") && !late("50.021 us"));
+    let among = |text: &str| says(text, "starts where grains.0 are placed");
+    assert!(!among(text) && among(&text.replace("\"-0.33 mm\"", "\"-0.29 mm\"")));
+    // A grain on the disc's rim, named by its place, and a first pulse that comes later.
+    let beside = |y: &str| {
+        let grain = format!("placement.list.positions = [[\"-0.33 mm\", \"{y}\", \"0 m\"]]\n");
+        let (head, rest) = text.split_once("[grains.size.lognormal]").unwrap();
+        let (_, rest) = rest.split_once("[contact.normal.hertz]").unwrap();
+        let text = format!("{head}size.constant.radius = \"20 um\"\n{grain}[contact.normal.hertz]{rest}");
+        text.replace("period = \"50 us\"", "period = \"50 us\"\nfirst = \"1 us\"")
+    };
+    assert!(!among(&beside("0.3201 mm")) && among(&beside("0.3199 mm")));
 }

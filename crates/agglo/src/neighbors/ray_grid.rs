@@ -294,6 +294,19 @@ impl RayGrid {
         self.first(span, |sphere| span.meets(self.spheres[sphere]))
     }
 
+    /// The sphere that a point lies inside, that with the lowest number if there are several; a point on a surface, to nine
+    /// digits, is outside.
+    pub fn sphere_around(&self, point: Vec3) -> Option<u32> {
+        let direction = Vec3::AXES[0];
+        let span = RaySpan { origin: point, direction, from: 0.0, to: 0.0, skip: NO_SPHERE };
+        let holds = |number: usize| {
+            let sphere = self.spheres[number];
+            let radius = sphere.radius * (1.0 - 1e-9);
+            ((point - sphere.center).norm_squared() < radius * radius).then_some(0.0)
+        };
+        self.first(&span, holds).map(|hit| hit.sphere)
+    }
+
     /// How far the ray meets none of the spheres, wherever they move while this build of the grid is valid.
     pub fn clear_until(&self, span: &RaySpan) -> Clear {
         let margin = self.margin * (CLEAR_MARGIN / MARGIN);

@@ -58,6 +58,9 @@ pub struct Material {
     /// Speed of sound, for rays.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sound_speed: Option<Velocity>,
+    /// Speed of shear waves, for rays; to them the material is a fluid if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shear_sound_speed: Option<Velocity>,
     /// Young's modulus, for Hertz contact.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub youngs_modulus: Option<Pressure>,

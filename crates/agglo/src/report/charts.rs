@@ -35,9 +35,19 @@ const SOFT: &[Lines] = &[
     ),
     lines(
         ["rays", "beam", "Beam power left", "part of the pulse's power", ""],
-        "Power of the rays in flight by direction: their powers times the parts of their directions, over the pulse's \
-         power. Rays cross the grains in a short time; rows further apart see single moments of it.",
+        "Power of all rays of the latest pulse by direction, those that left as they were then: their powers times the parts of \
+         their directions, over the pulse's power. What is missing to 1 in all is what grains took.",
         &[("beam_x", "along x"), ("beam_y", "along y"), ("beam_z", "along z"), ("beam_magnitude", "in all")],
+    ),
+    lines(
+        ["rays", "flying", "Power in flight", "part of the pulse's power", ""],
+        "The same of the rays in flight alone. Rays cross the grains in a short time; rows further apart see single moments of it.",
+        &[
+            ("flying_x", "along x"),
+            ("flying_y", "along y"),
+            ("flying_z", "along z"),
+            ("flying_magnitude", "in all"),
+        ],
     ),
     lines(
         ["rays", "power", "Power of the pulses", "power", "W"],
@@ -45,7 +55,7 @@ const SOFT: &[Lines] = &[
         &[
             ("power_in_W", "launched"),
             ("power_absorbed_W", "taken up by grains"),
-            ("power_escaped_W", "left the region"),
+            ("power_escaped_W", "left for good"),
             ("power_truncated_W", "dropped"),
         ],
     ),

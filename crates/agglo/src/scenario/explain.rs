@@ -59,6 +59,7 @@ pages! {
     "self_gravity" "impact" "self_gravity" [];
     "beams" "acoustics" "beam" [];
     "fresnel" "acoustics" "fresnel" [];
+    "follow" "acoustics" "follow" [];
     "staggered" "engine/soft" "staggered" [];
     "verlet" "engine/soft" "verlet" [];
     "event_driven" "engine/hard" "event_driven" [];

@@ -111,7 +111,7 @@ mod tests {
         assert_eq!(labels("hertz"), ["[A] 70"]);
         assert_eq!(labels("restitution"), ["A5"]);
         assert_eq!(labels("ray_force"), ["[A] 7", "A13", "[A] 18"]);
-        assert_eq!(labels("fresnel"), ["[A] 2-3, 52-62", "[A] 4"]);
+        assert_eq!(labels("fresnel"), ["[A] 2-3, 52-62", "[A] 4", "A12"]);
         assert_eq!(labels("cooling"), ["[B] 6.19-6.20", "B9", "[B] 6.21"]);
         assert_eq!(labels("fragmentation"), ["[B] 5.1-5.3", "B7"]);
         assert_eq!(labels("near_field"), ["[A] 28"]);

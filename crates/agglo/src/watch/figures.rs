@@ -52,14 +52,14 @@ const SOFT: &[Row] = &[
     ("bonds", "clusters", "bonds", ""),
     ("mean speed", "moments", "mean_speed_m_s", "m/s"),
     ("rays in flight", "rays", "in_flight", ""),
-    ("beam power left", "rays", "beam_magnitude", "%"),
+    ("power in flight", "rays", "flying_magnitude", "%"),
     ("kinetic energy", "energy", "kinetic_J", "J"),
     ("step", "steps", "step_size_s", "s"),
     ("energy drift", "energy", "drift_relative", ""),
 ];
 const SOFT_CURVES: &[Row] = &[
     ("dispersion degree", "clusters", "dispersion_degree", ""),
-    ("beam power left", "rays", "beam_magnitude", ""),
+    ("power in flight", "rays", "flying_magnitude", ""),
     ("mean speed", "moments", "mean_speed_m_s", "m/s"),
 ];
 const HARD: &[Row] = &[

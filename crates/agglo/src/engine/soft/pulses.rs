@@ -6,10 +6,12 @@
 use serde::{Deserialize, Serialize};
 
 use crate::acoustics::fresnel::Interface;
-use crate::acoustics::{Acoustics, Beam, Flight, Medium, PulseCount, RayForce, Tracer, default_region};
-use crate::domain::Region;
+use crate::acoustics::{
+    ALLOWANCE, Acoustics, Beam, Flight, Impedance, Medium, PulseCount, RayForce, Targets, Tracer,
+};
+use crate::engine::{Moment, SimError, Warnings};
 use crate::math::Vec3;
-use crate::particles::{Material, Particles};
+use crate::particles::Particles;
 use crate::scenario::Scenario;
 use crate::units::Velocity;
 
@@ -30,7 +32,6 @@ pub struct PulseState {
     flight: Flight,
     launched: usize,
     ray_time: f64,
-    region: Option<Region>,
     /// Mean radius of the grains at the start [m].
     mean_radius: f64,
 }
@@ -50,24 +51,33 @@ struct Setup {
     medium: Medium,
     seed: u64,
     tracer: Tracer,
-    /// Impedances of the materials [Pa s/m], by number.
-    impedances: Vec<f64>,
+    /// Impedances of the materials, by number.
+    impedances: Vec<Impedance>,
     /// How long a hit presses [s].
     duration: f64,
 }
 
+/// Grains that were hit are made a list without doubles whenever it is as long as this.
+const MANY_HITS: usize = 1 << 16;
+
 impl Setup {
-    fn new(scenario: &Scenario, region: &Region, radius: f64) -> Option<Self> {
+    fn new(scenario: &Scenario, radius: f64) -> Option<Self> {
         let acoustics = scenario.acoustics.clone()?;
         let medium = scenario.medium.clone();
-        let sound = |material: &Material| material.sound_speed.map_or(0.0, Velocity::si);
-        let materials =
-            || scenario.materials.values().map(|material| (material.density.si(), sound(material)));
+        let materials = || {
+            scenario.materials.values().map(|material| {
+                let speed = |speed: Option<Velocity>| speed.map_or(0.0, Velocity::si);
+                let speeds = [speed(material.sound_speed), speed(material.shear_sound_speed)];
+                (material.density.si(), speeds)
+            })
+        };
         let interfaces =
-            materials().map(|(density, speed)| Interface::new(&medium, density, speed)).collect();
+            materials().map(|(density, [sound, shear])| Interface::new(&medium, density, sound, shear));
+        let impedances = materials()
+            .map(|(density, [sound, shear])| Impedance { sound: density * sound, shear: density * shear });
         Some(Self {
-            tracer: Tracer::new(region.clone(), interfaces, acoustics.truncation),
-            impedances: materials().map(|(density, speed)| density * speed).collect(),
+            tracer: Tracer::new(acoustics.ends(), interfaces.collect()),
+            impedances: impedances.collect(),
             seed: scenario.seed,
             duration: acoustics.force.duration(radius, &medium),
             acoustics,
@@ -76,15 +86,22 @@ impl Setup {
     }
 }
 
+/// The grains as rays see them.
+fn targets<'a>(grains: &'a Particles, medium: &Medium) -> Targets<'a> {
+    let fastest = grains.velocity.iter().map(|velocity| velocity.norm()).fold(0.0, f64::max);
+    Targets {
+        positions: &grains.position,
+        radii: &grains.radius,
+        material: &grains.material,
+        mach: fastest / medium.sound_speed.si(),
+    }
+}
+
 impl Pulses {
     /// The pulses of a scenario, none started.
     pub fn new(scenario: &Scenario, grains: &Particles) -> Self {
-        let region = scenario.acoustics.as_ref().map(|acoustics| {
-            let default = || default_region(&grains.position, &grains.radius, &acoustics.beams);
-            acoustics.region.clone().unwrap_or_else(default)
-        });
         let mean_radius = grains.radius.iter().sum::<f64>() / grains.len().max(1) as f64;
-        Self::resume(scenario, PulseState { region, mean_radius, ..PulseState::default() })
+        Self::resume(scenario, PulseState { mean_radius, ..PulseState::default() })
     }
 
     /// The pulses of a scenario as they were saved.
@@ -95,7 +112,7 @@ impl Pulses {
             schedule.extend(starts.zip(0..).map(|(time, pulse)| Launch { time, beam, pulse }));
         }
         schedule.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.beam.cmp(&b.beam)));
-        let setup = state.region.as_ref().and_then(|region| Setup::new(scenario, region, state.mean_radius));
+        let setup = Setup::new(scenario, state.mean_radius);
         Self { setup, state, schedule, hit_grains: Vec::new() }
     }
 
@@ -129,18 +146,48 @@ impl Pulses {
         bound.unwrap_or(f64::INFINITY).min(catch_up)
     }
 
-    /// Launches the pulses whose time has come.
-    pub fn launch_due(&mut self, now: f64) {
-        let Some(setup) = &mut self.setup else { return };
+    /// Launches the pulses whose time has come at a `moment`, in a run until `end` [s].
+    ///
+    /// # Errors
+    /// [`SimError::BeamInGrain`] where rays start inside a grain before any has moved; later that is a warning, and those rays
+    /// are dropped.
+    pub fn launch_due(
+        &mut self,
+        grains: &Particles,
+        moment: &Moment,
+        end: f64,
+        warnings: &mut Warnings,
+    ) -> Result<(), SimError> {
+        let Some(setup) = &mut self.setup else { return Ok(()) };
+        let now = moment.time;
         while let Some(launch) = self.schedule.get(self.state.launched).filter(|launch| launch.time <= now) {
-            let beam = &setup.acoustics.beams[launch.beam as usize];
-            self.state.flight.launch(beam, &setup.medium, setup.seed, launch.beam, launch.pulse);
+            let (beam, flight) = (&setup.acoustics.beams[launch.beam as usize], &mut self.state.flight);
+            flight.launch(beam, &setup.medium, setup.seed, launch.beam, launch.pulse);
             self.state.launched += 1;
+            let targets = targets(grains, &setup.medium);
+            if let Some((rays, grain)) = setup.tracer.drop_blocked(flight, &targets) {
+                let beam = launch.beam;
+                if moment.step <= 1 {
+                    let grain = grains.id[grain as usize];
+                    return Err(SimError::BeamInGrain { at: moment.clone(), beam, rays, grain });
+                }
+                let text = format!(
+                    "acoustics.beams.{beam}: rays of a pulse would have started inside a grain; they were dropped"
+                );
+                warnings.add_times(&text, u64::from(rays));
+            }
+            let arrival = beam.first_meeting(targets.positions, targets.radii);
+            if let Some(text) =
+                warning_of_launch(launch.beam, arrival, setup.medium.sound_speed.si(), end - now)
+            {
+                warnings.add(&text);
+            }
         }
+        Ok(())
     }
 
     /// Lets the rays fly for `dt` [s] from `now` [s] and puts their hits on the grains.
-    pub fn fly(&mut self, system: &mut System, now: f64, dt: f64) {
+    pub fn fly(&mut self, system: &mut System, now: f64, dt: f64, warnings: &mut Warnings) {
         for &grain in &self.hit_grains {
             system.ray_loads.force[grain as usize] = Vec3::ZERO;
             system.ray_loads.moment[grain as usize] = Vec3::ZERO;
@@ -153,30 +200,29 @@ impl Pulses {
             return;
         }
         self.state.ray_time = now + dt;
-        let grains = &mut system.grains;
-        let way = setup.medium.sound_speed.si() * dt;
-        let hits = setup.tracer.advance(
-            &mut self.state.flight,
-            &grains.position,
-            &grains.radius,
-            &grains.material,
-            way,
-        );
-        for hit in hits {
-            let grain = hit.grain as usize;
-            let force = setup.acoustics.force.force(
-                hit,
-                setup.impedances[grains.material[grain] as usize],
-                &setup.medium,
-            );
-            let load = if impulses { force * setup.duration } else { force };
-            system.ray_loads.force[grain] += load;
-            system.ray_loads.moment[grain] += (hit.point - grains.position[grain]).cross(load);
-            grains.absorbed_power[grain] += hit.power_in * (1.0 - hit.reflectance);
-            self.hit_grains.push(hit.grain);
-        }
-        self.hit_grains.sort_unstable();
-        self.hit_grains.dedup();
+        let before = dropped(self.state.flight.pulses());
+        let mut absorbed_power = std::mem::take(&mut system.grains.absorbed_power);
+        let (grains, loads, hit_grains) = (&system.grains, &mut system.ray_loads, &mut self.hit_grains);
+        let (law, medium, impedances) = (&setup.acoustics.force, &setup.medium, &setup.impedances);
+        let (targets, way) = (targets(grains, medium), medium.sound_speed.si() * dt);
+        setup.tracer.advance(&mut self.state.flight, &targets, way, |hits| {
+            for hit in hits {
+                let grain = hit.grain as usize;
+                let force = law.force(hit, impedances[grains.material[grain] as usize], medium);
+                let load = if impulses { force * setup.duration } else { force };
+                loads.force[grain] += load;
+                loads.moment[grain] += (hit.point - grains.position[grain]).cross(load);
+                absorbed_power[grain] += hit.power_in * (1.0 - hit.reflectance);
+                hit_grains.push(hit.grain);
+            }
+            if hit_grains.len() >= MANY_HITS {
+                sort_and_dedup(hit_grains);
+            }
+        });
+        warn_of_flight(setup, &targets, warnings);
+        warn_of_drops(before, dropped(self.state.flight.pulses()), setup.acoustics.bounces, warnings);
+        system.grains.absorbed_power = absorbed_power;
+        sort_and_dedup(&mut self.hit_grains);
         system.has_ray_loads = !self.hit_grains.is_empty();
     }
 
@@ -245,5 +291,60 @@ impl Pulses {
             "acoustics.force.published_step gives a force for one step: halving the step halves the impulse, so the \
              answer does not converge",
         ]
+    }
+}
+
+fn sort_and_dedup(list: &mut Vec<u32>) {
+    list.sort_unstable();
+    list.dedup();
+}
+
+/// Rays that were dropped so far: at the largest number of bounces, crushed between grains.
+fn dropped(pulses: &[PulseCount]) -> [u64; 2] {
+    let sum = |count: fn(&PulseCount) -> u32| pulses.iter().map(|pulse| u64::from(count(pulse))).sum();
+    [sum(|pulse| pulse.capped), sum(|pulse| pulse.crushed)]
+}
+
+fn warn_of_drops(before: [u64; 2], now: [u64; 2], bounces: u32, warnings: &mut Warnings) {
+    let [capped, crushed] = [0, 1].map(|k| now[k] - before[k]);
+    if capped > 0 {
+        let text = format!(
+            "acoustics.bounces: rays were dropped after {bounces} bounces, their power stands in power_truncated_W"
+        );
+        warnings.add_times(&text, capped);
+    }
+    if crushed > 0 {
+        let text = "acoustics: rays were dropped between grains that closed in on them, their power stands in \
+                    power_truncated_W";
+        warnings.add_times(text, crushed);
+    }
+}
+
+/// Where grains are out of what rays can know of: outside a given region, or nearly as fast as sound.
+fn warn_of_flight(setup: &Setup, targets: &Targets<'_>, warnings: &mut Warnings) {
+    if targets.mach > ALLOWANCE {
+        warnings.add(
+            "acoustics: a grain is faster than a tenth of the speed of sound while rays fly; rays see grains held still in each \
+             step, and one that was given up could have been overtaken",
+        );
+    }
+    let Some(region) = setup.tracer.region() else { return };
+    let mut grains = targets.positions.iter().zip(targets.radii);
+    if grains.any(|(&position, &radius)| !region.contains(position, radius)) {
+        warnings.add(
+            "acoustics.region leaves grains outside, and rays that leave it are lost to them; without the key rays live until \
+             they can hit nothing any more",
+        );
+    }
+}
+
+/// What a launch has to tell: `arrival` is the way [m] to the first grain, `left` the time [s] until the end of the run.
+fn warning_of_launch(beam: u32, arrival: Option<f64>, sound_speed: f64, left: f64) -> Option<String> {
+    match arrival {
+        None => Some(format!("acoustics.beams.{beam}: a pulse passes all grains by")),
+        Some(way) if way > sound_speed * left => Some(format!(
+            "acoustics.beams.{beam}: a pulse would reach the first grain after the end of the run"
+        )),
+        Some(_) => None,
     }
 }

@@ -181,8 +181,8 @@ impl Simulation {
     pub fn step(&mut self) -> Result<(), SimError> {
         self.sort_grains_when_due();
         let (dt, lands_on) = self.next_step();
-        self.pulses.launch_due(self.clock.time);
-        self.pulses.fly(&mut self.system, self.clock.time, dt);
+        self.launch_due(dt)?;
+        self.pulses.fly(&mut self.system, self.clock.time, dt, &mut self.warnings);
         let step = self.try_step(dt)?;
         self.guard(&step)?;
         self.book(&step);
@@ -202,6 +202,11 @@ impl Simulation {
         {
             self.pulses.reindex(&place);
         }
+    }
+
+    fn launch_due(&mut self, dt: f64) -> Result<(), SimError> {
+        let moment = self.moment(dt);
+        self.pulses.launch_due(&self.system.grains, &moment, self.end, &mut self.warnings)
     }
 
     /// Length of the next step [s] and, if a pulse or the end bounds it, the time on which it lands.

@@ -82,6 +82,11 @@ const RAYS: &[&str] = &[
     "beam_y",
     "beam_z",
     "beam_magnitude",
+    "beam_root_of_squares",
+    "flying_x",
+    "flying_y",
+    "flying_z",
+    "flying_magnitude",
 ];
 const STEPS: &[&str] = &["time_s", "step", "step_size_s", "iterations", "rejected", "largest_strain"];
 
@@ -200,7 +205,11 @@ fn rays(simulation: &Simulation) -> Vec<f64> {
         sum(|count| count.power_escaped),
         sum(|count| count.power_truncated),
     ]);
-    row.extend(pulses.flight().beam_power());
+    let (beam, flying) = (pulses.flight().beam_power(), pulses.flight().power_flying());
+    row.extend(beam.flow.to_array());
+    row.extend([beam.magnitude, beam.root_of_squares]);
+    row.extend(flying.flow.to_array());
+    row.push(flying.magnitude);
     row
 }
 

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::acoustics::PulseCount;
-use crate::engine::soft::Simulation;
+use crate::acoustics::{BeamPower, PulseCount};
+use crate::engine::soft::{Pulses, Simulation};
 use crate::measure::{Balance, ClusterSummary};
 use crate::run::summary::{time_row, wall_row, warnings_row};
 use crate::scenario::readable;
@@ -79,16 +79,24 @@ pub struct PulseFigures {
     /// Power that grains took [W].
     #[serde(rename = "power_absorbed_W")]
     pub power_absorbed: f64,
-    /// Power that left the region [W].
+    /// Power of rays that left for good [W].
     #[serde(rename = "power_escaped_W")]
     pub power_escaped: f64,
     /// Power of rays that were dropped [W].
     #[serde(rename = "power_truncated_W")]
     pub power_truncated: f64,
+    /// Power times direction of all its rays, those that ended as they were then, over the power launched ([A] 39).
+    pub beam_x: f64,
+    /// The same along y.
+    pub beam_y: f64,
+    /// The same along z.
+    pub beam_z: f64,
+    /// Power of all its rays, likewise.
+    pub beam_magnitude: f64,
 }
 
-impl From<&PulseCount> for PulseFigures {
-    fn from(count: &PulseCount) -> Self {
+impl PulseFigures {
+    fn new(count: &PulseCount, left: &BeamPower) -> Self {
         Self {
             beam: count.beam,
             start_s: count.start_s,
@@ -101,7 +109,16 @@ impl From<&PulseCount> for PulseFigures {
             power_absorbed: count.power_absorbed,
             power_escaped: count.power_escaped,
             power_truncated: count.power_truncated,
+            beam_x: left.flow.x,
+            beam_y: left.flow.y,
+            beam_z: left.flow.z,
+            beam_magnitude: left.magnitude,
         }
+    }
+
+    fn of_all(pulses: &Pulses) -> Vec<Self> {
+        let (counts, flight) = (pulses.counts(), pulses.flight());
+        counts.iter().enumerate().map(|(place, count)| Self::new(count, &flight.pulse_power(place))).collect()
     }
 }
 
@@ -145,7 +162,7 @@ impl SoftSummary {
             grains: simulation.system.grains.len(),
             threads: rayon::current_num_threads(),
             seed,
-            pulses: simulation.pulses.counts().iter().map(PulseFigures::from).collect(),
+            pulses: PulseFigures::of_all(&simulation.pulses),
             acoustic_energy: simulation.pulses.energy(),
             clusters: Clusters { count: clusters.count, largest_fraction: clusters.largest_mass_fraction },
             dispersion_degree: clusters.dispersion_degree,

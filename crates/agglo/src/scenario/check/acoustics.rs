@@ -3,8 +3,8 @@
 use super::Check;
 use super::contact::needs;
 use crate::acoustics::{Acoustics, Beam, Profile, RayForce, Strength};
-use crate::domain::Region;
 use crate::math::Vec3;
+use crate::packing::{Placement, Size};
 use crate::scenario::figures::told_apart;
 use crate::scenario::types::Scenario;
 use crate::units::vector;
@@ -17,6 +17,7 @@ pub(super) fn check(check: &mut Check, scenario: &Scenario) {
         let message = format!("found {}; a number from 0 and below 1 is wanted", acoustics.truncation);
         check.fail("acoustics.truncation", message);
     }
+    check.at_least_one("acoustics.bounces", acoustics.bounces);
     let region_holds =
         acoustics.region.as_ref().is_some_and(|region| check.region("acoustics.region", region));
     if acoustics.beams.is_empty() {
@@ -24,8 +25,11 @@ pub(super) fn check(check: &mut Check, scenario: &Scenario) {
     }
     for (index, beam) in acoustics.beams.iter().enumerate() {
         let key = format!("acoustics.beams.{index}");
-        if one(check, &key, beam, scenario) && region_holds {
-            inside(check, &key, beam, acoustics);
+        if one(check, &key, beam, scenario) {
+            if region_holds {
+                inside(check, &key, beam, acoustics);
+            }
+            in_grains(check, &key, beam, scenario);
         }
     }
 }
@@ -90,22 +94,32 @@ fn pulses(check: &mut Check, key: &str, beam: &Beam, scenario: &Scenario) {
 /// The region must hold the whole disc: a ray that starts outside would be lost at once.
 fn inside(check: &mut Check, key: &str, beam: &Beam, acoustics: &Acoustics) {
     let Some(region) = &acoustics.region else { return };
-    let start = vector(beam.start);
-    if !region.contains(start, 0.0) {
+    if !region.contains(vector(beam.start), 0.0) {
         let message = "lies outside acoustics.region, where rays live".to_owned();
         return check.fail_with(&format!("{key}.start"), message, "enlarge the region or leave it out");
     }
-    if !rim_is_inside(region, start, beam) {
+    if !beam.starts_inside(region) {
         let message = "part of the disc of rays lies outside acoustics.region, where rays live".to_owned();
         check.fail_with(&format!("{key}.radius"), message, "enlarge the region or leave it out");
     }
 }
 
-/// Regions are convex, so a disc is inside when its rim is.
-fn rim_is_inside(region: &Region, start: Vec3, beam: &Beam) -> bool {
-    let (a, b) = Vec3::from(beam.direction).normalized().frame();
-    (0..64).all(|k| {
-        let (sine, cosine) = (std::f64::consts::TAU * f64::from(k) / 64.0).sin_cos();
-        region.contains(start + (a * cosine + b * sine) * beam.radius.si(), 0.0)
-    })
+/// Rays that start inside a grain at time zero, where the scenario itself says where grains are.
+fn in_grains(check: &mut Check, key: &str, beam: &Beam, scenario: &Scenario) {
+    if beam.pulses.first.si() > 0.0 || scenario.start.relax.is_some() {
+        return;
+    }
+    let disc = beam.disc();
+    for (index, group) in scenario.grains.iter().enumerate() {
+        let (Placement::List(list), Size::Constant(size)) = (&group.placement, &group.size) else { continue };
+        for (place, position) in list.positions.iter().enumerate() {
+            let depth = size.radius.si() - disc.distance(vector(*position));
+            if depth > 1e-9 * size.radius.si() {
+                let message =
+                    format!("the disc of rays cuts grains.{index}.placement.list.positions.{place}");
+                let help = "move the start away from the grains, or make the radius smaller: rays start outside grains";
+                return check.fail_with(&format!("{key}.start"), message, help);
+            }
+        }
+    }
 }

@@ -4,7 +4,7 @@ use super::Check;
 use crate::contact::{Damping, Friction};
 use crate::particles::{Material, Mixture};
 use crate::scenario::fault::nearest;
-use crate::scenario::figures::readable;
+use crate::scenario::figures::{readable, told_apart};
 use crate::scenario::types::Scenario;
 
 pub(super) fn check(check: &mut Check, scenario: &Scenario) {
@@ -29,6 +29,7 @@ fn one(check: &mut Check, key: &str, material: &Material) {
     if let Some(speed) = material.sound_speed {
         check.positive(&format!("{key}.sound_speed"), speed);
     }
+    shear(check, key, material);
     if let Some(modulus) = material.youngs_modulus {
         check.positive(&format!("{key}.youngs_modulus"), modulus);
     }
@@ -47,6 +48,25 @@ fn one(check: &mut Check, key: &str, material: &Material) {
             let message = "there is no contact_stiffness to soften".to_owned();
             check.fail_with(&format!("{key}.softening"), message, format!("give {key}.contact_stiffness"));
         }
+    }
+}
+
+/// Shear waves are slow enough for a solid that does not expand under pressure: its bulk modulus is ρ (c² - (4/3) c_s²).
+fn shear(check: &mut Check, key: &str, material: &Material) {
+    let Some(shear) = material.shear_sound_speed else { return };
+    let key = format!("{key}.shear_sound_speed");
+    check.positive(&key, shear);
+    let Some(sound) = material.sound_speed else {
+        let message = "there is no sound_speed beside it".to_owned();
+        return check.fail_with(&key, message, "give the speed of sound, that of its compression waves");
+    };
+    let most = 0.75_f64.sqrt() * sound.si();
+    if sound.si() > 0.0 && shear.si() >= most {
+        let [found, most] = told_apart([shear.si(), most], "m/s");
+        let message = format!(
+            "found {found}; less than {most} is wanted, sound_speed times the root of 3/4: a solid's bulk modulus is above 0"
+        );
+        check.fail(&key, message);
     }
 }
 

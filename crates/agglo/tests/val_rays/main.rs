@@ -1,17 +1,22 @@
 //! Rays against closed forms, independent counts and conservation laws.
 
+mod ends;
+
 use std::f64::consts::PI;
 
 use agglo::acoustics::fresnel::Interface;
 use agglo::acoustics::{
-    Beam, Flight, Hit, Medium, Pattern, Profile, Pulses, RadiationPressure, RayForce, Strength, Tracer,
-    default_region,
+    Beam, Ends, Flight, Hit, Impedance, Medium, Pattern, Profile, Pulses, RadiationPressure, RayForce,
+    Strength, Targets, Tracer,
 };
 use agglo::math::Vec3;
 use agglo::math::rng::{Purpose, Stream};
 use agglo::units::{Quantity, Time};
 
-const CERAMIC: Interface = Interface { impedance_ratio: 18.0, speed_ratio: 1.0 / 3.0 };
+const CERAMIC: Interface = Interface { impedance_ratio: 18.0, speed_ratio: 1.0 / 3.0, shear_ratio: 0.0 };
+/// Radiation pressure does not depend on what enters.
+const WHATEVER: Impedance = Impedance { sound: 1.0, shear: 0.0 };
+const FOLLOW_ALL: Ends = Ends { region: None, truncation: 0.0, bounces: 10_000_000 };
 
 struct Packing {
     positions: Vec<Vec3>,
@@ -39,15 +44,25 @@ impl Packing {
         Self::new(positions, radius)
     }
 
+    fn targets(&self) -> Targets<'_> {
+        Targets { positions: &self.positions, radii: &self.radii, material: &self.material, mach: 0.0 }
+    }
+
     fn shoot(&self, beam: &Beam, truncation: f64, seed: u64) -> (Flight, Vec<Hit>) {
-        let region = default_region(&self.positions, &self.radii, std::slice::from_ref(beam));
-        let mut tracer = Tracer::new(region, vec![CERAMIC], truncation);
+        let mut tracer = Tracer::new(Ends { truncation, ..FOLLOW_ALL }, vec![CERAMIC]);
         let mut flight = Flight::default();
         flight.launch(beam, &Medium::default(), seed, 0, 0);
-        let hits = tracer.trace(&mut flight, &self.positions, &self.radii, &self.material).to_vec();
+        let hits = tracer.trace(&mut flight, &self.targets());
         assert!(flight.rays().is_empty());
         (flight, hits)
     }
+}
+
+/// Lets rays fly and collects what they hit.
+fn advance(tracer: &mut Tracer, flight: &mut Flight, grains: &Packing, distance: f64) -> Vec<Hit> {
+    let mut hits = Vec::new();
+    tracer.advance(flight, &grains.targets(), distance, |batch| hits.extend_from_slice(batch));
+    hits
 }
 
 /// A beam of radius 1 that starts one length before the middle.
@@ -150,15 +165,14 @@ fn val_power_ledger_closes_at_every_instant() {
         beam(Vec3::new(1.0, 1.0, -1.0).normalized(), 2000, Pattern::Sobol),
     ];
     beams[1].profile = Profile::Gaussian(agglo::acoustics::Gaussian { waist: Quantity(0.5) });
-    let region = default_region(&packing.positions, &packing.radii, &beams);
-    let mut tracer = Tracer::new(region, vec![CERAMIC], 0.7);
+    let mut tracer = Tracer::new(Ends { truncation: 0.7, ..FOLLOW_ALL }, vec![CERAMIC]);
     let mut flight = Flight::default();
     for step in 0..2000 {
         if step == 0 || step == 7 {
             let number = u32::from(step == 7);
             flight.launch(&beams[number as usize], &Medium::default(), 1, number, 0);
         }
-        tracer.advance(&mut flight, &packing.positions, &packing.radii, &packing.material, 0.05);
+        advance(&mut tracer, &mut flight, &packing, 0.05);
         for (place, count) in flight.pulses().iter().enumerate() {
             let out = count.power_absorbed + count.power_escaped + count.power_truncated;
             let sum = out + flight.power_in_flight(place);
@@ -176,16 +190,15 @@ fn val_power_ledger_closes_at_every_instant() {
 fn val_radiation_force_on_a_perfect_reflector() {
     for pattern in [Pattern::Sunflower, Pattern::Sobol] {
         let grain = Packing::new(vec![Vec3::ZERO], 0.9);
-        let mirror = Interface { impedance_ratio: 1e20, speed_ratio: 1e-9 };
+        let mirror = Interface { impedance_ratio: 1e20, speed_ratio: 1e-9, shear_ratio: 0.0 };
         let beam = beam(Vec3::AXES[2], 1_000_000, pattern);
-        let region = default_region(&grain.positions, &grain.radii, std::slice::from_ref(&beam));
-        let mut tracer = Tracer::new(region, vec![mirror], 0.0);
+        let mut tracer = Tracer::new(FOLLOW_ALL, vec![mirror]);
         let mut flight = Flight::default();
         let medium = Medium::default();
         flight.launch(&beam, &medium, 1, 0, 0);
         let law = RayForce::RadiationPressure(RadiationPressure { duration: Time::default() });
-        let hits = tracer.trace(&mut flight, &grain.positions, &grain.radii, &grain.material);
-        let force: Vec3 = hits.iter().map(|hit| law.force(hit, 1.0, &medium)).sum();
+        let hits = tracer.trace(&mut flight, &grain.targets());
+        let force: Vec3 = hits.iter().map(|hit| law.force(hit, WHATEVER, &medium)).sum();
         let intensity = 4.7e10 / PI;
         let expected = intensity / 1500.0 * PI * 0.9 * 0.9;
         assert!((force.z / expected - 1.0).abs() < 1e-3, "{pattern:?} {}", force.z / expected);
@@ -198,8 +211,7 @@ fn val_radiation_force_on_a_perfect_reflector() {
 fn val_momentum_of_rays_goes_to_grains() {
     let packing = Packing::random(400, 0.07, 9);
     let beam = beam(Vec3::AXES[1], 5000, Pattern::Random);
-    let region = default_region(&packing.positions, &packing.radii, std::slice::from_ref(&beam));
-    let mut tracer = Tracer::new(region, vec![CERAMIC], 0.0);
+    let mut tracer = Tracer::new(FOLLOW_ALL, vec![CERAMIC]);
     let (mut flight, medium) = (Flight::default(), Medium::default());
     flight.launch(&beam, &medium, 1, 0, 0);
     let law = RayForce::RadiationPressure(RadiationPressure { duration: Time::default() });
@@ -208,8 +220,8 @@ fn val_momentum_of_rays_goes_to_grains() {
     let (mut force, mut gone) = (Vec3::ZERO, Vec3::ZERO);
     for _ in 0..5000 {
         let rays: Vec<_> = flight.rays().to_vec();
-        let hits = tracer.advance(&mut flight, &packing.positions, &packing.radii, &packing.material, 0.02);
-        force += hits.iter().map(|hit| law.force(hit, 1.0, &medium)).sum::<Vec3>();
+        let hits = advance(&mut tracer, &mut flight, &packing, 0.02);
+        force += hits.iter().map(|hit| law.force(hit, WHATEVER, &medium)).sum::<Vec3>();
         let bounced: Vec3 =
             hits.iter().map(|h| (h.direction_out * h.reflectance - h.direction_in) * h.power_in).sum();
         gone += rays.iter().map(|r| r.direction * r.power).sum::<Vec3>() + bounced - momentum(&flight);
@@ -228,15 +240,11 @@ fn val_bounces_between_two_grains_by_hand() {
     one.start = [0.0; 3].map(Quantity);
     one.radius = Quantity(1e-9);
     one.strength = Strength::Power(Quantity(2.0));
-    let region = default_region(&grains.positions, &grains.radii, std::slice::from_ref(&one));
-    let mut tracer = Tracer::new(region, vec![CERAMIC], 0.0);
+    let mut tracer = Tracer::new(FOLLOW_ALL, vec![CERAMIC]);
     let mut flight = Flight::default();
     flight.launch(&one, &Medium::default(), 1, 0, 0);
-    let mut advance = |flight: &mut Flight, distance: f64| {
-        tracer.advance(flight, &grains.positions, &grains.radii, &grains.material, distance).to_vec()
-    };
-    assert!(advance(&mut flight, 0.999_999).is_empty());
-    let hits = advance(&mut flight, 6.000_002);
+    assert!(advance(&mut tracer, &mut flight, &grains, 0.999_999).is_empty());
+    let hits = advance(&mut tracer, &mut flight, &grains, 6.000_002);
     assert_eq!(hits.iter().map(|hit| hit.grain).collect::<Vec<_>>(), [1, 0, 1, 0]);
     let reflectance = (17.0_f64 / 19.0).powi(2);
     for (bounce, hit) in (0..).zip(&hits) {
@@ -247,7 +255,7 @@ fn val_bounces_between_two_grains_by_hand() {
     }
     assert!((flight.rays()[0].position().x + 1.0).abs() < 2e-6);
     // Caught for ever, but its power is not: it ends when nothing is left.
-    advance(&mut flight, f64::INFINITY);
+    advance(&mut tracer, &mut flight, &grains, f64::INFINITY);
     assert!(flight.rays().is_empty());
 }
 
@@ -258,16 +266,12 @@ fn val_moving_grains_do_not_swallow_rays() {
     let mut one = beam(Vec3::AXES[0], 1, Pattern::Sunflower);
     one.start = [0.0; 3].map(Quantity);
     one.radius = Quantity(0.1);
-    let region = default_region(&grains.positions, &grains.radii, std::slice::from_ref(&one));
-    let mut tracer = Tracer::new(region, vec![CERAMIC], 0.0);
+    let mut tracer = Tracer::new(FOLLOW_ALL, vec![CERAMIC]);
     let mut flight = Flight::default();
     flight.launch(&one, &Medium::default(), 1, 0, 0);
-    let mut advance = |flight: &mut Flight, grains: &Packing, distance: f64| {
-        tracer.advance(flight, &grains.positions, &grains.radii, &grains.material, distance).to_vec()
-    };
-    advance(&mut flight, &grains, 1.0);
+    advance(&mut tracer, &mut flight, &grains, 1.0);
     grains.positions[0].x = 1.5;
-    let hits = advance(&mut flight, &grains, 1.0);
+    let hits = advance(&mut tracer, &mut flight, &grains, 1.0);
     assert_eq!(hits.len(), 1);
     assert!((hits[0].point.x - 1.0).abs() < 1e-15 && flight.rays()[0].position().x < 0.1);
 
@@ -275,7 +279,7 @@ fn val_moving_grains_do_not_swallow_rays() {
     let mut flight = Flight::default();
     flight.launch(&one, &Medium::default(), 1, 0, 0);
     grains.positions = vec![Vec3::new(0.9, 0.0, 0.0), Vec3::new(-0.9, 0.0, 0.0)];
-    let hits = advance(&mut flight, &grains, 1.0);
+    let hits = advance(&mut tracer, &mut flight, &grains, 1.0);
     let count = flight.pulses()[0];
     assert!(hits.len() < 100 && hits.len() > 10 && flight.rays().is_empty());
     let out = count.power_truncated + count.power_absorbed + count.power_escaped;
@@ -288,14 +292,12 @@ fn val_chopped_flight_is_one_flight() {
     let packing = Packing::random(800, 0.06, 4);
     let beam = beam(Vec3::new(0.3, -0.5, 0.8).normalized(), 2000, Pattern::Random);
     let (whole, hits) = packing.shoot(&beam, 0.01, 7);
-    let region = default_region(&packing.positions, &packing.radii, std::slice::from_ref(&beam));
-    let mut tracer = Tracer::new(region, vec![CERAMIC], 0.01);
+    let mut tracer = Tracer::new(Ends { truncation: 0.01, ..FOLLOW_ALL }, vec![CERAMIC]);
     let mut flight = Flight::default();
     flight.launch(&beam, &Medium::default(), 7, 0, 0);
     let mut chopped = Vec::new();
     while !flight.rays().is_empty() {
-        let (positions, radii) = (&packing.positions, &packing.radii);
-        chopped.extend_from_slice(tracer.advance(&mut flight, positions, radii, &packing.material, 0.007));
+        chopped.extend(advance(&mut tracer, &mut flight, &packing, 0.007));
     }
     let key = |hit: &Hit| [hit.point.x, hit.point.y, hit.point.z, hit.power_in].map(f64::to_bits);
     let sorted = |hits: &[Hit]| {
@@ -319,11 +321,10 @@ fn val_chopped_flight_is_one_flight() {
 fn val_same_bits_for_any_number_of_threads_and_after_a_restart() {
     let packing = Packing::random(500, 0.06, 8);
     let beam = beam(Vec3::AXES[2], 3000, Pattern::Random);
-    let region = default_region(&packing.positions, &packing.radii, std::slice::from_ref(&beam));
     let run = |threads: usize, restart: bool| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
-            let mut tracer = Tracer::new(region.clone(), vec![CERAMIC], 0.0);
+            let mut tracer = Tracer::new(FOLLOW_ALL, vec![CERAMIC]);
             let mut flight = Flight::default();
             let mut positions = packing.positions.clone();
             let (mut hits, mut states) = (Vec::new(), Vec::new());
@@ -331,20 +332,15 @@ fn val_same_bits_for_any_number_of_threads_and_after_a_restart() {
                 if step % 20 == 0 {
                     flight.launch(&beam, &Medium::default(), 2, 0, step / 20);
                 }
-                hits.extend_from_slice(tracer.advance(
-                    &mut flight,
-                    &positions,
-                    &packing.radii,
-                    &packing.material,
-                    0.04,
-                ));
+                let targets = Targets { positions: &positions, ..packing.targets() };
+                tracer.advance(&mut flight, &targets, 0.04, |batch| hits.extend_from_slice(batch));
                 for (grain, position) in positions.iter_mut().enumerate() {
                     *position += Vec3::AXES[grain % 3] * 0.0007;
                 }
                 if restart {
                     let text = postcard::to_stdvec(&flight).unwrap();
                     flight = postcard::from_bytes(&text).unwrap();
-                    tracer = Tracer::new(region.clone(), vec![CERAMIC], 0.0);
+                    tracer = Tracer::new(FOLLOW_ALL, vec![CERAMIC]);
                 }
                 states.push(flight.clone());
             }
