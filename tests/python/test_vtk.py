@@ -60,10 +60,22 @@ def test_grains_stand_in_the_order_of_their_names(folder, frame, time):
 def test_bonds_are_lines_between_grains(folder):
     bonds = read(folder / "frames/bonds-00001.vtp")
     assert bonds.GetNumberOfLines() == 2
+    # In memory they join places [4, 3] and [2, 1], and the grain named k is at place 4 - k.
     ends = [[bonds.GetCell(line).GetPointId(end) for end in range(2)] for line in range(2)]
-    assert ends == [[4, 3], [2, 1]]
-    assert np.array_equal(field(bonds.GetCellData(), "strain"), [0.125, -0.25])
+    assert ends == [[0, 1], [2, 3]]
+    cells = bonds.GetCellData()
+    assert np.array_equal(field(cells, "grain_i"), [0, 2])
+    assert np.array_equal(field(cells, "grain_j"), [1, 3])
+    assert np.array_equal(field(cells, "strain"), [0.125, -0.25])
     assert bonds.GetCell(0).GetPoints().GetPoint(1) == (1.0, 0.5, -0.75)
+
+
+def test_points_of_bonds_are_the_grains_of_these_names(folder):
+    bonds = read(folder / "frames/bonds-00001.vtp")
+    grains = read(folder / "frames/grains-00001.vtp")
+    assert np.array_equal(field(bonds.GetPointData(), "id"), field(grains.GetPointData(), "id"))
+    places = [vtk_to_numpy(data.GetPoints().GetData()) for data in (bonds, grains)]
+    assert np.array_equal(*places)
 
 
 def test_rays_have_direction_and_power(folder):

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use agglo::math::Vec3;
 use agglo::particles::{Particles, Row};
 use agglo::record::Series;
-use agglo::record::frames::{Collection, Field, write_grains, write_lines, write_rays};
+use agglo::record::frames::{Collection, Field, write_bonds, write_grains, write_rays};
 
 /// Five grains; the one named k is in memory at place 4 - k.
 fn grains(time: f64) -> Particles {
@@ -56,13 +56,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         write_grains(&path("grains"), time, &grains, &[Field::new("cluster", clusters.as_slice())])?;
         let strain = [0.125, -0.25];
         let pairs = [[4, 3], [2, 1]];
-        write_lines(
-            &path("bonds"),
-            time,
-            &grains.position,
-            &pairs,
-            &[Field::new("strain", strain.as_slice())],
-        )?;
+        write_bonds(&path("bonds"), time, &grains, &pairs, &[Field::new("strain", strain.as_slice())])?;
         let directions = [Vec3::AXES[2], Vec3::new(0.6, 0.0, 0.8)];
         write_rays(&path("rays"), time, &grains.position[..2], &directions, &[1.5, 0.75])?;
         list.add(time, &name("grains"));

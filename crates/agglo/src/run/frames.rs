@@ -9,7 +9,7 @@ use crate::contact::network::Bond;
 use crate::math::Vec3;
 use crate::particles::{ColumnValues, Particles};
 use crate::record::RecordError;
-use crate::record::frames::{Collection, Field, write_grains, write_lines, write_rays};
+use crate::record::frames::{Collection, Field, write_bonds, write_grains, write_rays};
 
 /// The lists of frames; a checkpoint holds them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -58,9 +58,14 @@ impl Frames {
         self.lists.grains.write(&self.folder.join("grains.pvd"))
     }
 
-    /// Writes the bonds at `time` [s] as lines between centres.
+    /// Writes the bonds at `time` [s] as lines between centres, in the order of the names that they join.
     pub fn bonds(&mut self, time: f64, grains: &Particles, bonds: &[Bond]) -> Result<(), RecordError> {
         let name = next_name("bonds", &self.lists.bonds);
+        let mut bonds: Vec<&Bond> = bonds.iter().collect();
+        bonds.sort_by_key(|bond| {
+            let [a, b] = bond.grains.map(|grain| grains.id[grain as usize]);
+            [a.min(b), a.max(b)]
+        });
         let pairs: Vec<[u32; 2]> = bonds.iter().map(|bond| bond.grains).collect();
         let stretch: Vec<f64> = bonds
             .iter()
@@ -70,7 +75,7 @@ impl Frames {
             })
             .collect();
         let fields = [Field::new("stretch", ColumnValues::Scalars(&stretch))];
-        write_lines(&self.folder.join(&name), time, &grains.position, &pairs, &fields)?;
+        write_bonds(&self.folder.join(&name), time, grains, &pairs, &fields)?;
         self.lists.bonds.add(time, &name);
         self.lists.bonds.write(&self.folder.join("bonds.pvd"))
     }

@@ -1,7 +1,7 @@
 //! Frames for ParaView and VTK: points with fields, and collections of files with their times.
 //!
-//! Files are VTK's XML PolyData (`.vtp`) with raw appended data, little-endian, and a `.pvd` list of them. Grains stand
-//! in the order of their names in every frame, whatever their order in memory.
+//! Files are VTK's XML PolyData (`.vtp`) with raw appended data, little-endian, and a `.pvd` list of them. Grains, and
+//! the grains that bonds join, stand in the order of their names in every frame, whatever their order in memory.
 
 mod collection;
 mod polydata;
@@ -43,8 +43,7 @@ pub fn write_grains(
     grains: &Particles,
     extra: &[Field<'_>],
 ) -> Result<(), RecordError> {
-    let mut order: Vec<u32> = (0..grains.len() as u32).collect();
-    order.sort_by_key(|&at| grains.id[at as usize]);
+    let order = by_name(grains);
     let columns = grains.columns().into_iter().filter(|(column, _)| column.name != "position");
     let fields = columns.map(|(column, values)| Field::new(name_with_unit(column.name, column.unit), values));
     let frame = PolyData {
@@ -58,21 +57,57 @@ pub fn write_grains(
     frame.write(path)
 }
 
-/// Writes lines between points at `time` [s]: bonds. `pairs` [m, 2] are places in `points` [n, 3] [m]; `fields` have
-/// one value per line [m].
+/// Writes bonds at `time` [s] as lines between centres of grains. `pairs` [m, 2] are places in memory; `fields` have one
+/// value per bond [m].
+///
+/// Points are all grains in the order of their names, with these in `id`; lines have the names of what they join in
+/// `grain_i` and `grain_j`, the lower first, and begin at that grain.
 ///
 /// # Errors
-/// [`RecordError::Shape`] where a pair names no point or a field is of another length, [`RecordError::File`].
-pub fn write_lines(
+/// [`RecordError::Shape`] where a pair names no grain or a field is of another length, [`RecordError::File`].
+pub fn write_bonds(
     path: &Path,
     time: f64,
-    points: &[Vec3],
+    grains: &Particles,
     pairs: &[[u32; 2]],
     fields: &[Field<'_>],
 ) -> Result<(), RecordError> {
-    let cells = Cells::Lines(pairs);
-    PolyData { time, points, order: None, point_fields: Vec::new(), cells, cell_fields: fields.to_vec() }
-        .write(path)
+    let order = by_name(grains);
+    let mut place = vec![0_u32; order.len()];
+    (0..).zip(&order).for_each(|(to, &from)| place[from as usize] = to);
+    let named = pairs.iter().flatten().max().map_or(0, |&end| end as usize + 1);
+    if named > order.len() {
+        let (path, what) = (path.to_owned(), "the list of points".to_owned());
+        return Err(RecordError::Shape { path, what, found: order.len(), expected: named });
+    }
+    // Places follow names, so that the lower place is the lower name.
+    let ends = |pair: &[u32; 2]| {
+        let [a, b] = pair.map(|grain| place[grain as usize]);
+        [a.min(b), a.max(b)]
+    };
+    let lines: Vec<[u32; 2]> = pairs.iter().map(ends).collect();
+    let name = |place: u32| grains.id[order[place as usize] as usize];
+    let [i, j] = [0, 1].map(|end| lines.iter().map(|line| name(line[end])).collect::<Vec<u32>>());
+    let names = [Field::new("grain_i", i.as_slice()), Field::new("grain_j", j.as_slice())];
+    // The order of points is that of the lines' ends already.
+    let points: Vec<Vec3> = order.iter().map(|&at| grains.position[at as usize]).collect();
+    let ids: Vec<u32> = order.iter().map(|&at| grains.id[at as usize]).collect();
+    let frame = PolyData {
+        time,
+        points: &points,
+        order: None,
+        point_fields: vec![Field::new("id", ids.as_slice())],
+        cells: Cells::Lines(&lines),
+        cell_fields: names.into_iter().chain(fields.iter().cloned()).collect(),
+    };
+    frame.write(path)
+}
+
+/// Places of the grains in memory, in the order of their names.
+fn by_name(grains: &Particles) -> Vec<u32> {
+    let mut order: Vec<u32> = (0..grains.len() as u32).collect();
+    order.sort_unstable_by_key(|&at| grains.id[at as usize]);
+    order
 }
 
 /// Writes rays in flight at `time` [s]: where they are [m] `[n, 3]`, where they go (unit vectors) `[n, 3]`, and the
@@ -98,6 +133,41 @@ pub fn write_rays(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Grains whose names fall where their places in memory rise, and skip one.
+    fn backwards() -> Particles {
+        let mut grains = Particles::default();
+        for id in [7_u32, 5, 2] {
+            let position = Vec3::new(f64::from(id), 0.0, 0.0);
+            grains.push(crate::particles::Row { id, position, ..Default::default() });
+        }
+        grains
+    }
+
+    #[test]
+    fn bonds_carry_the_names_of_their_grains() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("bonds.vtp");
+        let stretch = [0.5, -0.5];
+        let fields = [Field::new("stretch", stretch.as_slice())];
+        write_bonds(&path, 0.0, &backwards(), &[[0, 2], [2, 1]], &fields).unwrap();
+        let frame = Frame::read(&path).unwrap();
+        let names = |name: &str| match frame.field(name) {
+            Some(FieldValues::Integers(names)) => names.clone(),
+            other => panic!("{name}: {other:?}"),
+        };
+        assert_eq!(
+            (names("id"), names("grain_i"), names("grain_j")),
+            (vec![2, 5, 7], vec![2, 2], vec![7, 5])
+        );
+        assert_eq!(frame.lines, [[0, 2], [0, 1]]);
+        for (place, name) in frame.points.iter().zip(names("id")) {
+            assert_eq!(place[0], f64::from(name), "points are where the grains of these names are");
+        }
+        assert_eq!(frame.field("stretch"), Some(&FieldValues::Scalars(stretch.to_vec())));
+        let lost = write_bonds(&path, 0.0, &backwards(), &[[0, 3]], &[]).unwrap_err().to_string();
+        assert!(lost.ends_with("the list of points has 3 values where 4 are due"), "{lost}");
+    }
 
     #[test]
     fn units_become_part_of_the_name() {

@@ -118,19 +118,17 @@ fn has_strays(points: &[[f64; 3]]) -> bool {
     usual > 0.0 && most > STRAY * usual
 }
 
-/// The grains that bonds join. Bonds have points of their own, in another order, at the same places.
+/// Places in the frame of the grains that bonds join, by their names.
 fn between(grains: &Frame, bonds: &Frame) -> Vec<[u32; 2]> {
-    let compare = |a: &[f64; 3], b: &[f64; 3]| {
-        a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])).then(a[2].total_cmp(&b[2]))
+    let names = |frame: &Frame, field: &str| match frame.field(field) {
+        Some(FieldValues::Integers(names)) => names.clone(),
+        _ => Vec::new(),
     };
-    let points = &grains.points;
-    let mut order: Vec<u32> = (0..points.len() as u32).collect();
-    order.sort_unstable_by(|&a, &b| compare(&points[a as usize], &points[b as usize]));
-    let grain = |end: u32| {
-        let place = &bonds.points[end as usize];
-        order.binary_search_by(|&at| compare(&points[at as usize], place)).ok().map(|at| order[at])
-    };
-    bonds.lines.iter().filter_map(|&[a, b]| Some([grain(a)?, grain(b)?])).collect()
+    // They rise: a frame where they do not is damaged and not read.
+    let known = names(grains, NAMES);
+    let place = |name: &u32| known.binary_search(name).ok().map(|at| at as u32);
+    let ends = [names(bonds, "grain_i"), names(bonds, "grain_j")];
+    ends[0].iter().zip(&ends[1]).filter_map(|(i, j)| Some([place(i)?, place(j)?])).collect()
 }
 
 /// Keeps one of `share` points: by their names, so that a grain is in all frames or in none. Gives their places.

@@ -4,7 +4,7 @@ use super::block::STEPS;
 use super::*;
 use crate::math::Vec3;
 use crate::particles::{Particles, Row};
-use crate::record::frames::{write_grains, write_lines, write_rays};
+use crate::record::frames::{write_bonds, write_grains, write_rays};
 
 fn grains(count: u32, frame: usize) -> Particles {
     let mut grains = Particles::default();
@@ -85,13 +85,14 @@ fn bonds_and_rays_are_packed_and_damaged_ones_left_out() {
     let (folder, paths) = folder(2, 5);
     let place = |name: &str| folder.path().join(name);
     let [here, way] = [Vec3::new(7.0, 8.0, 9.0), Vec3::new(0.0, 0.6, -0.8)];
-    // Points of bonds are in another order than the grains: here the other way round.
-    let points: Vec<Vec3> = grains(5, 0).position.iter().rev().copied().collect();
-    write_lines(&place("bonds_000000.vtp"), 0.0, &points, &[[0, 3]], &[]).unwrap();
+    // Grains in memory stand in another order than their names: here the other way round.
+    let mut backwards = grains(5, 0);
+    backwards.id.reverse();
+    write_bonds(&place("bonds_000000.vtp"), 0.0, &backwards, &[[0, 3]], &[]).unwrap();
     write_rays(&place("rays_000000.vtp"), 0.0, &[here, -here], &[way, way], &[4.0, 2.0]).unwrap();
     std::fs::write(place("rays_000001.vtp"), "nothing").unwrap();
     let replay = replay(&paths).unwrap();
-    assert_eq!(whole(&replay, 0, "bonds"), [4, 1]);
+    assert_eq!(whole(&replay, 0, "bonds"), [1, 4]);
     let close = |name: &str, wanted: [f64; 2]| {
         let found = unpacked(&replay, 0, name);
         assert!(found.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-3), "{name}: {found:?}");
@@ -124,7 +125,7 @@ fn large_runs_are_thinned_and_said() {
     let chain: Vec<[u32; 2]> = (0..599).map(|grain| [grain, grain + 1]).collect();
     let skip: Vec<[u32; 2]> = (0..597).map(|grain| [grain, grain + 3]).collect();
     let bonds = [chain, skip].concat();
-    write_lines(&folder.path().join("bonds_000039.vtp"), 0.0, &last.position, &bonds, &[]).unwrap();
+    write_bonds(&folder.path().join("bonds_000039.vtp"), 0.0, &last, &bonds, &[]).unwrap();
     let whole = replay(&paths).unwrap();
     assert!(whole.notes.is_empty() && whole.plan.frames.len() == 40 && whole.plan.share == 1);
     let bytes = whole.packed.len();
