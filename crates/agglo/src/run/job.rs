@@ -13,6 +13,7 @@ use super::hard::HardState;
 use super::recorder::RecorderState;
 use super::summary::Summary;
 use super::tables::{Layout, Tables};
+use super::timers::Moment;
 use crate::engine::soft;
 
 /// What a checkpoint holds: the resolved scenario, the job's state and where the recorder stands.
@@ -62,8 +63,12 @@ pub trait Job: Sized {
     /// Adds its state to the rest of a checkpoint.
     fn save(&self, rest: Saved<()>) -> AnySaved<'_>;
 
+    /// Where it stands in time, for those who ask what is due.
+    fn moment(&self) -> Moment;
     /// Simulated time [s].
-    fn time(&self) -> f64;
+    fn time(&self) -> f64 {
+        self.moment().time
+    }
     /// Steps, or events, so far.
     fn step(&self) -> u64;
     /// What those are called.

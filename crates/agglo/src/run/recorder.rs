@@ -9,13 +9,21 @@ use super::folder::Folder;
 use super::frames::{FrameLists, Frames};
 use super::job::Job;
 use super::tables::{Tables, TablesState};
-use super::timers::Timers;
+use super::timers::{Moment, Timers};
+
+/// How many rows and frames that were due fell into one with another, since one step passed both times.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+struct Merged {
+    rows: u64,
+    frames: u64,
+}
 
 /// Where the recorder stands; a checkpoint holds it, so that files can be cut back to it.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct RecorderState {
     timers: Timers,
     last_row: f64,
+    merged: Merged,
     tables: TablesState,
     frames: FrameLists,
 }
@@ -25,6 +33,7 @@ pub struct RecorderState {
 pub struct Recorder {
     timers: Timers,
     last_row: f64,
+    merged: Merged,
     tables: Tables,
     frames: Frames,
 }
@@ -38,6 +47,7 @@ impl Recorder {
         Ok(Self {
             timers: Timers::new(&scenario.output),
             last_row: -1.0,
+            merged: Merged::default(),
             tables: Tables::create(J::TABLES, folder.root())?,
             frames: Frames::new(&folder.frames(), FrameLists::default()),
         })
@@ -51,6 +61,7 @@ impl Recorder {
         Ok(Self {
             timers: state.timers,
             last_row: state.last_row,
+            merged: state.merged,
             tables: Tables::resume(J::TABLES, folder.root(), &state.tables)?,
             frames: Frames::new(&folder.frames(), state.frames),
         })
@@ -61,6 +72,7 @@ impl Recorder {
         RecorderState {
             timers: self.timers,
             last_row: self.last_row,
+            merged: self.merged,
             tables: self.tables.state(),
             frames: self.frames.lists().clone(),
         }
@@ -76,12 +88,14 @@ impl Recorder {
     /// # Errors
     /// [`RecordError`] where a file cannot be written.
     pub fn record_due<J: Job>(&mut self, job: &mut J) -> Result<(), RecordError> {
-        let time = job.time();
+        let now = job.moment();
         job.record_events(&mut self.tables)?;
-        if self.timers.rows.is_due(time) {
+        if let Some(merged) = self.timers.rows.take(&now) {
+            self.merged.rows += merged;
             self.write_rows(job)?;
         }
-        if self.timers.frames.is_due(time) {
+        if let Some(merged) = self.timers.frames.take(&now) {
+            self.merged.frames += merged;
             self.write_frame(job)?;
         }
         Ok(())
@@ -103,9 +117,22 @@ impl Recorder {
         self.sync()
     }
 
-    /// Whether a checkpoint is due at `time` [s].
-    pub fn checkpoint_is_due(&mut self, time: f64) -> bool {
-        self.timers.checkpoints.is_due(time)
+    /// Whether a checkpoint is due.
+    pub fn checkpoint_is_due(&mut self, now: &Moment) -> bool {
+        self.timers.checkpoints.take(now) > 0
+    }
+
+    /// In words, how much was due that steps were too long for.
+    pub fn merged(&self) -> Option<String> {
+        let Merged { rows, frames } = self.merged;
+        let of = |count: u64, what: &str| (count > 0).then(|| format!("{count} {what}"));
+        let parts: Vec<String> = [of(rows, "rows"), of(frames, "frames")].into_iter().flatten().collect();
+        (!parts.is_empty()).then(|| {
+            format!(
+                "{} that were due fell into one with others: steps were longer than the intervals in [output]",
+                parts.join(" and ")
+            )
+        })
     }
 
     /// Hands all rows to the operating system, for those who look at the tables while the run goes on.

@@ -174,7 +174,7 @@ impl Record {
     /// Writes what is due.
     fn go_on<J: Job>(mut self, job: &mut J) -> Result<Self, RunError> {
         self.recorder.record_due(job)?;
-        if self.recorder.checkpoint_is_due(job.time()) {
+        if self.recorder.checkpoint_is_due(&job.moment()) {
             self.save(job)?;
         }
         if job.is_ray_flight() && self.frames[1].is_none() {

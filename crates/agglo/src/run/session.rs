@@ -124,7 +124,7 @@ impl<J: Job> Session<J> {
                 return Err(RunError::Step { error, checkpoints: self.folder.checkpoints() });
             }
             self.recorder.record_due(&mut self.job)?;
-            if self.recorder.checkpoint_is_due(self.job.time()) {
+            if self.recorder.checkpoint_is_due(&self.job.moment()) {
                 self.save()?;
             }
             if self.told.elapsed() >= TELL_EVERY {
@@ -146,6 +146,7 @@ impl<J: Job> Session<J> {
         self.recorder.record_end(&mut self.job, &self.folder)?;
         let summary = self.job.summary(&self.scenario, self.wall_s());
         let text = summary.to_json();
+        self.notes.extend(self.recorder.merged());
         self.save()?;
         atomic::write(&self.folder.summary(), text.as_bytes())?;
         let _ = self.tell(observer);

@@ -1,42 +1,117 @@
 //! When what is due.
+//!
+//! Turn k is due at k times the interval, counted and not summed, so that turns never drift. It is taken at the first step
+//! whose time is at or after that. A clock that adds up steps loses some of them to rounding; what it has lost counts as
+//! reached, and so do [`ROUND_OFF`] of the time itself. So a turn that coincides with a step is taken at this step and not
+//! at the next. Where one step passes several turns they are taken as one: the state between is not known.
+//!
+//! While rays fly another interval can hold besides: its turns count from the latest launch, and there is a last one when
+//! the rays are gone.
 
 use serde::{Deserialize, Serialize};
 
-use crate::scenario::Output;
+use crate::scenario::{Output, PulseOutput};
 use crate::units::Time;
+
+/// Part of the time within which a turn counts as reached: the interval, its multiple, the step and the sum of the steps
+/// are each rounded by half of the last bit.
+pub const ROUND_OFF: f64 = 4.0 * f64::EPSILON;
+
+/// Where a simulation stands in time, for those who ask what is due.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Moment {
+    /// Simulated time [s].
+    pub time: f64,
+    /// What rounding has taken from it [s].
+    pub lag: f64,
+    /// When the latest pulse started [s], from its launch until its rays are gone.
+    pub pulse: Option<f64>,
+}
+
+impl Moment {
+    /// Whether `due` [s] is reached.
+    fn reaches(&self, due: f64) -> bool {
+        self.time >= due || self.time + self.lag + ROUND_OFF * self.time >= due
+    }
+}
 
 /// Something that is due at equal intervals of simulated time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Timer {
+    start: f64,
     interval: f64,
     next: u64,
 }
 
 impl Timer {
-    fn new(interval: Option<Time>, first: u64) -> Self {
-        Self { interval: interval.map_or(f64::INFINITY, Time::si), next: first }
+    fn new(interval: Option<Time>, next: u64) -> Self {
+        Self { start: 0.0, interval: interval.map_or(f64::INFINITY, Time::si), next }
     }
 
     fn turn(&self, number: u64) -> f64 {
-        if number == 0 { 0.0 } else { number as f64 * self.interval }
+        if number == 0 { self.start } else { self.start + number as f64 * self.interval }
     }
 
-    /// Time [s] of the next turn: a multiple of the interval, so that it does not drift.
+    /// Time [s] of the next turn.
     pub fn next(&self) -> f64 {
         self.turn(self.next)
     }
 
-    /// Whether it is due at `time` [s]; then the next turn is the first after that.
-    pub fn is_due(&mut self, time: f64) -> bool {
-        if time < self.next() {
-            return false;
+    /// How many turns were reached since the last call; the next one is the first that is not.
+    pub fn take(&mut self, now: &Moment) -> u64 {
+        if !now.reaches(self.next()) {
+            return 0;
         }
-        let passed = (time / self.interval) as u64;
-        self.next = self.next.max(passed);
-        while time >= self.next() {
+        let first = self.next;
+        // Near to the last turn at once, and from there one by one, as rounding has it.
+        let passed = ((now.time - self.start) / self.interval) as u64;
+        self.next = first.max(passed.saturating_sub(1));
+        while now.reaches(self.next()) {
             self.next += 1;
         }
-        true
+        self.next - first
+    }
+}
+
+/// What is due at equal intervals, and more often while rays fly.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Schedule {
+    always: Timer,
+    /// Interval while rays fly [s]; none if they change nothing.
+    in_pulses: Option<f64>,
+    /// Counts from the latest launch while rays fly.
+    pulse: Option<Timer>,
+}
+
+impl Schedule {
+    fn new(always: Option<Time>, in_pulses: Option<Time>) -> Self {
+        Self { always: Timer::new(always, 0), in_pulses: in_pulses.map(Time::si), pulse: None }
+    }
+
+    /// Time [s] of the next turn.
+    pub fn next(&self) -> f64 {
+        self.always.next().min(self.pulse.map_or(f64::INFINITY, |timer| timer.next()))
+    }
+
+    /// Whether it is due, and then how many turns of one interval fell into one with another.
+    pub fn take(&mut self, now: &Moment) -> Option<u64> {
+        let turns = [self.always.take(now), self.take_in_pulse(now)];
+        turns.iter().any(|turns| *turns > 0).then(|| turns.iter().map(|turns| turns.saturating_sub(1)).sum())
+    }
+
+    fn take_in_pulse(&mut self, now: &Moment) -> u64 {
+        let Some(interval) = self.in_pulses else { return 0 };
+        let (before, start) = (self.pulse, now.pulse);
+        let Some(start) = start else {
+            // A last turn shows that the rays are gone.
+            self.pulse = None;
+            return u64::from(before.is_some());
+        };
+        let mut timer =
+            before.filter(|timer| timer.start == start).unwrap_or(Timer { start, interval, next: 0 });
+        let turns = timer.take(now);
+        self.pulse = Some(timer);
+        turns
     }
 }
 
@@ -44,9 +119,9 @@ impl Timer {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Timers {
     /// Rows of the tables.
-    pub rows: Timer,
+    pub rows: Schedule,
     /// Frames.
-    pub frames: Timer,
+    pub frames: Schedule,
     /// Checkpoints.
     pub checkpoints: Timer,
 }
@@ -54,9 +129,10 @@ pub struct Timers {
 impl Timers {
     /// The timers as the scenario has them; the first checkpoint is written by hand.
     pub fn new(output: &Output) -> Self {
+        let PulseOutput { series, frames } = output.pulses.clone().unwrap_or_default();
         Self {
-            rows: Timer::new(output.series, 0),
-            frames: Timer::new(output.frames, 0),
+            rows: Schedule::new(output.series, series),
+            frames: Schedule::new(output.frames, frames),
             checkpoints: Timer::new(output.checkpoints, 1),
         }
     }
@@ -72,35 +148,95 @@ mod tests {
     use super::*;
     use crate::units::Quantity;
 
+    fn every(seconds: f64) -> Option<Time> {
+        Some(Quantity(seconds))
+    }
+
+    fn at(time: f64) -> Moment {
+        Moment { time, ..Moment::default() }
+    }
+
     /// Turns are multiples of the interval to the last bit, however many there were.
     #[test]
     fn turns_do_not_drift() {
-        let mut timer = Timer::new(Some(Quantity(0.1)), 0);
+        let mut timer = Timer::new(every(0.1), 0);
         for turn in 0..1000_u64 {
             assert_eq!(timer.next(), if turn == 0 { 0.0 } else { turn as f64 * 0.1 });
-            assert!(!timer.is_due(timer.next() - 1e-9) && timer.is_due(timer.next()));
+            assert_eq!([timer.take(&at(timer.next() - 1e-9)), timer.take(&at(timer.next()))], [0, 1]);
         }
     }
 
     #[test]
-    fn turns_that_were_missed_count_as_one() {
-        let mut timer = Timer::new(Some(Quantity(1.0)), 1);
-        assert!(!timer.is_due(0.5) && timer.is_due(7.5) && !timer.is_due(7.9));
-        assert_eq!(timer.next(), 8.0);
-        let never = Timer::new(None, 1);
-        assert_eq!(never.next(), f64::INFINITY);
+    fn turns_that_one_step_passes_are_counted() {
+        let mut timer = Timer::new(every(1.0), 1);
+        assert_eq!([0.5, 7.5, 7.9, 8.0].map(|time| timer.take(&at(time))), [0, 7, 0, 1]);
+        assert_eq!(timer.next(), 9.0);
+        assert_eq!(Timer::new(None, 1).next(), f64::INFINITY);
+        // A clock that has come far at once.
+        assert_eq!(Timer::new(every(1.0), 1).take(&at(1e12 + 0.5)), 1_000_000_000_000);
+    }
+
+    /// Steps are summed with rounding, as engines do it, and each that coincides with a turn takes it.
+    #[test]
+    fn a_turn_at_a_step_is_taken_at_this_step() {
+        // Step, steps between turns, steps.
+        let cases =
+            [(0.02, 1, 47), (1e-6, 10, 1000), (1e-5, 7, 100_000), (0.1, 3, 3000), (1.0 / 3.0, 1, 30_000)];
+        for (step, share, count) in cases {
+            let mut timer = Timer::new(every(step * f64::from(share)), 0);
+            let (mut time, mut lag) = (0.0, 0.0);
+            assert_eq!(timer.take(&at(0.0)), 1);
+            for number in 1..=count {
+                let next: f64 = time + step;
+                lag += crate::math::rounding_of_sum(time, step);
+                time = next;
+                let due = u64::from(number % share == 0);
+                assert_eq!(timer.take(&Moment { time, lag, pulse: None }), due, "step {number} of {step} s");
+            }
+        }
     }
 
     #[test]
     fn the_next_thing_is_the_first_of_all() {
-        let every = |seconds| Some(Quantity(seconds));
         let output =
             Output { series: every(2.0), frames: every(3.0), checkpoints: every(0.5), ..Output::default() };
         let mut timers = Timers::new(&output);
         assert_eq!(timers.next(), 0.0);
-        assert!(timers.rows.is_due(0.0) && timers.frames.is_due(0.0) && !timers.checkpoints.is_due(0.0));
+        assert_eq!((timers.rows.take(&at(0.0)), timers.frames.take(&at(0.0))), (Some(0), Some(0)));
+        assert_eq!(timers.checkpoints.take(&at(0.0)), 0);
         assert_eq!(timers.next(), 0.5);
-        assert!(timers.checkpoints.is_due(2.6));
+        assert_eq!(timers.checkpoints.take(&at(2.6)), 5);
         assert_eq!(timers.next(), 2.0);
+    }
+
+    /// Every 1 s; every 0.1 s from a launch at 2.05 s until the rays are gone at 2.33 s, and again from 2.5 s.
+    #[test]
+    fn turns_are_denser_while_rays_fly() {
+        let mut rows = Schedule::new(every(1.0), every(0.1));
+        let mut taken = Vec::new();
+        for hundredths in 0..=300_u32 {
+            let pulse = match hundredths {
+                205..=232 => Some(2.05),
+                250..=254 => Some(2.5),
+                _ => None,
+            };
+            let now = Moment { pulse, ..at(f64::from(hundredths) / 100.0) };
+            if let Some(merged) = rows.take(&now) {
+                assert_eq!(merged, 0);
+                taken.push(hundredths);
+            }
+        }
+        assert_eq!(taken, [0, 100, 200, 205, 215, 225, 233, 250, 255, 300]);
+    }
+
+    #[test]
+    fn a_launch_while_rays_fly_begins_anew() {
+        let mut rows = Schedule::new(None, every(1.0));
+        let times = [(0.25, 0.25), (0.5, 0.25), (1.25, 0.25), (1.75, 1.75), (2.25, 1.75), (2.75, 1.75)];
+        let taken =
+            times.map(|(time, start)| rows.take(&Moment { pulse: Some(start), ..at(time) }).is_some());
+        assert_eq!(taken, [true, false, true, true, false, true]);
+        assert_eq!(rows.take(&Moment { pulse: Some(1.75), ..at(9.75) }), Some(6));
+        assert_eq!([rows.take(&at(9.8)), rows.take(&at(9.9))], [Some(0), None]);
     }
 }

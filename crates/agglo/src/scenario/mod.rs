@@ -27,4 +27,4 @@ pub use labels::Engine as LawEngine;
 pub(crate) use parse::{Document, load, read};
 pub use parse::{LoadError, schema};
 pub use templates::{TEMPLATES, Template, nearest_template, scenario_templates, template};
-pub use types::{GrainGroup, Measures, Output, Relaxation, Scenario, Start, TimeSpan};
+pub use types::{GrainGroup, Measures, Output, PulseOutput, Relaxation, Scenario, Start, TimeSpan};

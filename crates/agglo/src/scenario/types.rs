@@ -163,6 +163,9 @@ pub struct Output {
     /// Frames for ParaView; a fortieth of the run if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frames: Option<Time>,
+    /// More often while rays fly: from each launch until no ray is left. Not if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pulses: Option<PulseOutput>,
     /// Whether frames have the bonds.
     #[serde(default = "yes")]
     pub bonds: bool,
@@ -174,12 +177,24 @@ pub struct Output {
     pub checkpoints: Option<Time>,
 }
 
+/// How often besides, while rays fly; counted from each launch.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PulseOutput {
+    /// Rows of the tables; as always if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub series: Option<Time>,
+    /// Frames for ParaView; as always if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frames: Option<Time>,
+}
+
 fn yes() -> bool {
     true
 }
 
 impl Default for Output {
     fn default() -> Self {
-        Self { series: None, frames: None, bonds: true, rays: true, checkpoints: None }
+        Self { series: None, frames: None, pulses: None, bonds: true, rays: true, checkpoints: None }
     }
 }

@@ -23,6 +23,8 @@ use super::time_stepped::Steps;
 pub struct Clock {
     /// Simulated time [s].
     pub time: f64,
+    /// What rounding has taken from the sum of the steps [s]; 0 for the event-driven engine.
+    pub lag: f64,
     /// Events dealt with, or steps.
     pub step: u64,
     /// Length of the last step [s]; mean time between two impacts for the event-driven engine.

@@ -56,7 +56,7 @@
 
 use crate::domain::Boundary;
 use crate::engine::SimError;
-use crate::math::Vec3;
+use crate::math::{Vec3, rounding_of_sum};
 
 use super::approach::Approach;
 use super::cascade::Cascade;
@@ -116,6 +116,7 @@ impl Steps {
         let dt = self.length(cloud, speeds);
         // The clock goes on by a bit at least, and comes to the end exactly.
         let next = (clock.time + dt).max(clock.time.next_up()).min(end);
+        let lag = clock.lag + if next == clock.time + dt { rounding_of_sum(clock.time, dt) } else { 0.0 };
         let dt = next - clock.time;
         self.fly(cloud, dt, next);
         if cloud.laws.cools_in_steps() {
@@ -125,7 +126,7 @@ impl Steps {
         self.near.moved(speeds.greatest * dt, speeds.apart * dt);
         self.near.refresh(&cloud.state.spheres, &cloud.volume);
         self.impacts(cloud, next)?;
-        *clock = Clock { time: next, step: clock.step + 1, last_step: dt };
+        *clock = Clock { time: next, lag, step: clock.step + 1, last_step: dt };
         Ok(())
     }
 

@@ -134,6 +134,14 @@ impl Pulses {
         self.schedule[self.state.launched..].iter().map(|launch| launch.time).find(|time| *time > now)
     }
 
+    /// When the latest pulse started [s], from its launch until its rays are gone.
+    pub fn since(&self, now: f64) -> Option<f64> {
+        let (launched, coming) = self.schedule.split_at(self.state.launched);
+        let due = coming.first().filter(|launch| launch.time <= now);
+        let latest = || launched.last().filter(|_| !self.state.flight.rays().is_empty());
+        due.or_else(latest).map(|launch| launch.time)
+    }
+
     /// Longest step [s] from `now` that the rays allow.
     pub fn longest_step(&self, now: f64) -> f64 {
         let due = self.schedule.get(self.state.launched).is_some_and(|launch| launch.time <= now);

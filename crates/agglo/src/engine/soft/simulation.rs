@@ -8,6 +8,7 @@ use crate::contact::network::{BondEvent, Network};
 use crate::contact::pass::Remembered;
 use crate::contact::{Bonds, network::Bond};
 use crate::engine::{Moment, SimError, Warnings};
+use crate::math::rounding_of_sum;
 use crate::measure::Ledger;
 use crate::particles::Particles;
 use crate::scenario::Scenario;
@@ -29,6 +30,8 @@ const SORT_EVERY: u64 = 2000;
 pub struct Clock {
     /// Simulated time [s].
     pub time: f64,
+    /// What rounding has taken from the sum of the steps since the last pulse [s].
+    pub lag: f64,
     /// Accepted steps.
     pub step: u64,
     /// Length of the next step [s], unless a pulse or the end comes first.
@@ -108,8 +111,15 @@ impl Simulation {
         let pulses = Pulses::new(scenario, &system.grains);
         system.rays_are_impulses = pulses.are_impulses();
         let first = step_size::first(scenario, &system);
-        let clock =
-            Clock { time: 0.0, step: 0, next_step: first, last_step: first, iterations: 0, rejected: 0 };
+        let clock = Clock {
+            time: 0.0,
+            lag: 0.0,
+            step: 0,
+            next_step: first,
+            last_step: first,
+            iterations: 0,
+            rejected: 0,
+        };
         system.evaluate_start(first);
         Self {
             system,
@@ -295,9 +305,9 @@ impl Simulation {
     fn advance_clock(&mut self, step: &Step, tried: f64, lands_on: Option<f64>) {
         let clock = &mut self.clock;
         let full = step.dt == tried;
-        clock.time = match lands_on {
-            Some(event) if full => event,
-            _ => clock.time + step.dt,
+        (clock.time, clock.lag) = match lands_on {
+            Some(event) if full => (event, 0.0),
+            _ => (clock.time + step.dt, clock.lag + rounding_of_sum(clock.time, step.dt)),
         };
         // A step cut short by a pulse says little about the next one.
         clock.next_step = if full && lands_on.is_some() { step.next.max(clock.next_step) } else { step.next };

@@ -10,7 +10,7 @@ pub use summary::HardSummary;
 
 use serde::{Deserialize, Serialize};
 
-use crate::engine::hard::{Simulation, SimulationState};
+use crate::engine::hard::{Clock, Simulation, SimulationState};
 use crate::engine::{Engine, SimError};
 use crate::measure::{BreakageRow, DaughterRow, KernelRow};
 use crate::particles::Particles;
@@ -22,6 +22,7 @@ use super::frames::Frames;
 use super::job::{AnySaved, Job, Saved};
 use super::summary::Summary;
 use super::tables::{Layout, Tables};
+use super::timers::Moment;
 use rows::LastRow;
 
 /// What the tables and the summary have to remember of the past; it has no influence on the simulation.
@@ -74,8 +75,9 @@ impl Job for Hard {
         AnySaved::Hard(rest.with(HardState { simulation: self.simulation.state(), memory: self.memory }))
     }
 
-    fn time(&self) -> f64 {
-        self.simulation.clock().time
+    fn moment(&self) -> Moment {
+        let Clock { time, lag, .. } = *self.simulation.clock();
+        Moment { time, lag, pulse: None }
     }
 
     fn step(&self) -> u64 {

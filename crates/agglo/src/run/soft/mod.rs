@@ -8,7 +8,7 @@ pub use summary::{Clusters, EnergyFigures, PulseFigures, SoftSummary};
 use crate::contact::bond::Break;
 use crate::contact::network::BondEvent;
 use crate::engine::SimError;
-use crate::engine::soft::{Simulation, SimulationState};
+use crate::engine::soft::{Clock, Simulation, SimulationState};
 use crate::particles::Particles;
 use crate::record::{Cell, RecordError};
 use crate::scenario::Scenario;
@@ -18,6 +18,7 @@ use super::frames::Frames;
 use super::job::{AnySaved, Job, Saved};
 use super::summary::Summary;
 use super::tables::{Layout, Tables};
+use super::timers::Moment;
 use rows::clusters_of;
 
 /// A run of soft spheres.
@@ -56,8 +57,9 @@ impl Job for Soft {
         AnySaved::Soft(rest.with(self.simulation.state()))
     }
 
-    fn time(&self) -> f64 {
-        self.simulation.clock().time
+    fn moment(&self) -> Moment {
+        let Clock { time, lag, .. } = *self.simulation.clock();
+        Moment { time, lag, pulse: self.simulation.pulses.since(time) }
     }
 
     fn step(&self) -> u64 {

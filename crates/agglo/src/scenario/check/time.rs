@@ -24,15 +24,29 @@ pub(super) fn check(check: &mut Check, scenario: &Scenario) {
         check.positive("start.relax.longest", relax.longest);
         check.positive("start.relax.damping_time", relax.damping_time);
     }
+    output(check, scenario);
+    medium(check, scenario);
+}
+
+fn output(check: &mut Check, scenario: &Scenario) {
     let output = &scenario.output;
-    let intervals =
-        [("series", output.series), ("frames", output.frames), ("checkpoints", output.checkpoints)];
+    let pulses = output.pulses.clone().unwrap_or_default();
+    let intervals = [
+        ("series", output.series),
+        ("frames", output.frames),
+        ("checkpoints", output.checkpoints),
+        ("pulses.series", pulses.series),
+        ("pulses.frames", pulses.frames),
+    ];
     for (name, interval) in intervals {
         if let Some(interval) = interval {
             check.positive(&format!("output.{name}"), interval);
         }
     }
-    medium(check, scenario);
+    if output.pulses.is_some() && scenario.acoustics.is_none() {
+        let message = "is for rays, and there are none".to_owned();
+        check.fail_with("output.pulses", message, "give [acoustics], or leave out [output.pulses]");
+    }
 }
 
 fn engine(check: &mut Check, engine: &Engine) {
