@@ -9,7 +9,7 @@ use super::folder::Folder;
 use super::frames::{FrameLists, Frames};
 use super::job::Job;
 use super::tables::{Tables, TablesState};
-use super::timers::{Moment, Timers};
+use super::timers::{Moment, ROUND_OFF, Timers};
 
 /// How many rows and frames that were due fell into one with another, since one step passed both times.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -106,11 +106,12 @@ impl Recorder {
     /// # Errors
     /// [`RecordError`] where a file cannot be written.
     pub fn record_end<J: Job>(&mut self, job: &mut J, folder: &Folder) -> Result<(), RecordError> {
-        let time = job.time();
-        if self.last_row < time {
+        // A due time that is the end but for round-off has been served.
+        let before = job.time() * (1.0 - ROUND_OFF);
+        if self.last_row < before || self.last_row < 0.0 {
             self.write_rows(job)?;
         }
-        if self.frames.last_time().is_none_or(|last| last < time) {
+        if self.frames.last_time().is_none_or(|last| last < before) {
             self.write_frame(job)?;
         }
         job.record_end(folder)?;
@@ -168,3 +169,7 @@ impl Recorder {
         job.record_frame(&mut self.frames)
     }
 }
+
+#[cfg(test)]
+#[path = "recorder_tests.rs"]
+mod tests;

@@ -54,7 +54,7 @@
 //! assert!((half_way - 5e-6).abs() < 1e-18);
 //! ```
 
-use crate::domain::Boundary;
+use crate::domain::{Boundary, resolution};
 use crate::engine::SimError;
 use crate::math::{Vec3, rounding_of_sum};
 
@@ -64,9 +64,12 @@ use super::cloud::Cloud;
 use super::near::Near;
 use super::nearest::Nearest;
 use super::simulation::Clock;
-use super::spheres::Spheres;
+use super::spheres::{Sphere, Spheres};
 use super::types::{Pairs, TimeStepped};
 use super::walls;
+
+/// Steps between two looks at places that doubles do not resolve.
+const LOOK_EVERY: u64 = 100;
 
 /// Speeds of all spheres.
 #[derive(Clone, Copy, Debug)]
@@ -114,8 +117,10 @@ impl Steps {
             None => *self.speeds.insert(Speeds::of(cloud, clock.time)?),
         };
         let dt = self.length(cloud, speeds);
-        // The clock goes on by a bit at least, and comes to the end exactly.
-        let next = (clock.time + dt).max(clock.time.next_up()).min(end);
+        // The clock goes on by a bit at least, and comes to the end exactly; what rounding has taken from it makes no step
+        // of its own before the end.
+        let reaches_end = clock.time + clock.lag + dt * (1.0 + 1e-9) >= end;
+        let next = if reaches_end { end } else { (clock.time + dt).max(clock.time.next_up()) };
         let lag = clock.lag + if next == clock.time + dt { rounding_of_sum(clock.time, dt) } else { 0.0 };
         let dt = next - clock.time;
         self.fly(cloud, dt, next);
@@ -126,6 +131,9 @@ impl Steps {
         self.near.moved(speeds.greatest * dt, speeds.apart * dt);
         self.near.refresh(&cloud.state.spheres, &cloud.volume);
         self.impacts(cloud, next)?;
+        if clock.step.is_multiple_of(LOOK_EVERY) {
+            warn_of_places(cloud, dt, end);
+        }
         *clock = Clock { time: next, lag, step: clock.step + 1, last_step: dt };
         Ok(())
     }
@@ -218,6 +226,18 @@ impl Steps {
             self.speeds = None;
         }
         Ok(())
+    }
+}
+
+/// Where spheres are too far out, or too slow for the steps, doubles do not move them.
+fn warn_of_places(cloud: &mut Cloud, dt: f64, end: f64) {
+    let spheres = &cloud.state.spheres;
+    let motions = spheres.living().map(|at| {
+        let Sphere { position, velocity, radius, .. } = spheres.motion[at as usize];
+        (position, velocity, radius)
+    });
+    if let Some(warning) = resolution::warning(motions, dt, end) {
+        cloud.state.warnings.add(warning);
     }
 }
 
