@@ -10,6 +10,7 @@ mod due;
 mod folder;
 mod html;
 mod listing;
+mod pulses;
 mod replay;
 mod sheet;
 mod story;

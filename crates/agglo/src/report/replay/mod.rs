@@ -110,8 +110,8 @@ fn pack(scenes: &[Scene], mut notes: Vec<String>) -> Replay {
     let rays: Vec<_> = scenes.iter().filter_map(|scene| scene.rays.as_ref()).collect();
     if !rays.is_empty() && rays.iter().all(|rays| rays.points.is_empty()) {
         notes.push(
-            "no frame shows rays: they fly for less than the time between two frames; a shorter output.frames \
-             shows them"
+            "no frame shows rays: they fly for less than the time between two frames; output.pulses.frames writes frames \
+             while they do"
                 .to_owned(),
         );
     }
