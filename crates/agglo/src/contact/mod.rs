@@ -4,6 +4,7 @@
 //! the tangential velocity is that of j's surface relative to i's, and friction acts along it on i.
 
 pub mod bond;
+pub mod closeness;
 pub mod damping;
 pub mod friction;
 pub mod network;

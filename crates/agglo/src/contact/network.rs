@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::arms;
 use super::bond::{Beam, BeamLoad, BeamPair, BeamState, Break};
+use super::closeness::are_close;
 use crate::math::{Vec3, parallel};
 use crate::neighbors::PairList;
 use crate::particles::{Motion, Particles};
@@ -49,7 +50,7 @@ pub struct Network {
 }
 
 impl Network {
-    /// Bonds all grains whose surfaces are closer than the law's gap.
+    /// Bonds all grains whose surfaces are no farther apart than the law's gap.
     pub fn bond_neighbours(law: Option<&Beam>, grains: &Particles) -> Self {
         let mut network = Self { law: law.cloned(), ..Self::default() };
         if let Some(law) = law {
@@ -58,9 +59,8 @@ impl Network {
             list.build(&grains.position, &grains.radius, 0.0, law.gap * largest);
             for (a, b) in list.pairs() {
                 let (i, j) = (a as usize, b as usize);
-                let gap =
-                    (grains.position[i] - grains.position[j]).norm() - grains.radius[i] - grains.radius[j];
-                if gap <= law.gap * grains.radius[i].min(grains.radius[j]) {
+                let distance_squared = (grains.position[i] - grains.position[j]).norm_squared();
+                if are_close(distance_squared, grains.radius[i], grains.radius[j], law.gap) {
                     network.bonds.push(bond_between(law, grains, a, b));
                 }
             }

@@ -38,19 +38,12 @@ pub struct ContactRates {
     pub worst_strain: f64,
     /// The grains of that pair.
     pub worst_pair: [u32; 2],
-    /// How many pairs touch.
-    pub touching: u32,
 }
 
 impl ContactRates {
     fn join(a: Self, b: Self) -> Self {
         let worst = if b.worst_strain > a.worst_strain { b } else { a };
-        Self {
-            damping: a.damping + b.damping,
-            tangential: a.tangential + b.tangential,
-            touching: a.touching + b.touching,
-            ..worst
-        }
+        Self { damping: a.damping + b.damping, tangential: a.tangential + b.tangential, ..worst }
     }
 }
 
@@ -330,7 +323,6 @@ impl<'a> Contact<'a> {
             tangential += self.strain_bond_slip(bond, slip, world.dt);
         }
         rates.tangential += tangential.dot(slip);
-        rates.touching += 1;
         let strain = touch.strain();
         if strain > rates.worst_strain {
             rates.worst_strain = strain;

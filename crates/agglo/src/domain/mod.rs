@@ -1,7 +1,8 @@
-//! Where things are: regions of space, and the volume that a hard-sphere run is about with its faces.
+//! Where things are: regions of space, the volume that a hard-sphere run is about with its faces, and where doubles end.
 
 mod disc;
 mod region;
+pub mod resolution;
 mod volume;
 
 pub use disc::Disc;

@@ -15,7 +15,7 @@ use crate::impact::{Impact, Restitution, Sticking, softening};
 use crate::particles::Material;
 use crate::run::{Rehearsal, Summary};
 use crate::scenario::figures::{digits, readable};
-use crate::scenario::{GrainGroup, Scenario};
+use crate::scenario::{GrainGroup, Measures, Scenario};
 
 /// Impacts whose number says something of those to come.
 const ENOUGH_IMPACTS: u64 = 30;
@@ -290,7 +290,7 @@ fn without_effect(note: &mut dyn FnMut(&str), scenario: &Scenario) {
     if scenario.medium != crate::acoustics::Medium::default() {
         note("medium has no effect on hard spheres: they fly straight between impacts");
     }
-    if scenario.measures.cluster_gap != 0.0 {
+    if scenario.measures != Measures::default() {
         note("measures.cluster_gap has no effect on hard spheres: what sticks becomes one sphere");
     }
 }

@@ -1,5 +1,6 @@
 //! Grains whose surfaces are close to one another.
 
+use crate::contact::closeness::{are_close, reach};
 use crate::math::Vec3;
 
 /// Bits of a cell's number along one axis.
@@ -7,24 +8,24 @@ const BITS: u32 = 20;
 /// Most cells along one axis: room is left for neighbours on both sides.
 const MOST: f64 = ((1_u32 << BITS) - 3) as f64;
 
-/// Calls `found(i, j)`, i < j, once for every pair of grains whose surfaces are closer than `gap` times their mean
-/// radius: |r_i - r_j| < (R_i + R_j) (1 + gap/2). With `gap` 0 that is every pair that overlaps.
+/// Calls `found(i, j)`, i < j, once for every pair of grains whose surfaces are no farther apart than `gap` times the
+/// smaller radius: |r_i - r_j| <= R_i + R_j + gap min(R_i, R_j). With `gap` 0 grains that are placed as touching are
+/// found or not by round-off; see [`crate::contact::closeness::TOUCHING`].
 ///
 /// `positions` [n] and `radii` [n] in m. The order of the calls depends on the positions alone. Grains are sorted by
 /// the cell they are in, so that memory is in proportion to n however far the cloud has spread; a cell is as wide as
 /// the largest grain's reach, so that very different sizes make this slow.
 pub fn close_pairs(positions: &[Vec3], radii: &[f64], gap: f64, found: &mut impl FnMut(u32, u32)) {
-    let stretch = 1.0 + 0.5 * gap;
     let largest = radii.iter().copied().fold(0.0, f64::max);
-    let Some(grid) = Grid::over(positions, 2.0 * largest * stretch) else { return };
+    let Some(grid) = Grid::over(positions, reach(largest, largest, gap)) else { return };
     let mut cells: Vec<(u64, u32)> =
         positions.iter().zip(0..).map(|(&position, k)| (grid.cell(position), k)).collect();
     cells.sort_unstable();
     let mut check = |a: u32, b: u32| {
         let (i, j) = (a.min(b), a.max(b));
         let (i_at, j_at) = (i as usize, j as usize);
-        let reach = (radii[i_at] + radii[j_at]) * stretch;
-        if (positions[i_at] - positions[j_at]).norm_squared() < reach * reach {
+        let distance_squared = (positions[i_at] - positions[j_at]).norm_squared();
+        if are_close(distance_squared, radii[i_at], radii[j_at], gap) {
             found(i, j);
         }
     };
@@ -104,7 +105,7 @@ mod tests {
                 for i in 0..n {
                     for j in i + 1..n {
                         let (a, b) = (radii[i], radii[j]);
-                        if (positions[i] - positions[j]).norm() - a - b < gap * 0.5 * (a + b) {
+                        if (positions[i] - positions[j]).norm() - a - b <= gap * a.min(b) {
                             brute.push((i as u32, j as u32));
                         }
                     }
@@ -116,11 +117,11 @@ mod tests {
     }
 
     #[test]
-    fn a_gap_is_a_part_of_the_mean_radius() {
-        // Radii 1 and 3, surfaces 0.2 apart: a tenth of the mean radius.
+    fn a_gap_is_a_part_of_the_smaller_radius() {
+        // Radii 1 and 3, surfaces 0.2 apart: a fifth of the smaller radius.
         let (positions, radii) = ([Vec3::ZERO, Vec3::new(4.2, 0.0, 0.0)], [1.0, 3.0]);
-        assert_eq!(close(&positions, &radii, 0.101), [(0, 1)]);
-        assert_eq!(close(&positions, &radii, 0.099), []);
+        assert_eq!(close(&positions, &radii, 0.201), [(0, 1)]);
+        assert_eq!(close(&positions, &radii, 0.199), []);
     }
 
     #[test]

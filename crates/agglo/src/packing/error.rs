@@ -77,6 +77,22 @@ pub enum PackingError {
         /// What is wrong.
         reason: String,
     },
+    /// A grain where doubles no longer tell places apart.
+    #[error(
+        "grain {grain} lies {} from the origin, where neighbouring places are {} apart: more than 1e-5 of its radius of \
+         {}, so that contacts and motion would be round-off; move all grains towards the origin",
+        readable(*.away, "m"), readable(*.spacing, "m"), readable(*.radius, "m")
+    )]
+    TooFar {
+        /// Name of the grain.
+        grain: u32,
+        /// Its largest coordinate [m].
+        away: f64,
+        /// Distance between neighbouring doubles there [m].
+        spacing: f64,
+        /// Its radius [m].
+        radius: f64,
+    },
     /// Two grains at exactly the same place.
     #[error("grains {first} and {second} are at exactly the same place, ({x} m, {y} m, {z} m)")]
     Coincident {

@@ -7,7 +7,7 @@ use super::overlap::{first_outside, first_overlap};
 use super::random::{self, Request};
 use super::room::Room;
 use super::{GrainList, Placement, lattice, table};
-use crate::domain::Volume;
+use crate::domain::{Volume, resolution};
 use crate::math::Vec3;
 use crate::math::rng::{Purpose, Stream};
 use crate::particles::{Material, Particles, Row};
@@ -22,7 +22,7 @@ use crate::units::vector;
 ///
 /// # Errors
 /// [`PackingError`] where there is no room, a table cannot be read, a value cannot be, two grains would be at exactly
-/// the same place, or hard spheres could not start.
+/// the same place or too far from the origin, or hard spheres could not start.
 pub fn place(scenario: &Scenario, base: &Path) -> Result<Particles, PackingError> {
     place_groups(scenario, base).map(|(grains, _)| grains)
 }
@@ -52,6 +52,7 @@ pub fn place_groups(scenario: &Scenario, base: &Path) -> Result<(Particles, Vec<
         }
         counts.push(grains.len() as u64 - counts.iter().sum::<u64>());
     }
+    refuse_far(&grains)?;
     refuse_coincident(&grains)?;
     if scenario.engine.is_hard() {
         make_ready_for_impacts(&mut grains, scenario.volume.as_ref())?;
@@ -199,6 +200,20 @@ fn grain(request: &GrainGroup, properties: &Material, spot: Spot) -> Row {
         polarity: request.polarity,
         contact_stiffness: properties.stiffness_at(temperature),
         ..Row::default()
+    }
+}
+
+/// Far from the origin places are too coarse for grains to touch or to move.
+fn refuse_far(grains: &Particles) -> Result<(), PackingError> {
+    let is_far = |at: &usize| resolution::is_too_far(grains.position[*at], grains.radius[*at]);
+    match (0..grains.len()).find(is_far) {
+        None => Ok(()),
+        Some(at) => {
+            let (position, radius) = (grains.position[at], grains.radius[at]);
+            let away = position.to_array().into_iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+            let spacing = resolution::spacing(position);
+            Err(PackingError::TooFar { grain: grains.id[at], away, spacing, radius })
+        }
     }
 }
 

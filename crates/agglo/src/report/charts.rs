@@ -2,6 +2,7 @@
 
 use super::chart::{Axis, Chart, Kind, Lines, Series, kept};
 use super::folder::Folder;
+use super::pulses;
 use super::table::Table;
 use crate::impact::heat::Balance;
 
@@ -20,8 +21,13 @@ const FALSE_HEAT: &str = "from nowhere (published balance)";
 const SOFT: &[Lines] = &[
     lines(
         ["clusters", "dispersion", "Dispersion", "part of the mass", ""],
-        "The mass of the largest cluster, and what is not in it: the dispersion degree.",
-        &[("dispersion_degree", "dispersion degree"), ("largest_fraction", "largest cluster")],
+        "The mass of the largest cluster, what is not in it (the dispersion degree), and how much of the largest cluster \
+         of the start is no longer together.",
+        &[
+            ("dispersion_degree", "dispersion degree"),
+            ("dispersion_degree_relative", "relative to the start"),
+            ("largest_fraction", "largest cluster"),
+        ],
     ),
     lines(
         ["clusters", "clusters", "Clusters, contacts and bonds", "how many", ""],
@@ -197,6 +203,11 @@ pub fn charts(folder: &Folder) -> Vec<Chart> {
             chart.leave_out(FALSE_HEAT);
         }
     }
+    // Beside the charts of the same figures over the whole run.
+    let after = charts.iter().rposition(|chart| ["rays", "beam"].contains(&chart.id.as_str()));
+    let of_pulses = folder.table("rays").map(|rays| pulses::charts(rays, wanted)).unwrap_or_default();
+    let place = after.map_or(charts.len(), |at| at + 1);
+    charts.splice(place..place, of_pulses);
     charts.extend(folder.table("sizes").and_then(sizes));
     charts
 }

@@ -56,13 +56,19 @@ fn soft(summary: &SoftSummary) -> String {
         let part = percent(broken as f64 / summary.bonds_start as f64);
         words.push(format!("Of {} bonds {broken} broke ({part}).", summary.bonds_start));
     }
-    let clusters = &summary.clusters;
+    let [start, clusters] = [&summary.clusters_start, &summary.clusters];
+    if start.count > 1 {
+        let part = percent(start.largest_fraction);
+        words.push(format!("They began as {} clusters, the largest with {part} of the mass.", start.count));
+    }
     words.push(match clusters.count {
         1 => "At the end they are one cluster.".to_owned(),
         count => format!(
-            "At the end they are {count} clusters, the largest with {} of the mass: a dispersion degree of {:.3}.",
+            "At the end they are {count} clusters, the largest with {} of the mass: a dispersion degree of {:.3}, {:.3} \
+             relative to the start.",
             percent(clusters.largest_fraction),
-            summary.dispersion_degree
+            summary.dispersion_degree,
+            summary.dispersion_degree_relative
         ),
     });
     words.push(drift(summary.energy.balance.drift_relative));

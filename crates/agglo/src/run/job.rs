@@ -11,10 +11,10 @@ use super::folder::Folder;
 use super::frames::Frames;
 use super::hard::HardState;
 use super::recorder::RecorderState;
+use super::soft::SoftState;
 use super::summary::Summary;
 use super::tables::{Layout, Tables};
 use super::timers::Moment;
-use crate::engine::soft;
 
 /// What a checkpoint holds: the resolved scenario, the job's state and where the recorder stands.
 #[derive(Debug, Serialize, Deserialize)]
@@ -41,7 +41,7 @@ impl Saved<()> {
 #[derive(Debug, Serialize, Deserialize)]
 pub enum AnySaved<'a> {
     /// Soft spheres.
-    Soft(Box<Saved<soft::SimulationState<'a>>>),
+    Soft(Box<Saved<SoftState<'a>>>),
     /// Hard spheres.
     Hard(Box<Saved<HardState<'a>>>),
 }

@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::acoustics::{Acoustics, Medium};
+use crate::contact::closeness::touching;
 use crate::contact::{Bonds, ContactLaws};
 use crate::domain::Volume;
 use crate::engine::Engine;
@@ -145,12 +146,18 @@ pub struct Relaxation {
 }
 
 /// What is measured besides the state.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Measures {
-    /// Grains whose surfaces are closer than this part of their mean radius belong to one cluster.
-    #[serde(default)]
+    /// Grains whose surfaces are no farther apart than this part of the smaller radius belong to one cluster.
+    #[serde(default = "touching")]
     pub cluster_gap: f64,
+}
+
+impl Default for Measures {
+    fn default() -> Self {
+        Self { cluster_gap: touching() }
+    }
 }
 
 /// What is written, and how often in simulated time; worked out from the run's length if left out.

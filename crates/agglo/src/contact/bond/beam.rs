@@ -77,8 +77,8 @@ pub struct Beam {
     pub tensile_strength: Pressure,
     /// Shear strength.
     pub shear_strength: Pressure,
-    /// Grains whose surfaces are closer than this part of the smaller radius are bonded at the start.
-    #[serde(default = "default_gap")]
+    /// Grains whose surfaces are no farther apart than this part of the smaller radius are bonded at the start.
+    #[serde(default = "crate::contact::closeness::touching")]
     pub gap: f64,
     /// Overlap strain at which two grains bond during the run; never if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -93,9 +93,6 @@ fn default_shear_ratio() -> f64 {
 }
 fn one() -> f64 {
     1.0
-}
-fn default_gap() -> f64 {
-    1e-3
 }
 
 /// What a bond remembers.

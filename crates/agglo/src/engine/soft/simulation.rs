@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::contact::network::{BondEvent, Network};
 use crate::contact::pass::Remembered;
 use crate::contact::{Bonds, network::Bond};
+use crate::domain::resolution;
 use crate::engine::{Moment, SimError, Warnings};
 use crate::math::rounding_of_sum;
 use crate::measure::Ledger;
@@ -201,6 +202,7 @@ impl Simulation {
         self.change_bonds();
         if self.clock.step.is_multiple_of(validity::LOOK_EVERY) {
             self.warn_of_drag();
+            self.warn_of_places();
         }
         Ok(())
     }
@@ -224,7 +226,11 @@ impl Simulation {
         let now = self.clock.time;
         let wanted = self.clock.next_step.min(self.pulses.longest_step(now));
         let event = self.pulses.next_launch(now).map_or(self.end, |launch| launch.min(self.end));
-        if now + wanted * (1.0 + 1e-9) >= event { (event - now, Some(event)) } else { (wanted, None) }
+        if now + self.clock.lag + wanted * (1.0 + 1e-9) >= event {
+            (event - now, Some(event))
+        } else {
+            (wanted, None)
+        }
     }
 
     fn try_step(&mut self, dt: f64) -> Result<Step, SimError> {
@@ -338,6 +344,9 @@ impl Simulation {
         for warning in self.system.laws.standing_warnings() {
             self.warnings.add(warning);
         }
+        if let Some(warning) = validity::of_bonds(self.system.laws.bonds.as_ref(), &self.system.network) {
+            self.warnings.add(warning);
+        }
         for warning in self.pulses.standing_warnings() {
             self.warnings.add(warning);
         }
@@ -345,6 +354,15 @@ impl Simulation {
             self.warnings.add(&warning);
         }
         self.warn_of_drag();
+    }
+
+    fn warn_of_places(&mut self) {
+        let grains = &self.system.grains;
+        let motions = grains.position.iter().zip(&grains.velocity).zip(&grains.radius);
+        let motions = motions.map(|((&position, &velocity), &radius)| (position, velocity, radius));
+        if let Some(warning) = resolution::warning(motions, self.clock.last_step, self.end) {
+            self.warnings.add(warning);
+        }
     }
 
     fn warn_of_drag(&mut self) {

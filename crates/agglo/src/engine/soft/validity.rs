@@ -1,6 +1,8 @@
 //! Where a run leaves the range of its models. These are warnings: the run goes on as it would without them.
 
 use crate::acoustics::{Beam, Medium};
+use crate::contact::Bonds;
+use crate::contact::network::Network;
 use crate::fields::DragLaw;
 use crate::particles::Particles;
 
@@ -34,6 +36,17 @@ pub fn of_drag(laws: &Laws, grains: &Particles, time: f64) -> Option<&'static st
         drag.reynolds(&laws.medium, radius, velocity, position, time) > limit
     };
     (0..grains.len()).any(is_above).then_some(warning)
+}
+
+/// A warning where no grains are bonded by a law that bonds neighbours at the start.
+pub fn of_bonds(law: Option<&Bonds>, network: &Network) -> Option<&'static str> {
+    match law {
+        Some(Bonds::Beam(law)) if network.made_at_start() == 0 && law.forming_strain.is_none() => Some(
+            "bonds.beam: no bond was made, since no two grains are closer than bonds.beam.gap; nothing holds the grains \
+             together",
+        ),
+        _ => None,
+    }
 }
 
 /// A warning for each beam whose frequency is too low for rays at the smallest grain.

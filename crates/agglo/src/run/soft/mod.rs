@@ -2,8 +2,11 @@
 
 mod rows;
 mod summary;
+mod together;
 
 pub use summary::{Clusters, EnergyFigures, PulseFigures, SoftSummary};
+
+use serde::{Deserialize, Serialize};
 
 use crate::contact::bond::Break;
 use crate::contact::network::BondEvent;
@@ -19,20 +22,30 @@ use super::job::{AnySaved, Job, Saved};
 use super::summary::Summary;
 use super::tables::{Layout, Tables};
 use super::timers::Moment;
-use rows::clusters_of;
+use together::Together;
+
+/// All that a run of soft spheres needs to go on.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct SoftState<'a> {
+    simulation: SimulationState<'a>,
+    start: Clusters,
+}
 
 /// A run of soft spheres.
 pub struct Soft {
     simulation: Simulation,
+    /// The clusters of the start, which figures are relative to.
+    start: Clusters,
     cluster_gap: f64,
     with_bonds: bool,
     with_rays: bool,
 }
 
 impl Soft {
-    fn with(scenario: &Scenario, simulation: Simulation) -> Self {
+    fn with(scenario: &Scenario, simulation: Simulation, start: Clusters) -> Self {
         Self {
             simulation,
+            start,
             cluster_gap: scenario.measures.cluster_gap,
             with_bonds: scenario.output.bonds,
             with_rays: scenario.output.rays,
@@ -41,20 +54,22 @@ impl Soft {
 }
 
 impl Job for Soft {
-    type State<'a> = SimulationState<'a>;
+    type State<'a> = SoftState<'a>;
 
     const TABLES: Layout = rows::TABLES;
 
     fn start(scenario: &Scenario, grains: Particles) -> Result<Self, SimError> {
-        Ok(Self::with(scenario, Simulation::start(scenario, grains)?))
+        let simulation = Simulation::start(scenario, grains)?;
+        let start = Together::of(&simulation, scenario.measures.cluster_gap).clusters();
+        Ok(Self::with(scenario, simulation, start))
     }
 
-    fn resume(scenario: &Scenario, state: SimulationState<'_>) -> Result<Self, SimError> {
-        Ok(Self::with(scenario, Simulation::resume(scenario, state)))
+    fn resume(scenario: &Scenario, state: SoftState<'_>) -> Result<Self, SimError> {
+        Ok(Self::with(scenario, Simulation::resume(scenario, state.simulation), state.start))
     }
 
     fn save(&self, rest: Saved<()>) -> AnySaved<'_> {
-        AnySaved::Soft(rest.with(self.simulation.state()))
+        AnySaved::Soft(rest.with(SoftState { simulation: self.simulation.state(), start: self.start }))
     }
 
     fn moment(&self) -> Moment {
@@ -100,12 +115,12 @@ impl Job for Soft {
     }
 
     fn record_rows(&mut self, tables: &mut Tables) -> Result<(), RecordError> {
-        tables.rows(rows::rows(&self.simulation, self.cluster_gap))
+        tables.rows(rows::rows(&self.simulation, self.cluster_gap, &self.start))
     }
 
     fn record_frame(&self, frames: &mut Frames) -> Result<(), RecordError> {
         let simulation = &self.simulation;
-        let (_, labels) = clusters_of(simulation, self.cluster_gap);
+        let labels = Together::of(simulation, self.cluster_gap).labels;
         let (grains, network) = (&simulation.system.grains, &simulation.system.network);
         frames.grains(self.time(), grains, ("cluster", &labels))?;
         if self.with_bonds && network.is_active() {
@@ -122,9 +137,9 @@ impl Job for Soft {
     }
 
     fn summary(&self, scenario: &Scenario, wall_s: f64) -> Summary {
-        let (clusters, _) = clusters_of(&self.simulation, self.cluster_gap);
+        let clusters = [self.start, Together::of(&self.simulation, self.cluster_gap).clusters()];
         let (title, seed) = (&scenario.title, scenario.seed);
-        Summary::Soft(Box::new(SoftSummary::new(title, seed, &self.simulation, &clusters, wall_s)))
+        Summary::Soft(Box::new(SoftSummary::new(title, seed, &self.simulation, clusters, wall_s)))
     }
 }
 

@@ -2,10 +2,11 @@
 
 use crate::engine::soft::Simulation;
 use crate::math::Vec3;
-use crate::measure::{
-    ClusterSummary, Clusters, Moments, close_pairs, mean_nearest_distance, moments, summarize,
-};
+use crate::measure::{Moments, mean_nearest_distance, moments};
 use crate::run::tables::Layout;
+
+use super::summary::Clusters;
+use super::together::{Together, dispersion_since};
 
 const ENERGY: &[&str] = &[
     "time_s",
@@ -53,6 +54,7 @@ const CLUSTERS: &[&str] = &[
     "contacts",
     "bonds",
     "mean_nearest_distance_m",
+    "dispersion_degree_relative",
 ];
 const MOMENTS: &[&str] = &[
     "time_s",
@@ -105,12 +107,12 @@ pub const TABLES: Layout = &[
 /// Number of the table of events.
 pub const EVENTS_TABLE: usize = 6;
 
-/// A row of each table over time.
-pub fn rows(simulation: &Simulation, cluster_gap: f64) -> [Vec<f64>; 6] {
+/// A row of each table over time; `start` has the clusters of the start.
+pub fn rows(simulation: &Simulation, cluster_gap: f64, start: &Clusters) -> [Vec<f64>; 6] {
     [
         energy(simulation),
         momentum(simulation),
-        clusters(simulation, cluster_gap),
+        clusters(simulation, cluster_gap, start),
         motion(simulation),
         rays(simulation),
         steps(simulation),
@@ -148,20 +150,9 @@ fn momentum(simulation: &Simulation) -> Vec<f64> {
     std::iter::once(simulation.clock().time).chain(vectors.into_iter().flat_map(Vec3::to_array)).collect()
 }
 
-/// Clusters by contact, bond or gap, with the cluster of each grain.
-pub fn clusters_of(simulation: &Simulation, cluster_gap: f64) -> (ClusterSummary, Vec<u32>) {
-    let system = &simulation.system;
-    let grains = &system.grains;
-    let mut edges: Vec<(u32, u32)> = system.network.bonds().iter().map(|bond| bond.grains.into()).collect();
-    close_pairs(&grains.position, &grains.radius, cluster_gap, &mut |a, b| edges.push((a, b)));
-    let clusters = Clusters::new(&grains.mass, edges);
-    let summary = summarize(&clusters, &grains.position, &grains.radius, &grains.mass);
-    (summary, clusters.labels)
-}
-
-fn clusters(simulation: &Simulation, cluster_gap: f64) -> Vec<f64> {
-    let (summary, _) = clusters_of(simulation, cluster_gap);
-    let system = &simulation.system;
+fn clusters(simulation: &Simulation, cluster_gap: f64, start: &Clusters) -> Vec<f64> {
+    let together = Together::of(simulation, cluster_gap);
+    let (summary, system) = (&together.summary, &simulation.system);
     vec![
         simulation.clock().time,
         summary.count as f64,
@@ -171,9 +162,10 @@ fn clusters(simulation: &Simulation, cluster_gap: f64) -> Vec<f64> {
         summary.radius_of_gyration,
         summary.largest_radius_of_gyration,
         summary.largest_fractal_dimension.unwrap_or(f64::NAN),
-        f64::from(system.trial.contact.touching),
+        together.contacts as f64,
         system.network.bonds().len() as f64,
         mean_nearest_distance(&system.grains.position),
+        dispersion_since(start, &together.clusters()),
     ]
 }
 

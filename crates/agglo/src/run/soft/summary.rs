@@ -6,9 +6,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::acoustics::{BeamPower, PulseCount};
 use crate::engine::soft::{Pulses, Simulation};
-use crate::measure::{Balance, ClusterSummary};
+use crate::measure::Balance;
 use crate::run::summary::{time_row, wall_row, warnings_row};
 use crate::scenario::readable;
+
+use super::together::dispersion_since;
 
 /// What a run of soft spheres came to; `summary.json` holds the same.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -38,10 +40,14 @@ pub struct SoftSummary {
     /// Acoustic energy launched [J]: the powers of all pulses times how long their hits press.
     #[serde(rename = "acoustic_energy_J")]
     pub acoustic_energy: f64,
+    /// Clusters at the start.
+    pub clusters_start: Clusters,
     /// Clusters at the end.
     pub clusters: Clusters,
     /// 1 - mass of the largest cluster over the total, at the end.
     pub dispersion_degree: f64,
+    /// 1 - mass of the largest cluster at the end over that of the largest one at the start.
+    pub dispersion_degree_relative: f64,
     /// Bonds at the start.
     pub bonds_start: usize,
     /// Bonds at the end.
@@ -140,12 +146,12 @@ pub struct EnergyFigures {
 }
 
 impl SoftSummary {
-    /// Draws up the summary of a simulation that ended.
+    /// Draws up the summary of a simulation that ended; it has the clusters of the start and of now.
     pub fn new(
         title: &str,
         seed: u64,
         simulation: &Simulation,
-        clusters: &ClusterSummary,
+        [clusters_start, clusters]: [Clusters; 2],
         wall_s: f64,
     ) -> Self {
         let clock = simulation.clock();
@@ -164,8 +170,10 @@ impl SoftSummary {
             seed,
             pulses: PulseFigures::of_all(&simulation.pulses),
             acoustic_energy: simulation.pulses.energy(),
-            clusters: Clusters { count: clusters.count, largest_fraction: clusters.largest_mass_fraction },
-            dispersion_degree: clusters.dispersion_degree,
+            clusters_start,
+            clusters,
+            dispersion_degree: 1.0 - clusters.largest_fraction,
+            dispersion_degree_relative: dispersion_since(&clusters_start, &clusters),
             bonds_start,
             bonds_end,
             bonds_broken_fraction: (bonds_start > 0).then(|| 1.0 - bonds_end as f64 / bonds_start as f64),
@@ -198,16 +206,17 @@ impl SoftSummary {
         if self.bonds_start > 0 {
             row("bonds", format!("{} of {} left", self.bonds_end, self.bonds_start));
         }
-        let clusters = &self.clusters;
-        row(
-            "clusters",
+        let largest = |clusters: &Clusters| {
             format!(
                 "{}, the largest with {:.2} % of the mass",
                 clusters.count,
                 100.0 * clusters.largest_fraction
-            ),
-        );
-        row("dispersion degree", format!("{:.4}", self.dispersion_degree));
+            )
+        };
+        row("clusters at first", largest(&self.clusters_start));
+        row("clusters", largest(&self.clusters));
+        let [degree, since] = [self.dispersion_degree, self.dispersion_degree_relative];
+        row("dispersion degree", format!("{degree:.4}; {since:.4} relative to the start"));
         row("energy drift", format!("{:.3e} of all energy", self.energy.balance.drift_relative));
         row("momentum drift", format!("{:.3e} of all momentum", self.momentum_drift_relative));
         row("warnings", warnings_row(&self.warnings));
