@@ -148,8 +148,8 @@ mod tests {
     use super::*;
     use crate::units::Quantity;
 
-    fn every(seconds: f64) -> Option<Time> {
-        Some(Quantity(seconds))
+    fn every(seconds: f64) -> Time {
+        Quantity(seconds)
     }
 
     fn at(time: f64) -> Moment {
@@ -159,7 +159,7 @@ mod tests {
     /// Turns are multiples of the interval to the last bit, however many there were.
     #[test]
     fn turns_do_not_drift() {
-        let mut timer = Timer::new(every(0.1), 0);
+        let mut timer = Timer::new(Some(every(0.1)), 0);
         for turn in 0..1000_u64 {
             assert_eq!(timer.next(), if turn == 0 { 0.0 } else { turn as f64 * 0.1 });
             assert_eq!([timer.take(&at(timer.next() - 1e-9)), timer.take(&at(timer.next()))], [0, 1]);
@@ -168,12 +168,12 @@ mod tests {
 
     #[test]
     fn turns_that_one_step_passes_are_counted() {
-        let mut timer = Timer::new(every(1.0), 1);
+        let mut timer = Timer::new(Some(every(1.0)), 1);
         assert_eq!([0.5, 7.5, 7.9, 8.0].map(|time| timer.take(&at(time))), [0, 7, 0, 1]);
         assert_eq!(timer.next(), 9.0);
         assert_eq!(Timer::new(None, 1).next(), f64::INFINITY);
         // A clock that has come far at once.
-        assert_eq!(Timer::new(every(1.0), 1).take(&at(1e12 + 0.5)), 1_000_000_000_000);
+        assert_eq!(Timer::new(Some(every(1.0)), 1).take(&at(1e12 + 0.5)), 1_000_000_000_000);
     }
 
     /// Steps are summed with rounding, as engines do it, and each that coincides with a turn takes it.
@@ -183,7 +183,7 @@ mod tests {
         let cases =
             [(0.02, 1, 47), (1e-6, 10, 1000), (1e-5, 7, 100_000), (0.1, 3, 3000), (1.0 / 3.0, 1, 30_000)];
         for (step, share, count) in cases {
-            let mut timer = Timer::new(every(step * f64::from(share)), 0);
+            let mut timer = Timer::new(Some(every(step * f64::from(share))), 0);
             let (mut time, mut lag) = (0.0, 0.0);
             assert_eq!(timer.take(&at(0.0)), 1);
             for number in 1..=count {
@@ -198,8 +198,12 @@ mod tests {
 
     #[test]
     fn the_next_thing_is_the_first_of_all() {
-        let output =
-            Output { series: every(2.0), frames: every(3.0), checkpoints: every(0.5), ..Output::default() };
+        let output = Output {
+            series: Some(every(2.0)),
+            frames: Some(every(3.0)),
+            checkpoints: Some(every(0.5)),
+            ..Output::default()
+        };
         let mut timers = Timers::new(&output);
         assert_eq!(timers.next(), 0.0);
         assert_eq!((timers.rows.take(&at(0.0)), timers.frames.take(&at(0.0))), (Some(0), Some(0)));
@@ -212,7 +216,7 @@ mod tests {
     /// Every 1 s; every 0.1 s from a launch at 2.05 s until the rays are gone at 2.33 s, and again from 2.5 s.
     #[test]
     fn turns_are_denser_while_rays_fly() {
-        let mut rows = Schedule::new(every(1.0), every(0.1));
+        let mut rows = Schedule::new(Some(every(1.0)), Some(every(0.1)));
         let mut taken = Vec::new();
         for hundredths in 0..=300_u32 {
             let pulse = match hundredths {
@@ -231,7 +235,7 @@ mod tests {
 
     #[test]
     fn a_launch_while_rays_fly_begins_anew() {
-        let mut rows = Schedule::new(None, every(1.0));
+        let mut rows = Schedule::new(None, Some(every(1.0)));
         let times = [(0.25, 0.25), (0.5, 0.25), (1.25, 0.25), (1.75, 1.75), (2.25, 1.75), (2.75, 1.75)];
         let taken =
             times.map(|(time, start)| rows.take(&Moment { pulse: Some(start), ..at(time) }).is_some());

@@ -110,7 +110,7 @@ mod tests {
             let spread = lattice("cubic", 1.0, 0.0, &format!("[measures]\ncluster_gap = {gap}"));
             let mut grains = spread.1;
             // Half a radius of gap between all surfaces.
-            grains.position.iter_mut().for_each(|position| *position = *position * 1.25);
+            grains.position = grains.position.iter().map(|&position| position * 1.25).collect();
             let found = together((spread.0, grains));
             (found.summary.count > 1, found.contacts)
         };
