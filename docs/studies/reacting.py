@@ -80,7 +80,7 @@ def sets(starts):
     row(*["---"] * 8)
     for number, paper in PAPER.items():
         sound = [run(f"reacting-set-{number}", [], seed) for seed in starts]
-        cells = [mean(sound, key) for key in ("radius_ratio", "pi", "impacts", "merges")]
+        cells = [mean(sound, key) for key in ("radius_ratio", "growth_deficit", "impacts", "merges")]
         for most in (20, 21):
             settings = [*as_set(number), f"impact.restitution.hardness.solver.fixed_point.most_iterations={most}"]
             cells.append(mean([run(PUBLISHED, settings, seed) for seed in starts], "radius_ratio"))

@@ -114,7 +114,7 @@ function searched(rest, verb = "search") {
 test("a search: cost against generation, candidates, parallel coordinates, tables", async () => {
   const folder = searched(`
 [[objectives]]
-minimise = "pi"
+minimise = "growth_deficit"
 [method.published_genetic]
 population = 8
 parents = 4
@@ -136,7 +136,7 @@ starts = 2
   const first = evaluations.cost.filter((_, row) => evaluations.generation[row] === 0).sort((a, b) => a - b).slice(0, 4);
   assert.ok(Math.abs(lines[1].y[0] - first.reduce((a, b) => a + b) / 4) < 1e-12);
   const axes = await page.evaluate(() => document.getElementById("chart-parallel").data[0].dimensions.map(({ label }) => label));
-  assert.deepEqual(axes, ["v_m_s", "hardness_Pa", "pi"]);
+  assert.deepEqual(axes, ["v_m_s", "hardness_Pa", "growth_deficit"]);
   assert.equal(await page.locator("table").first().locator("tr").count(), 3, "two best and a header");
   await page.locator("a", { hasText: "The run of the best candidate" }).click();
   await page.waitForSelector("#replay[data-ready]");
@@ -149,7 +149,7 @@ starts = 2
 test("two costs: a front", async () => {
   const folder = searched(`
 [[objectives]]
-minimise = "pi"
+minimise = "growth_deficit"
 [[objectives]]
 minimise = "temperature_mean_K"
 [method.genetic]
@@ -173,7 +173,7 @@ starts = 2
 });
 
 test("a study of sensitivity: what moves what", async () => {
-  const folder = searched("\n[[objectives]]\nminimise = \"pi\"\n[plan.morris]\ntrajectories = 3\n", "study");
+  const folder = searched("\n[[objectives]]\nminimise = \"growth_deficit\"\n[plan.morris]\ntrajectories = 3\n", "study");
   const page = await open(folder);
   assert.deepEqual(page.trouble, []);
   const bars = await page.evaluate(() => [...document.getElementById("chart-sensitivity-0").data[0].y]);

@@ -85,7 +85,8 @@ pub(crate) fn check(file: &Path, settings: &[String]) -> Result<(), Failure> {
     let problem =
         Problem::new(&campaign, &base).map_err(|faults| Failure::bad_input(format!("error: {faults}")))?;
     let mut parts = vec![format!("{} is sound", file.display()), columns(&rows(&campaign, &problem))];
-    parts.extend(problem.refused_ends().iter().map(|note| format!("note: {note}")));
+    let notes = problem.notes().into_iter().chain(problem.refused_ends());
+    parts.extend(notes.map(|note| format!("note: {note}")));
     if let Ok(scenario) = problem.scenario(&problem.centre()) {
         let plan = Plan::new(&scenario, problem.folder())
             .map_err(|error| Failure::bad_input(format!("error: {}: {error}", file.display())))?;

@@ -54,7 +54,10 @@ fn the_closing_table_and_the_folder_tell_the_best() {
         bench.rows("runs.csv").into_iter().find(|row| row.starts_with(&format!("{evaluation},0,"))).unwrap();
     let run: serde_json::Value =
         serde_json::from_slice(&std::fs::read(bench.out().join("best/summary.json")).unwrap()).unwrap();
-    assert_eq!(first.split(',').nth(3).unwrap().parse::<f64>().unwrap(), run["pi"].as_f64().unwrap());
+    assert_eq!(
+        first.split(',').nth(3).unwrap().parse::<f64>().unwrap(),
+        run["growth_deficit"].as_f64().unwrap()
+    );
     assert_eq!(first.split(',').nth(2).unwrap(), run["seed"].to_string());
     // And so is a run of the scenario with the settings that the summary names.
     let mut arguments = vec!["run".to_owned(), bench.out().join("scenario.toml").display().to_string()];
@@ -68,7 +71,7 @@ fn the_closing_table_and_the_folder_tell_the_best() {
     ended(agglo(&arguments), 0);
     let again: serde_json::Value =
         serde_json::from_slice(&std::fs::read(other.path().join("run/summary.json")).unwrap()).unwrap();
-    assert_eq!(again["pi"], run["pi"]);
+    assert_eq!(again["growth_deficit"], run["growth_deficit"]);
 }
 
 #[test]

@@ -2,9 +2,9 @@
 //!
 //! A constant carries its unit (`"0.1 T"`). A formula is in SI units throughout: x, y, z in metres, t in
 //! seconds, the value in the field's SI unit; it must contain at least one of them, so that a bare number is
-//! never taken for a quantity. It knows `+ - * / ^`, parentheses, the usual functions (`sin`, `cos`, `tan`,
-//! `exp`, `ln`, `sqrt`, `abs`, `floor`, ...) and `pi`. Where a formula has no value (1/x at 0) the result is
-//! infinite or not a number, and the run stops at its guard against such states.
+//! never taken for a quantity. It knows `+ - * / ^`, parentheses, `pi` and the functions of
+//! [`FUNCTIONS`](crate::math::formula::FUNCTIONS), as formulas of searches do. Where a formula has no value (1/x at 0) the
+//! result is infinite or not a number, and the run stops at its guard against such states.
 //!
 //! # Example
 //! ```
@@ -22,6 +22,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 
 use crate::math::Vec3;
+use crate::math::formula::{self, Parsed};
 use crate::units::{Dimension, kind_of, parse_quantity};
 
 /// One component of a field: `"0.1 T"`, or `"0.1*sin(6.28*t) + 3*x"` in SI units.
@@ -56,14 +57,19 @@ impl<const KG: i8, const M: i8, const S: i8, const K: i8, const A: i8> Expressio
             Ok(value) => return Ok(Self { text: text.to_owned(), value: Value::Constant(value) }),
             Err(reason) => reason.to_string(),
         };
-        let Ok(formula) = FlatEx::<f64>::parse(&as_mathematicians_read(text)?) else {
-            return Err(format!("{reason}, or a formula in x, y, z, t"));
+        let Parsed { expression: formula, names } = match formula::parse(text) {
+            Ok(parsed) => parsed,
+            // What only looks like a formula is a constant that is broken.
+            Err(why) if why.contains("is not a formula") => {
+                return Err(format!("{reason}, or a formula in x, y, z, t"));
+            }
+            Err(why) => return Err(why),
         };
-        let names = formula.var_names();
         if let Some(stranger) = names.iter().find(|name| !VARIABLES.contains(&name.as_str())) {
             let kind = kind_of(dimension);
+            let advice = formula::advice(stranger).map(|advice| format!("; {advice}")).unwrap_or_default();
             return Err(format!(
-                "\"{text}\" uses \"{stranger}\"; a formula knows x, y, z [m] and t [s], a constant needs a unit, such as \"{}\"",
+                "\"{text}\" uses \"{stranger}\"; a formula knows x, y, z [m] and t [s], a constant needs a unit, such as \"{}\"{advice}",
                 kind.example
             ));
         }
@@ -98,58 +104,6 @@ impl<const KG: i8, const M: i8, const S: i8, const K: i8, const A: i8> Expressio
             Value::Formula { .. } => None,
         }
     }
-}
-
-/// The formula with its signs and exponents as mathematicians read them.
-///
-/// The parser knows no `1e13`, and takes a sign before anything else, so that -x^2 would be (-x)^2. A sign at the
-/// start of a term becomes a subtraction from zero; one behind an operator is refused.
-pub(crate) fn as_mathematicians_read(text: &str) -> Result<String, String> {
-    let mut read = String::with_capacity(text.len() + 8);
-    let mut rest = text;
-    while let Some(next) = rest.chars().next() {
-        let in_word = read.ends_with(|c: char| c.is_alphanumeric() || c == '_');
-        if (next.is_ascii_digit() || next == '.') && !in_word {
-            let (number, length) = leading_number(rest);
-            read += &number;
-            rest = &rest[length..];
-            continue;
-        }
-        if matches!(next, '-' | '+') {
-            match read.trim_end().chars().last() {
-                None | Some('(' | ',') => read.push('0'),
-                Some('*' | '/' | '^' | '+' | '-') => {
-                    return Err(format!(
-                        "\"{text}\" has two operators in a row; put the second into parentheses"
-                    ));
-                }
-                Some(_) => {}
-            }
-        }
-        read.push(next);
-        rest = &rest[next.len_utf8()..];
-    }
-    Ok(read)
-}
-
-/// The number at the start of a text without an exponent, and its length in the text.
-pub(crate) fn leading_number(text: &str) -> (String, usize) {
-    let digits = |from: usize| {
-        let stop = text[from..].find(|c: char| !(c.is_ascii_digit() || c == '.'));
-        stop.map_or(text.len(), |at| from + at)
-    };
-    let mantissa = digits(0);
-    let mut end = mantissa;
-    if text[mantissa..].starts_with(['e', 'E']) {
-        let sign = usize::from(text[mantissa + 1..].starts_with(['+', '-']));
-        let exponent = digits(mantissa + 1 + sign);
-        if exponent > mantissa + 1 + sign {
-            end = exponent;
-        }
-    }
-    // Display never writes an exponent.
-    let plain = text[..end].parse::<f64>().map_or_else(|_| text[..end].to_owned(), |value| value.to_string());
-    (plain, end)
 }
 
 /// The vector of a field at a point [m] and time [s].
@@ -266,6 +220,12 @@ mod tests {
         assert!(message("3").contains("has no unit"), "{}", message("3"));
         assert!(message("2*pi").contains("has no unit") || message("2*pi").contains("unknown unit"));
         assert!(message("3 m").contains("is a length"), "{}", message("3 m"));
+        for (text, advice) in
+            [("x*E", "exp(1)"), ("x*e", "exp(1)"), ("x*PI", "pi"), ("x*π", "pi"), ("TAU*t", "2*pi")]
+        {
+            assert!(message(text).contains(&format!("write {advice}")), "{}", message(text));
+        }
+        assert!(message("log(x)").contains("calls \"log\"; functions are abs"), "{}", message("log(x)"));
         let stranger = message("3*u + x");
         assert!(stranger.contains("uses \"u\"") && stranger.contains("x, y, z"), "{stranger}");
         for broken in ["3*(x", "sin(", "x +", "", "x y"] {

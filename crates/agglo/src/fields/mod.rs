@@ -12,7 +12,6 @@ use serde::{Deserialize, Serialize};
 
 pub use drag::{Drag, DragLaw};
 pub use expression::{Expression, FieldVector, evaluate};
-pub(crate) use expression::{as_mathematicians_read, leading_number};
 pub use gravity::Gravity;
 pub use lorentz::Lorentz;
 pub use magnetic::Magnetic;

@@ -1,5 +1,6 @@
 //! Vectors, random numbers, roots and statistics. No physics.
 
+pub mod formula;
 pub mod parallel;
 mod prefetch;
 pub mod rng;

@@ -1,17 +1,11 @@
-//! Formulas of parameters and of columns of a summary, in SI units.
+//! Formulas of parameters and of columns of a summary, in SI units, in the language of [`crate::math::formula`].
 //!
-//! They know `+ - * / ^`, parentheses, the functions of [`FUNCTIONS`], and names, which may have dots:
-//! `0.7*pi + 0.3*energy.heat_J/v^2`. Which names there are is said where a formula is bound to them.
+//! Names may have dots: `0.7*growth_deficit + 0.3*energy.heat_J/v^2`. Which names there are is said where a formula is
+//! bound to them; `pi` is 3.14159... in all of them.
 
 use exmex::{Express, FlatEx};
 
-use crate::fields::{as_mathematicians_read, leading_number};
-
-/// Functions that a formula may call; `atan2`, `min` and `max` take two arguments.
-pub const FUNCTIONS: [&str; 26] = [
-    "abs", "acos", "acosh", "asin", "asinh", "atan", "atan2", "atanh", "cbrt", "ceil", "cos", "cosh", "exp",
-    "floor", "ln", "log10", "log2", "max", "min", "round", "signum", "sin", "sinh", "sqrt", "tan", "tanh",
-];
+use crate::math::formula::{self, PI, Parsed};
 
 /// A formula and where the values of its names are found.
 #[derive(Clone, Debug)]
@@ -19,6 +13,7 @@ pub struct Formula {
     text: String,
     expression: Box<FlatEx<f64>>,
     sources: Vec<Source>,
+    names_pi: bool,
 }
 
 /// Where the value of a name is found.
@@ -38,19 +33,23 @@ impl Formula {
     /// # Errors
     /// Says what is wrong with the text, or what `find` says of a name.
     pub fn new(text: &str, mut find: impl FnMut(&str) -> Result<Source, String>) -> Result<Self, String> {
-        let (numbered, names) = with_numbers_for_names(text)?;
-        let plain = as_mathematicians_read(&numbered)
-            .map_err(|_| format!("\"{text}\" has two operators in a row; put the second into parentheses"))?;
-        let broken = |why: String| format!("\"{text}\" is not a formula: {why}");
-        let expression = FlatEx::<f64>::parse(&plain).map_err(|error| broken(error.msg().to_owned()))?;
-        let mut sources = Vec::new();
-        for placeholder in expression.var_names() {
-            let number =
-                placeholder.strip_prefix(PLACEHOLDER).and_then(|number| number.parse::<usize>().ok());
-            let name = number.and_then(|number| names.get(number));
-            sources.push(find(name.ok_or_else(|| broken(format!("\"{placeholder}\" cannot be read")))?)?);
-        }
-        Ok(Self { text: text.to_owned(), expression: Box::new(expression), sources })
+        let Parsed { expression, names } = formula::parse(text)?;
+        let mut source = |name: &String| {
+            if name == PI { Ok(Source::Constant(std::f64::consts::PI)) } else { find(name) }
+        };
+        let sources = names.iter().map(&mut source).collect::<Result<Vec<_>, _>>()?;
+        let names_pi = names.iter().any(|name| name == PI);
+        Ok(Self { text: text.to_owned(), expression: Box::new(expression), sources, names_pi })
+    }
+
+    /// Whether it has neither a parameter nor a column in it.
+    pub fn is_constant(&self) -> bool {
+        self.sources.iter().all(|source| matches!(source, Source::Constant(_)))
+    }
+
+    /// Whether it has the constant `pi` in it.
+    pub fn names_pi(&self) -> bool {
+        self.names_pi
     }
 
     /// Its text.
@@ -70,48 +69,6 @@ impl Formula {
     }
 }
 
-/// A name that no unit, function or constant of the parser has.
-const PLACEHOLDER: &str = "name_";
-
-/// The formula with `name_0`, `name_1` ... for its names, and the names; the parser would not take their dots, and
-/// would take some of them for constants.
-fn with_numbers_for_names(text: &str) -> Result<(String, Vec<String>), String> {
-    let mut read = String::with_capacity(text.len());
-    let mut names: Vec<String> = Vec::new();
-    let mut rest = text;
-    while let Some(next) = rest.chars().next() {
-        if next.is_ascii_digit() || next == '.' {
-            let (number, length) = leading_number(rest);
-            read += &number;
-            rest = &rest[length..];
-        } else if next.is_alphabetic() || next == '_' {
-            let stop = |c: char| !(c.is_alphanumeric() || c == '_' || c == '.');
-            let (word, after) = rest.split_at(rest.find(stop).unwrap_or(rest.len()));
-            rest = after;
-            if after.trim_start().starts_with('(') {
-                if !FUNCTIONS.contains(&word) {
-                    let known = FUNCTIONS.join(", ");
-                    return Err(format!("\"{text}\" calls \"{word}\"; functions are {known}"));
-                }
-                read += word;
-            } else {
-                let number = names.iter().position(|name| name == word).unwrap_or_else(|| {
-                    names.push(word.to_owned());
-                    names.len() - 1
-                });
-                read += PLACEHOLDER;
-                read += &number.to_string();
-            }
-        } else if next.is_whitespace() || "+-*/^(),".contains(next) {
-            read.push(next);
-            rest = &rest[next.len_utf8()..];
-        } else {
-            return Err(format!("\"{text}\" is not a formula: \"{next}\" has no meaning in one"));
-        }
-    }
-    Ok((read, names))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -120,7 +77,7 @@ mod tests {
         let find = |name: &str| match name {
             "v" => Ok(Source::Parameter(0)),
             "e" => Ok(Source::Parameter(1)),
-            "pi" => Ok(Source::Column(0)),
+            "deficit" => Ok(Source::Column(0)),
             "energy.heat_J" => Ok(Source::Column(1)),
             "pulses.0.power_in_W" => Ok(Source::Column(2)),
             _ => Err(format!("who is {name}?")),
@@ -132,8 +89,9 @@ mod tests {
     #[test]
     fn formulas_mean_what_they_say() {
         let rows = [
-            ("pi", 0.5),
-            ("0.7*pi + 0.3*energy.heat_J/1000", 0.65),
+            ("deficit", 0.5),
+            ("sin(pi*e/2)", -1.0),
+            ("0.7*deficit + 0.3*energy.heat_J/1000", 0.65),
             ("(v - 2.0)^2", 0.0),
             ("-v^2", -4.0),
             ("2e-3*v + e", 3.004),

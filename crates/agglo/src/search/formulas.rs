@@ -5,6 +5,7 @@ use super::file::{Campaign, Derived, Objective};
 use super::formula::{Formula, Source};
 use super::setter::Setter;
 use super::{axes, columns};
+use crate::math::formula::{self, PI};
 use crate::scenario::{Fault, nearest};
 
 /// A formula and what it must keep to.
@@ -61,7 +62,6 @@ impl Reader<'_> {
     fn of_parameters(&mut self, text: &str, key: &str) -> Option<Formula> {
         let read = Formula::new(text, |name| match self.parameter(name)? {
             Some(source) => Ok(source),
-            None if name == "pi" => Ok(Source::Constant(std::f64::consts::PI)),
             None => {
                 let near = nearest(name, self.names.iter().copied());
                 Err(unknown(name, &format!("no parameter; parameters are {}", self.names.join(", ")), near))
@@ -70,7 +70,7 @@ impl Reader<'_> {
         read.map_err(|message| self.faults.push(Fault::new(key, message))).ok()
     }
 
-    /// A formula of parameters and columns.
+    /// A formula of parameters and columns, with at least one of them.
     fn of_columns(&mut self, text: &str, key: &str) -> Option<Formula> {
         let mut columns = std::mem::take(&mut self.columns);
         let read = Formula::new(text, |name| match self.parameter(name)? {
@@ -78,7 +78,26 @@ impl Reader<'_> {
             None => self.column(name, &mut columns).map(Source::Column),
         });
         self.columns = columns;
+        let read = read.and_then(|formula| self.with_names(formula));
         read.map_err(|message| self.faults.push(Fault::new(key, message))).ok()
+    }
+
+    fn with_names(&self, formula: Formula) -> Result<Formula, String> {
+        if !formula.is_constant() {
+            return Ok(formula);
+        }
+        let text = formula.text();
+        let advice = if formula.names_pi() { self.renamed(PI).unwrap_or_default() } else { String::new() };
+        Err(format!(
+            "\"{text}\" is always the same: it names no column of the run's summary and no parameter{advice}"
+        ))
+    }
+
+    /// Advice for the name that a column had in earlier versions.
+    fn renamed(&self, name: &str) -> Option<String> {
+        let (_, now) =
+            RENAMED.iter().find(|(before, now)| *before == name && columns::is_known(now, &self.known))?;
+        Some(format!("; {name} is 3.14159..., and the column that had this name is \"{now}\""))
     }
 
     fn parameter(&self, name: &str) -> Result<Option<Source>, String> {
@@ -92,6 +111,9 @@ impl Reader<'_> {
     /// The number of a column among those that are wanted.
     fn column(&self, name: &str, wanted: &mut Vec<String>) -> Result<usize, String> {
         if !columns::is_known(name, &self.known) {
+            if let Some(advice) = self.renamed(name) {
+                return Err(format!("\"{name}\" is no column of the run's summary{advice}"));
+            }
             let words = self.known.iter().map(String::as_str).chain(self.names.iter().copied());
             let near = nearest(name, words);
             return Err(unknown(name, "neither a parameter nor a column of the run's summary", near));
@@ -176,7 +198,12 @@ impl Reader<'_> {
     }
 }
 
+/// Columns that had another name once: before, now.
+const RENAMED: [(&str, &str); 1] = [(PI, "growth_deficit")];
+
 fn unknown(name: &str, what: &str, near: Option<&str>) -> String {
-    let advice = near.map(|near| format!("; did you mean \"{near}\"?")).unwrap_or_default();
+    let near = near.map(|near| format!("did you mean \"{near}\"?"));
+    let advice = near.or_else(|| formula::advice(name).map(str::to_owned));
+    let advice = advice.map(|advice| format!("; {advice}")).unwrap_or_default();
     format!("\"{name}\" is {what}{advice}")
 }

@@ -29,7 +29,7 @@ pub trait Model: Sync {
     /// What is worked out once for a candidate.
     type Prepared: Send + Sync;
 
-    /// Names of the figures, with their units: `pi`, `temperature_mean_K`.
+    /// Names of the figures, with their units: `growth_deficit`, `temperature_mean_K`.
     fn columns(&self) -> &[String];
 
     /// What a point stands for.

@@ -98,6 +98,20 @@ impl Problem {
         self.objectives.iter().map(|cost| (cost.formula.text(), cost.sign < 0.0))
     }
 
+    /// What to keep in mind of the formulas, in words.
+    pub fn notes(&self) -> Vec<String> {
+        let objectives = self.objectives.iter().map(|cost| &cost.formula);
+        let formulas = objectives.chain(self.limits.iter().map(|limit| &limit.formula));
+        let with_pi = formulas.filter(|formula| formula.names_pi() && self.base.scenario.engine.is_hard());
+        let note = |formula: &Formula| {
+            format!(
+                "pi in \"{}\" is 3.14159...; the cost Π of growth is the column growth_deficit",
+                formula.text()
+            )
+        };
+        with_pi.map(note).collect()
+    }
+
     /// The candidate in the middle of the box.
     pub fn centre(&self) -> Candidate {
         self.candidate(&vec![0.5; self.knobs.len()])

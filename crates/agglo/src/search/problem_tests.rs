@@ -125,7 +125,7 @@ fn figures_are_those_of_the_summary() {
             "#
         )
     };
-    let (_, problem) = problem(&text("pi"));
+    let (_, problem) = problem(&text("growth_deficit"));
     let stop = AtomicBool::new(false);
     let centre = problem.centre();
     let figures = problem.run(&problem.prepare(&centre).unwrap(), 9, &stop).unwrap();
@@ -134,7 +134,7 @@ fn figures_are_those_of_the_summary() {
         panic!("it fails")
     };
     let run::Summary::Hard(summary) = summary else { panic!("these are hard spheres") };
-    assert_eq!(figures[..2], [summary.pi, summary.energy.stores.kinetic]);
+    assert_eq!(figures[..2], [summary.growth_deficit, summary.energy.stores.kinetic]);
     assert!(figures[2].is_nan(), "no thermal conductivity, no Biot number");
 
     let (_, problem) = self::problem(&text("biot_number"));
@@ -150,7 +150,7 @@ fn ends_that_cannot_be_run_are_told() {
     let text = r#"
         version = 1
         base.template = "reacting"
-        objectives = [{ minimise = "pi" }]
+        objectives = [{ minimise = "growth_deficit" }]
         method.random.points = 4
         [[parameters]]
         name = "L"

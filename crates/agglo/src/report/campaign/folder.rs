@@ -93,7 +93,7 @@ impl Folder {
         self.evaluations.names.iter().skip(before).map(String::as_str).collect()
     }
 
-    /// What the costs stand for: "pi", "-(grains)" where it is to be large.
+    /// What the costs stand for: "growth_deficit", "-(grains)" where it is to be large.
     pub fn goals(&self) -> Vec<String> {
         let known = self.campaign.iter().flat_map(|campaign| &campaign.objectives);
         let goal = |objective: &Objective| match objective {

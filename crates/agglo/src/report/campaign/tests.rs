@@ -12,7 +12,7 @@ title = "Which cloud sticks best?"
 seed = 5
 base.template = "reacting"
 [[objectives]]
-minimise = "pi"
+minimise = "growth_deficit"
 [[parameters]]
 name = "v"
 key = "grains.0.velocity_spread.uniform.bounds.0"
@@ -27,7 +27,7 @@ offspring = 2
 "#;
 
 const EVALUATIONS: &str = "\
-evaluation,generation,stage,status,starts,violation,cost,cost_standard_error,v_m_s,hardness_Pa,pi,n_f
+evaluation,generation,stage,status,starts,violation,cost,cost_standard_error,v_m_s,hardness_Pa,growth_deficit,n_f
 0,0,search,ok,2,0.0,0.9,0.01,20.0,100000.0,0.9,1.5
 1,0,search,ok,2,0.0,0.7,0.01,30.0,200000.0,0.7,2.5
 2,0,search,failed,0,,,,40.0,300000.0,,
@@ -85,7 +85,11 @@ fn parallel_coordinates_hold_the_candidates_that_ran() {
     let report = report(folder.path());
     let series = &chart(&report, "parallel").series[0];
     let labels: Vec<&str> = series.dimensions.iter().map(|dimension| dimension.label.as_str()).collect();
-    assert_eq!(labels, ["v_m_s", "hardness_Pa", "pi"].map(|name| name), "the goal names the cost");
+    assert_eq!(
+        labels,
+        ["v_m_s", "hardness_Pa", "growth_deficit"].map(|name| name),
+        "the goal names the cost"
+    );
     assert_eq!(series.dimensions[1].values, [1e5, 2e5, 4e5]);
     assert_eq!(series.colors, [0.9, 0.7, 0.5]);
 }
@@ -130,7 +134,7 @@ fn two_costs_make_a_front() {
     );
     fs::write(folder.path().join("search.toml"), text).unwrap();
     let evaluations = "\
-evaluation,generation,stage,status,starts,violation,cost_1,cost_2,cost_1_standard_error,cost_2_standard_error,v_m_s,hardness_Pa,pi
+evaluation,generation,stage,status,starts,violation,cost_1,cost_2,cost_1_standard_error,cost_2_standard_error,v_m_s,hardness_Pa,growth_deficit
 0,0,search,ok,2,0.0,0.9,-2.5,0.01,0.1,20.0,100000.0,0.9
 1,0,search,ok,2,0.0,0.7,-1.5,0.01,0.1,30.0,200000.0,0.7
 ";
@@ -154,8 +158,8 @@ fn study(plan: &str, files: &[(&str, &str)]) -> Report {
 #[test]
 fn a_study_shows_what_its_plan_is_for() {
     let effects = "target,parameter,mean_effect,mean_size,mean_size_standard_error,standard_deviation,noise,effects\n\
-                   pi,v,-0.2,0.25,0.01,0.02,0.005,6\npi,hardness,0.1,0.125,0.01,0.03,0.005,6\n\
-                   pi,v,-0.2,0.25,0.01,0.02,0.005,6\npi,hardness,0.1,0.125,0.01,0.03,0.005,6\n";
+                   growth_deficit,v,-0.2,0.25,0.01,0.02,0.005,6\npi,hardness,0.1,0.125,0.01,0.03,0.005,6\n\
+                   growth_deficit,v,-0.2,0.25,0.01,0.02,0.005,6\npi,hardness,0.1,0.125,0.01,0.03,0.005,6\n";
     let morris = study("[plan.morris]\n", &[("sensitivity.csv", effects)]);
     assert_eq!(morris.kind, "A study");
     let drawn = chart(&morris, "sensitivity-0");
@@ -166,7 +170,7 @@ fn a_study_shows_what_its_plan_is_for() {
     assert!(morris.tables.iter().any(|table| table.title == "Sensitivity"));
 
     let shares = "target,parameter,first,first_lower,first_upper,total,total_lower,total_upper,variance,noise_share,blocks\n\
-                  pi,v,0.5,0.25,0.75,0.625,0.5,0.75,0.1,0.01,16\n";
+                  growth_deficit,v,0.5,0.25,0.75,0.625,0.5,0.75,0.1,0.01,16\n";
     let sobol = study("[plan.sobol_indices]\n", &[("sensitivity.csv", shares)]);
     let drawn = chart(&sobol, "sensitivity-0");
     assert_eq!((drawn.series[1].y[0], drawn.series[1].error[0]), (0.625, 0.125));

@@ -18,7 +18,7 @@ const GRAINS: &[&str] = &[
     "deviation_radius_m",
     "radius_ratio",
     "n_f",
-    "pi",
+    "growth_deficit",
     "largest_radius_m",
     "largest_primaries",
     "largest_fraction",

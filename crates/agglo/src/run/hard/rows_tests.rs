@@ -34,7 +34,7 @@ fn growth_stands_under_its_columns() {
         ("mean_radius_m", 3e-3),
         ("radius_ratio", 2.0),
         ("n_f", 8.0),
-        ("pi", 0.5),
+        ("growth_deficit", 0.5),
         ("largest_primaries", 40.0),
         ("largest_fraction", 0.25),
         ("mean_temperature_K", 500.0),

@@ -48,7 +48,8 @@ pub struct HardSummary {
     /// Mean radius at the end over that at the start.
     pub radius_ratio: f64,
     /// The cost of [B] 7.1: 1 - mean radius over the radius of one sphere of all the solid.
-    pub pi: f64,
+    #[serde(alias = "pi")]
+    pub growth_deficit: f64,
     /// The third power of `radius_ratio`.
     pub n_f: f64,
     /// Largest radius at the end [m].
@@ -160,7 +161,7 @@ impl HardSummary {
             mean_radius_start_m,
             mean_radius_m: growth.mean_radius,
             radius_ratio: ratio,
-            pi: growth.cost(),
+            growth_deficit: growth.cost(),
             n_f: ratio * ratio * ratio,
             largest_radius_m: growth.largest_radius,
             largest_radius_ratio: growth.largest_radius / mean_radius_start_m,
@@ -257,7 +258,7 @@ impl HardSummary {
     }
 
     fn growth_row(&self) -> String {
-        format!("n_f {:.4}, Pi {:.5} (0 if all were one sphere)", self.n_f, self.pi)
+        format!("n_f {:.4}, Pi {:.5} (0 if all were one sphere)", self.n_f, self.growth_deficit)
     }
 
     fn largest_row(&self) -> String {

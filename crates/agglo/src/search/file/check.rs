@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use super::{Campaign, Constraint, Limit};
+use crate::math::formula;
 use crate::scenario::Fault;
-use crate::search::formula::FUNCTIONS;
 use crate::search::optimiser::Method;
-use crate::search::{Problem, Until, columns};
+use crate::search::{Axis, Model, Problem, Until, columns};
 
 /// Everything that is wrong with a campaign whose form is right; files are relative to `folder`.
 pub(super) fn faults(campaign: &Campaign, folder: &Path) -> Vec<Fault> {
@@ -21,6 +21,7 @@ pub(super) fn faults(campaign: &Campaign, folder: &Path) -> Vec<Fault> {
     let mut faults = check.faults;
     match Problem::new(campaign, folder) {
         Ok(problem) if faults.is_empty() => {
+            faults.extend(table_columns(&problem));
             faults.extend(plan(campaign, &problem));
             faults.extend(centre(campaign, &problem));
         }
@@ -66,8 +67,10 @@ impl Check<'_> {
                 let message =
                     format!("\"{name}\" is no name: a letter, then letters, digits and underscores");
                 self.fail(key, message);
-            } else if FUNCTIONS.contains(&name.as_str()) || columns.contains(name) {
-                self.fail(key, format!("\"{name}\" already means a function or a column of the summary"));
+            } else if let Some(meaning) = formula::meaning(name) {
+                self.fail(key, format!("\"{name}\" is {meaning}; choose another name"));
+            } else if columns.contains(name) {
+                self.fail(key, format!("\"{name}\" is a column of the summary; choose another name"));
             } else if parameters[..at].iter().any(|earlier| earlier.name == *name) {
                 self.fail(key, format!("there are two parameters \"{name}\""));
             }
@@ -221,6 +224,47 @@ impl Check<'_> {
 fn word_of(method: &Method) -> String {
     let tree = serde_json::to_value(method).unwrap_or_default();
     tree.as_object().and_then(|table| table.keys().next().cloned()).unwrap_or_default()
+}
+
+/// Columns that tables have besides those of parameters and figures.
+const OF_TABLES: [&str; 14] = [
+    "evaluation",
+    "generation",
+    "stage",
+    "status",
+    "starts",
+    "start",
+    "seed",
+    "repeats",
+    "violation",
+    "cost",
+    "cost_1",
+    "cost_2",
+    "rank",
+    "target",
+];
+
+/// A parameter's column, which has its unit in its name, must be the only one of that name in the tables.
+fn table_columns(problem: &Problem) -> Vec<Fault> {
+    let axes: Vec<String> = problem.axes().iter().map(Axis::column).collect();
+    let is_taken = |at: usize| {
+        let column = &axes[at];
+        let is_an_error = ["_standard_error", "_standard_deviation"].iter().any(|end| column.ends_with(end));
+        let is_searched = column.starts_with("search_") || column.starts_with("final_");
+        OF_TABLES.contains(&column.as_str())
+            || is_an_error
+            || is_searched
+            || problem.columns().contains(column)
+            || axes[..at].contains(column)
+    };
+    let fault = |at: usize| {
+        let message = format!(
+            "its column in the tables would be \"{}\", which they have already; choose another name",
+            axes[at]
+        );
+        Fault::new(format!("parameters.{at}.name"), message)
+    };
+    (0..axes.len()).filter(|at| is_taken(*at)).map(fault).collect()
 }
 
 /// What is wrong with a plan, whose rules depend on how many values its parameters have.
