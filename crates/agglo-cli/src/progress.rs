@@ -226,12 +226,13 @@ fn campaign_state(progress: &CampaignProgress) -> String {
         let error = if error > 0.0 { format!(" +- {}", readable(error, "")) } else { String::new() };
         format!("{}{error}", readable(cost, ""))
     });
+    let best = if progress.has_goal { format!(", best {best}") } else { String::new() };
     let most = progress.evaluations_at_most.map(|most| format!(" of {most}")).unwrap_or_default();
     let failed = if *failures > 0 { format!(", {failures} failed") } else { String::new() };
     let left = progress.left_s.map(|left| format!(", {} left", clock(left))).unwrap_or_default();
     let (stage, rate) = (progress.stage.word(), readable(progress.starts_per_second, ""));
     format!(
-        "{stage}, best {best}, {evaluations}{most} candidates in {generations} batches{failed}, {starts} runs, \
+        "{stage}{best}, {evaluations}{most} candidates in {generations} batches{failed}, {starts} runs, \
          {rate}/s{left}"
     )
 }
@@ -277,6 +278,7 @@ mod tests {
     fn a_campaign_shows_its_best_and_what_is_left() {
         let progress = CampaignProgress {
             best: Some((0.320_44, 0.004)),
+            has_goal: true,
             stage: Stage::Search,
             evaluations: 314,
             evaluations_at_most: Some(370),

@@ -5,10 +5,8 @@ use std::path::Path;
 use std::sync::atomic::Ordering;
 
 use agglo::forecast::Plan;
-use agglo::search::campaign::{
-    self, CampaignEnding, CampaignError, CampaignObserver, CampaignSummary, evaluations_at_most,
-};
-use agglo::search::{Axis, Campaign, Ensemble, Problem, Scale, Until};
+use agglo::search::campaign::{self, CampaignEnding, CampaignError, CampaignObserver, CampaignSummary};
+use agglo::search::{Axis, Campaign, CampaignForecast, Ensemble, Problem, Scale, Until};
 
 use crate::arguments::Orders;
 use crate::progress::Display;
@@ -106,6 +104,9 @@ fn rows(campaign: &Campaign, problem: &Problem) -> Vec<(String, String)> {
     for (formula, is_to_be_large) in problem.objectives() {
         rows.push(row(if is_to_be_large { "to be large" } else { "to be small" }, formula.to_owned()));
     }
+    if campaign.objectives.is_empty() {
+        rows.push(row("measured", campaign.columns.join(", ")));
+    }
     let corridor = |formula: &str, at_least: Option<f64>, at_most: Option<f64>| {
         let least = at_least.map(|least| format!(" at least {least}")).unwrap_or_default();
         let most = at_most.map(|most| format!(" at most {most}")).unwrap_or_default();
@@ -119,9 +120,7 @@ fn rows(campaign: &Campaign, problem: &Problem) -> Vec<(String, String)> {
     let (what, word) = campaign::way_of(campaign);
     rows.push(row(what, word));
     rows.push(row("starts", starts(&campaign.ensemble)));
-    if let Some(most) = evaluations_at_most(campaign, problem) {
-        rows.push(row("candidates", format!("{most} at most")));
-    }
+    rows.extend(CampaignForecast::new(campaign, problem, threads(None)).rows());
     rows
 }
 

@@ -13,8 +13,10 @@ fn check_says_what_a_search_would_do() {
         "100 kPa to 1 MPa",
         "published_genetic",
         "2 to 8, until one more moves the mean cost by less than 0.002 of itself; the same for all",
-        // 20 strings, three times 14, three with fresh starts.
-        "65 at most",
+        // 20 strings, three times 14; two to eight starts each, four for each of three again and for the best of them.
+        "62, 3 of the best run again, the best of these once more at most",
+        "140 to 512",
+        "time of all",
         "impacts",
     ];
     for words in wanted {
@@ -85,4 +87,24 @@ fn a_study_runs_its_plan() {
     assert!(bench.out().join("measures.csv").is_file() && !bench.out().join("best").exists());
     let text = complained(&ended(agglo(&["search", &bench.file("campaign.toml")]), 2));
     assert!(text.contains("is a study") && text.contains("`agglo study "), "{text}");
+}
+
+/// A study without objectives measures; it makes nothing small, and has no best.
+#[test]
+fn a_study_without_objectives_measures() {
+    let method = SEARCH.find("[method").unwrap();
+    let study = SEARCH[..method].replace("[[objectives]]\nminimise = \"growth_deficit\"\n", "")
+        + "[plan.grid]\nlevels = 2\n";
+    let study = study.replacen("seed = 5\n", "seed = 5\ncolumns = [\"radius_ratio\", \"impacts\"]\n", 1);
+    let bench = Bench::with(&study);
+    let checked = said(&ended(agglo(&["check", &bench.file("campaign.toml")]), 0));
+    assert!(checked.contains("radius_ratio, impacts") && checked.contains("measured"), "{checked}");
+    assert!(!checked.contains("to be small"), "{checked}");
+    let text = said(&bench.ends("study", &["--set", "ensemble.until={ fixed = { starts = 2 } }"], 0));
+    assert!(text.contains("search 4 of 4") && !text.contains("best") && !text.contains("smallest"), "{text}");
+    let header = std::fs::read_to_string(bench.out().join("evaluations.csv")).unwrap();
+    let header = header.lines().next().unwrap();
+    let once = header.split(',').filter(|name| *name == "radius_ratio").count();
+    assert!(once == 1 && !header.contains("cost"), "{header}");
+    assert!(bench.summary()["best"].is_null());
 }

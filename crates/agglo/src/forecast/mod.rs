@@ -177,7 +177,7 @@ fn about(value: f64) -> String {
 }
 
 /// A time as people say it: "about 3 s", "about 12 min", "about 5 h".
-fn duration(seconds: f64) -> String {
+pub(crate) fn duration(seconds: f64) -> String {
     match seconds {
         s if s < 1.0 => "less than 1 s".to_owned(),
         s if s < 120.0 => format!("about {s:.0} s"),

@@ -85,6 +85,9 @@ pub struct Series {
     /// The colour of each point or line.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub colors: Vec<f64>,
+    /// Whether large colour values are the bright ones of parallel coordinates, and not small ones.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub ascending: bool,
     /// The axes of parallel coordinates.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub dimensions: Vec<Dimension>,

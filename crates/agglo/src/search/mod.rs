@@ -11,6 +11,7 @@ mod columns;
 mod ensemble;
 mod file;
 mod fitness;
+mod forecast;
 mod formula;
 mod formulas;
 pub mod functions;
@@ -27,10 +28,11 @@ mod test_models;
 
 pub use ensemble::{Confidence, Ensemble, Fixed, RunningMean, Until};
 pub use file::{
-    Base, Bounds, Campaign, Confirm, Constraint, Derived, Limit, Objective, Parameter, Range, Scalar,
+    Base, Bounds, Budget, Campaign, Confirm, Constraint, Derived, Limit, Objective, Parameter, Range, Scalar,
     campaign_schema,
 };
 pub use fitness::Fitness;
+pub use forecast::CampaignForecast;
 pub use model::{Candidate, Model, Trouble};
 pub use plan::{Grid, List, Morris, Plan, Refinement, SobolIndices};
 pub use problem::{Prepared, Problem};

@@ -9,6 +9,7 @@ use serde_json::Value as Json;
 use super::analysis::Moments;
 use super::axes::{self, Knob};
 use super::base::BaseScenario;
+use super::campaign::LimitKept;
 use super::file::Campaign;
 use super::formula::Formula;
 use super::formulas::{Corridor, Cost, Reader};
@@ -29,6 +30,8 @@ pub struct Problem {
     objectives: Vec<Cost>,
     limits: Vec<Corridor>,
     columns: Vec<String>,
+    /// Whether the file has objectives; a study without any is judged by its first column.
+    has_objectives: bool,
 }
 
 /// A candidate's scenario, checked.
@@ -75,7 +78,8 @@ impl Problem {
             return Err(Faults::new(faults));
         }
         let axes = knobs.iter().map(|knob| knob.axis.clone()).collect();
-        Ok(Self { base, knobs, axes, derived, constraints, objectives, limits, columns })
+        let has_objectives = !campaign.objectives.is_empty();
+        Ok(Self { base, knobs, axes, derived, constraints, objectives, limits, columns, has_objectives })
     }
 
     /// The parameters as axes, in the order of a candidate's values.
@@ -93,9 +97,29 @@ impl Problem {
         &self.base.folder
     }
 
-    /// Texts of the objectives, and whether each is to be large; a cost is minus the value of such a one.
+    /// Texts of the file's objectives, and whether each is to be large; a cost is minus the value of such a one.
     pub fn objectives(&self) -> impl Iterator<Item = (&str, bool)> {
-        self.objectives.iter().map(|cost| (cost.formula.text(), cost.sign < 0.0))
+        let objectives = self.objectives.iter().filter(|_| self.has_objectives);
+        objectives.map(|cost| (cost.formula.text(), cost.sign < 0.0))
+    }
+
+    /// The limits of a candidate's outcome over its starts, and whether they are kept.
+    pub fn limits_of(&self, candidate: &Candidate, starts: &[Vec<f64>]) -> Vec<LimitKept> {
+        let numbers = self.numbers(&candidate.values);
+        let of = |limit: &Corridor| {
+            let values: Vec<f64> = starts.iter().map(|figures| limit.formula.at(&numbers, figures)).collect();
+            let moments = Moments::of(&values);
+            let known = |figure: f64| Some(figure).filter(|figure| figure.is_finite());
+            LimitKept {
+                formula: limit.formula.text().to_owned(),
+                at_least: limit.at_least,
+                at_most: limit.at_most,
+                mean: known(moments.mean),
+                standard_error: known(moments.standard_error()),
+                is_kept: limit.missed(&values) == 0.0,
+            }
+        };
+        self.limits.iter().map(of).collect()
     }
 
     /// What to keep in mind of the formulas, in words.

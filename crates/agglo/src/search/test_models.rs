@@ -22,6 +22,8 @@ pub struct Analytic {
     pub excluded_above: f64,
     /// Candidates cannot be prepared at all.
     pub is_broken: bool,
+    /// Values are whole numbers.
+    pub is_whole: bool,
     /// How often it was run.
     pub runs: AtomicU64,
     pub columns: Vec<String>,
@@ -37,6 +39,7 @@ impl Default for Analytic {
             panics_above: 2.0,
             excluded_above: 2.0,
             is_broken: false,
+            is_whole: false,
             runs: AtomicU64::new(0),
             columns: vec!["value".to_owned(), "noise".to_owned()],
         }
@@ -52,7 +55,8 @@ impl Model for Analytic {
 
     fn candidate(&self, point: &[f64]) -> Candidate {
         let (lower, upper) = self.function.bounds();
-        let values = point.iter().map(|u| lower + u * (upper - lower)).collect();
+        let value = |u: &f64| lower + u * (upper - lower);
+        let values = point.iter().map(|u| if self.is_whole { value(u).round() } else { value(u) }).collect();
         let violation = point.get(1).map_or(0.0, |x| (x - self.excluded_above).max(0.0));
         Candidate { point: point.to_vec(), values, violation }
     }

@@ -22,9 +22,19 @@ pub fn charts(folder: &Folder) -> Vec<Chart> {
 /// The best cost against generations, with the mean of the parents ([B], fig. 4).
 fn costs(folder: &Folder, searched: &Sheet) -> Option<Chart> {
     let sheet = &folder.generations;
+    let sign = folder.signs().first().copied().unwrap_or(1.0);
     let column = |name: &str| sheet.numbers(name);
+    let signed = |name: &str| Some(column(name)?.into_iter().map(|cost| sign * cost).collect::<Vec<f64>>());
     let generation = column("generation")?;
-    let best = column("best_cost")?;
+    let best = signed("best_cost")?;
+    // As long as no candidate keeps the limits, the one nearest to them is no best.
+    let missed = column("best_violation").unwrap_or_else(|| vec![0.0; best.len()]);
+    let of = |is_missed: bool| -> Vec<f64> {
+        let shown =
+            |(best, missed): (&f64, &f64)| if (*missed > 0.0) == is_missed { *best } else { f64::NAN };
+        best.iter().zip(&missed).map(shown).collect()
+    };
+    let (nearest, best) = (of(true), of(false));
     let (kept, mean) = mean_of_best(folder, searched, &generation)?;
     let line = |name: &str, y: Vec<f64>| Series {
         name: name.to_owned(),
@@ -35,21 +45,25 @@ fn costs(folder: &Folder, searched: &Sheet) -> Option<Chart> {
     let errors = column("best_cost_standard_error")?;
     let mut series = vec![
         Series { error: errors, ..line("best so far", best) },
-        line(&format!("mean of the best {kept} so far"), mean),
+        line(&format!("mean of the best {kept} so far"), mean.into_iter().map(|cost| sign * cost).collect()),
     ];
-    series.push(line("lowest of the generation", column("cost_lowest")?));
-    series.push(line("mean of the generation", column("cost_mean")?));
+    series.push(line("best of the generation", signed("cost_lowest")?));
+    series.push(line("mean of the generation", signed("cost_mean")?));
+    if nearest.iter().any(|value| value.is_finite()) {
+        series.push(line("nearest to the limits so far, which it MISSES", nearest));
+    }
     if generation.is_empty() {
         return None;
     }
     let goal = folder.goals().first().cloned().unwrap_or_default();
     Some(Chart {
         id: "cost".to_owned(),
-        title: "Cost against generation".to_owned(),
+        title: format!("{goal} against generation"),
         caption: format!(
-            "The lowest mean cost so far with its standard error, and the mean of the best {kept} so far, which are the \
-             parents of a search that keeps them; in the last generations the best are polished or run again. Costs of \
-             the best are too good where they scatter. From generations.csv and evaluations.csv."
+            "The best mean so far with its standard error, and the mean of the best {kept} so far, which are the \
+             parents of a search that keeps them; in the last generations the best are polished or run again. What is \
+             best is too good where it scatters. Candidates that miss a limit are in no mean. From generations.csv and \
+             evaluations.csv."
         ),
         words: series.iter().map(|series| series.in_words("")).collect(),
         x: Axis::new("generation", ""),
@@ -77,27 +91,34 @@ fn mean_of_best(folder: &Folder, searched: &Sheet, generations: &[f64]) -> Optio
     Some((kept, generations.iter().map(mean).collect()))
 }
 
-/// Every candidate's cost with its error.
+/// Stands for candidates that miss a limit, whatever their stage.
+const MISSES: &str = "";
+
+/// Every candidate's goal with its error.
 fn candidates(folder: &Folder) -> Option<Chart> {
     let costs = folder.costs();
     let &[cost] = costs.as_slice() else { return None };
     let sheet = &folder.evaluations;
     let (number, stage, status) =
         (sheet.numbers("evaluation")?, sheet.words("stage")?, sheet.words("status")?);
-    let (cost, error) = (sheet.numbers(cost)?, sheet.numbers(&format!("{cost}_standard_error"))?);
-    let mut stages: Vec<&str> = stage.clone();
-    stages.dedup();
+    let sign = folder.signs().first().copied().unwrap_or(1.0);
+    let error = sheet.numbers(&format!("{cost}_standard_error"))?;
+    let cost: Vec<f64> = sheet.numbers(cost)?.into_iter().map(|cost| sign * cost).collect();
     let mut series = Vec::new();
-    for one in ["search", "polish", "confirm"] {
-        let rows: Vec<usize> = (0..number.len())
-            .filter(|&row| stage[row] == one && status[row] != "failed" && cost[row].is_finite())
-            .collect();
-        let take = |column: &[f64]| rows.iter().map(|&row| column[row]).collect::<Vec<_>>();
-        let name = match one {
-            "search" => "candidates",
-            "polish" => "polished",
-            _ => "run again",
+    let kinds = [
+        ("search", "candidates"),
+        ("polish", "polished"),
+        ("confirm", "run again"),
+        ("final", "the best, once more"),
+        (MISSES, "MISS A LIMIT"),
+    ];
+    for (one, name) in kinds {
+        let is_of = |row: usize| {
+            let misses = status[row] == "infeasible";
+            if one == MISSES { misses } else { stage[row] == one && !misses && status[row] != "failed" }
         };
+        let rows: Vec<usize> = (0..number.len()).filter(|&row| is_of(row) && cost[row].is_finite()).collect();
+        let take = |column: &[f64]| rows.iter().map(|&row| column[row]).collect::<Vec<_>>();
         if !rows.is_empty() {
             let text = rows.iter().map(|&row| in_words(folder, row)).collect();
             let (x, y, error) = (take(&number), take(&cost), take(&error));
@@ -110,8 +131,8 @@ fn candidates(folder: &Folder) -> Option<Chart> {
     Some(Chart {
         id: "candidates".to_owned(),
         title: "Every candidate".to_owned(),
-        caption: "Mean cost of each candidate with its standard error, in the order in which they were tried. From \
-                  evaluations.csv."
+        caption: "Mean of each candidate with its standard error, in the order in which they were tried; those that miss \
+                  a limit by themselves. From evaluations.csv."
             .to_owned(),
         words: series.iter().map(|series| series.in_words("")).collect(),
         kind: Kind::Points,
@@ -136,22 +157,26 @@ fn in_words(folder: &Folder, row: usize) -> String {
 fn front(folder: &Folder, searched: &Sheet) -> Option<Chart> {
     let costs = folder.costs();
     let &[first, second] = costs.as_slice() else { return None };
-    let goals = folder.goals();
+    let (goals, signs) = (folder.goals(), folder.signs());
+    let signed = |name: &str, sign: f64| {
+        Some(searched.numbers(name)?.into_iter().map(|cost| sign * cost).collect::<Vec<f64>>())
+    };
     let all = Series {
         name: "candidates".to_owned(),
-        x: searched.numbers(first)?,
-        y: searched.numbers(second)?,
+        x: signed(first, signs[0])?,
+        y: signed(second, signs[1])?,
         ..Series::default()
     };
     let mut front: Vec<[f64; 2]> = folder
         .summary
         .iter()
         .flat_map(|summary| &summary.front)
-        .filter_map(|point| Some([*point.costs.first()?, *point.costs.get(1)?]))
+        .filter_map(|point| Some([signs[0] * point.costs.first()?, signs[1] * point.costs.get(1)?]))
         .collect();
     front.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let misses = folder.summary.iter().flat_map(|summary| &summary.front).any(|point| point.violation > 0.0);
     let beaten = Series {
-        name: "beaten by no other".to_owned(),
+        name: if misses { "beaten by no other, all MISS A LIMIT" } else { "beaten by no other" }.to_owned(),
         x: front.iter().map(|point| point[0]).collect(),
         y: front.iter().map(|point| point[1]).collect(),
         ..Series::default()
@@ -162,7 +187,7 @@ fn front(folder: &Folder, searched: &Sheet) -> Option<Chart> {
     Some(Chart {
         id: "front".to_owned(),
         title: "Front".to_owned(),
-        caption: "Mean costs of all candidates; those on the front are beaten by no other in both. From \
+        caption: "Means of all candidates that keep the limits; those on the front are beaten by no other in both. From \
                   evaluations.csv and summary.json."
             .to_owned(),
         words: words.collect(),
@@ -178,21 +203,35 @@ fn parallel(folder: &Folder, searched: &Sheet) -> Option<Chart> {
     if searched.rows.is_empty() {
         return None;
     }
-    let (costs, goals) = (folder.costs(), folder.goals());
+    let (costs, goals, signs) = (folder.costs(), folder.goals(), folder.signs());
     let parameters = folder.parameters().into_iter().filter_map(|name| dimension(searched, name, name));
-    let outcomes = costs.iter().zip(&goals).filter_map(|(name, goal)| dimension(searched, name, goal));
+    // A study without objectives is coloured by the first of its outcomes.
+    let first = folder.outcomes().first().map(|name| (*name).to_owned());
+    let shown: Vec<(String, String, f64)> = if costs.is_empty() {
+        first.iter().map(|name| (name.clone(), name.clone(), 1.0)).collect()
+    } else {
+        let named = costs.iter().zip(goals).zip(signs);
+        named.map(|((cost, goal), sign)| ((*cost).to_owned(), goal, sign)).collect()
+    };
+    let signed = |(name, goal, sign): &(String, String, f64)| {
+        let dimension = dimension(searched, name, goal)?;
+        let values = dimension.values.iter().map(|value| sign * value).collect();
+        Some(Dimension { values, ..dimension })
+    };
+    let outcomes: Vec<Dimension> = shown.iter().filter_map(signed).collect();
+    let (_, label, sign) = shown.first()?.clone();
+    let colors = outcomes.first()?.values.clone();
     let dimensions: Vec<Dimension> = parameters.chain(outcomes).collect();
-    let colors = searched.numbers(costs.first()?)?;
-    let label = goals.first()?.clone();
+    let ascending = sign < 0.0;
     Some(Chart {
         id: "parallel".to_owned(),
-        title: "Parameters and costs".to_owned(),
+        title: "Parameters and goals".to_owned(),
         caption: "A line for each candidate; bright ones are better. Drag along an axis to choose a range, drag a name \
                   to move its axis. From evaluations.csv."
             .to_owned(),
         words: vec![format!("{} candidates over {} axes", searched.rows.len(), dimensions.len())],
         kind: Kind::Parallel,
-        series: vec![Series { label, colors, dimensions, ..Series::default() }],
+        series: vec![Series { label, colors, dimensions, ascending, ..Series::default() }],
         ..Chart::default()
     })
 }

@@ -73,11 +73,9 @@ impl Folder {
 
     /// Names of the parameters' columns.
     pub fn parameters(&self) -> Vec<&str> {
-        // They follow the last error of a cost, and precede the outcomes.
+        // They follow the last error of a cost, or the violation where there are no costs, and precede the outcomes.
         let names = &self.evaluations.names;
-        let Some(last) = names.iter().rposition(|name| name.ends_with("_standard_error")) else {
-            return Vec::new();
-        };
+        let Some(last) = self.last_of_fixed() else { return Vec::new() };
         let count = match (&self.campaign, &self.summary) {
             (Some(campaign), _) => campaign.parameters.len(),
             (None, Some(summary)) => summary.best.as_ref().map_or(0, |best| best.parameters.0.len()),
@@ -88,24 +86,44 @@ impl Folder {
 
     /// Names of the outcomes' columns.
     pub fn outcomes(&self) -> Vec<&str> {
-        let fixed = self.evaluations.names.iter().rposition(|name| name.ends_with("_standard_error"));
-        let before = fixed.map_or(0, |last| last + 1) + self.parameters().len();
+        let before = self.last_of_fixed().map_or(0, |last| last + 1) + self.parameters().len();
         self.evaluations.names.iter().skip(before).map(String::as_str).collect()
     }
 
-    /// What the costs stand for: "growth_deficit", "-(grains)" where it is to be large.
+    fn last_of_fixed(&self) -> Option<usize> {
+        let is_fixed = |name: &String| name == "violation" || name.ends_with("_standard_error");
+        self.evaluations.names.iter().rposition(is_fixed)
+    }
+
+    /// What is to be small or large; the names of the costs where that is not known.
     pub fn goals(&self) -> Vec<String> {
-        let known = self.campaign.iter().flat_map(|campaign| &campaign.objectives);
-        let goal = |objective: &Objective| match objective {
-            Objective::Minimise(formula) => formula.clone(),
-            Objective::Maximise(formula) => format!("-({formula})"),
-        };
-        let mut goals: Vec<String> = known.map(goal).collect();
+        let mut goals: Vec<String> = self.objectives().map(|(formula, _)| formula.to_owned()).collect();
         let costs = self.costs();
         if goals.len() != costs.len() {
             goals = costs.into_iter().map(str::to_owned).collect();
         }
         goals
+    }
+
+    /// What each goal is times its cost: 1, or -1 where it is to be large.
+    pub fn signs(&self) -> Vec<f64> {
+        let known: Vec<f64> =
+            self.objectives().map(|(_, is_to_be_large)| if is_to_be_large { -1.0 } else { 1.0 }).collect();
+        let costs = self.costs().len();
+        if known.len() == costs { known } else { vec![1.0; costs] }
+    }
+
+    /// Whether the outcome has limits.
+    pub fn has_limits(&self) -> bool {
+        self.campaign.as_ref().is_some_and(|campaign| !campaign.limits.is_empty())
+    }
+
+    fn objectives(&self) -> impl Iterator<Item = (&str, bool)> {
+        let known = self.campaign.iter().flat_map(|campaign| &campaign.objectives);
+        known.map(|objective| match objective {
+            Objective::Minimise(formula) => (formula.as_str(), false),
+            Objective::Maximise(formula) => (formula.as_str(), true),
+        })
     }
 
     fn read_campaign(&mut self) {

@@ -52,10 +52,10 @@ fn story(folder: &Folder) -> String {
     let what = if folder.is_study() { "The study" } else { "The search" };
     let Summary { evaluations, runs, .. } = summary;
     let mut words = vec![format!("{what} tried {evaluations} candidates over {space} in {runs} runs.")];
-    // The first row of the summary's table is the best candidate, if there is one.
-    if summary.best.is_some() {
-        words.extend(summary.table().first().map(|(_, best)| format!("The best has {best}.")));
+    if summary.infeasible > 0 {
+        words.push(format!("{} of them miss the limits.", summary.infeasible));
     }
+    words.extend(summary.best_in_words());
     if !summary.front.is_empty() {
         words.push(format!("{} candidates are beaten by no other in every cost.", summary.front.len()));
     }

@@ -54,14 +54,61 @@ fn outcomes(folder: &Folder) -> Option<Figures> {
         let entry = |name: &&str| Some(found?[folder.evaluations.place(name)?].clone());
         row.extend(outcomes.iter().map(|name| entry(name).unwrap_or_default()));
     }
-    let fixed = ["rank", "cost", "cost_standard_error", "starts", "search_cost", "search_starts"];
+    let goal = folder.goals().into_iter().next().unwrap_or_default();
+    own_signs(folder, &mut sheet, &goal);
+    let limits = if folder.has_limits() { &["limits"][..] } else { &[] };
+    let fixed = ["starts", "once_more", "once_more_standard_error", "in_the_search", "search_starts"];
+    let new: Vec<&str> = outcomes.into_iter().filter(|name| *name != goal).collect();
     picked(
         &sheet,
-        &[&fixed[..], &outcomes].concat(),
+        &[&["rank"][..], limits, &[&goal, "standard_error"], &fixed, &new].concat(),
         "The best candidates: what they come to",
-        "Means over starts that the search had not seen, where they were run again; search_cost is what the search saw. \
-         From best.csv and evaluations.csv.",
+        "Means over starts that the search had not seen, where they were run again. The first was chosen by these, so it \
+         was run once more, and what it came to then is what counts. From best.csv and evaluations.csv.",
     )
+}
+
+/// The costs of the best candidates as values of what was to be small or large, and their violations as words.
+fn own_signs(folder: &Folder, sheet: &mut Sheet, goal: &str) {
+    const NAMES: [(&str, &str); 5] = [
+        ("cost_standard_error", "standard_error"),
+        ("search_cost", "in_the_search"),
+        ("final_cost", "once_more"),
+        ("final_cost_standard_error", "once_more_standard_error"),
+        ("violation", "limits"),
+    ];
+    let is_to_be_large = folder.signs().first().is_some_and(|sign| *sign < 0.0);
+    for name in ["cost", "search_cost", "final_cost"] {
+        if let Some(at) = sheet.place(name).filter(|_| is_to_be_large) {
+            sheet.rows.iter_mut().for_each(|row| row[at] = negated(&row[at]));
+        }
+    }
+    let last = sheet.place("final_violation");
+    if let Some(at) = sheet.place("violation") {
+        for row in &mut sheet.rows {
+            // What counts is what it came to at last.
+            let missed = last.map(|last| row[last].clone()).filter(|entry| !entry.is_empty());
+            let missed = missed.unwrap_or_else(|| row[at].clone()).parse::<f64>();
+            row[at] = missed.map_or("", |missed| if missed > 0.0 { "MISSED" } else { "kept" }).to_owned();
+        }
+    }
+    if let Some(at) = sheet.place("cost") {
+        goal.clone_into(&mut sheet.names[at]);
+    }
+    for (name, shown) in NAMES {
+        if let Some(at) = sheet.place(name) {
+            shown.clone_into(&mut sheet.names[at]);
+        }
+    }
+}
+
+/// A number with the other sign; as it is if it is none.
+fn negated(entry: &str) -> String {
+    match entry.strip_prefix('-') {
+        Some(rest) => rest.to_owned(),
+        None if entry.parse::<f64>().is_ok_and(|value| value != 0.0) => format!("-{entry}"),
+        None => entry.to_owned(),
+    }
 }
 
 fn whole(sheet: &Sheet, title: &str, about: &str) -> Option<Figures> {

@@ -103,7 +103,10 @@ fn tables_show_the_best_and_what_failed() {
     let outcomes = table("what they come to");
     let at = |name: &str| outcomes.head.iter().position(|head| head == name).unwrap();
     assert_eq!(outcomes.rows[0][at("n_f")], "3.25");
-    assert_eq!(outcomes.rows[0][at("search_cost")], "0.5");
+    assert_eq!(outcomes.rows[0][at("in_the_search")], "0.5");
+    // The goal is a column as well, and stands once.
+    assert_eq!(outcomes.head.iter().filter(|head| *head == "growth_deficit").count(), 1);
+    assert_eq!(outcomes.rows[0][at("growth_deficit")], "0.55");
     assert_eq!(table("could not be run").rows[0][3], "no room, at all");
 }
 
@@ -122,13 +125,15 @@ fn missing_and_damaged_files_are_said_and_the_rest_is_shown() {
         assert!(notes.iter().any(|note| note.contains(wanted)), "{wanted}: {notes:?}");
     }
     let text = fs::read_to_string(page).unwrap();
-    assert!(text.contains("Every candidate") && !text.contains("Cost against generation"));
+    assert!(text.contains("Every candidate") && !text.contains("against generation"));
 }
 
 #[test]
 fn two_costs_make_a_front() {
     let folder = search();
-    let text = SEARCH.replace(
+    let text =
+        SEARCH.replace("[method.published_genetic]\nparents = 2\noffspring = 2\n", "[method.genetic]\n");
+    let text = text.replace(
         "[[parameters]]\nname = \"v\"",
         "[[objectives]]\nmaximise = \"n_f\"\n[[parameters]]\nname = \"v\"",
     );
@@ -141,7 +146,7 @@ evaluation,generation,stage,status,starts,violation,cost_1,cost_2,cost_1_standar
     fs::write(folder.path().join("evaluations.csv"), evaluations).unwrap();
     let report = report(folder.path());
     let series = &chart(&report, "front").series;
-    assert_eq!((&series[0].x[..], &series[0].y[..]), (&[0.9, 0.7][..], &[-2.5, -1.5][..]));
+    assert_eq!((&series[0].x[..], &series[0].y[..]), (&[0.9, 0.7][..], &[2.5, 1.5][..]), "with its own sign");
     assert!(!report.charts.iter().any(|chart| chart.id == "candidates"));
 }
 
@@ -158,8 +163,8 @@ fn study(plan: &str, files: &[(&str, &str)]) -> Report {
 #[test]
 fn a_study_shows_what_its_plan_is_for() {
     let effects = "target,parameter,mean_effect,mean_size,mean_size_standard_error,standard_deviation,noise,effects\n\
-                   growth_deficit,v,-0.2,0.25,0.01,0.02,0.005,6\npi,hardness,0.1,0.125,0.01,0.03,0.005,6\n\
-                   growth_deficit,v,-0.2,0.25,0.01,0.02,0.005,6\npi,hardness,0.1,0.125,0.01,0.03,0.005,6\n";
+                   growth_deficit,v,-0.2,0.25,0.01,0.02,0.005,6\n\
+                   growth_deficit,hardness,0.1,0.125,0.01,0.03,0.005,6\n";
     let morris = study("[plan.morris]\n", &[("sensitivity.csv", effects)]);
     assert_eq!(morris.kind, "A study");
     let drawn = chart(&morris, "sensitivity-0");
@@ -174,4 +179,54 @@ fn a_study_shows_what_its_plan_is_for() {
     let sobol = study("[plan.sobol_indices]\n", &[("sensitivity.csv", shares)]);
     let drawn = chart(&sobol, "sensitivity-0");
     assert_eq!((drawn.series[1].y[0], drawn.series[1].error[0]), (0.625, 0.125));
+}
+
+/// What is to be large is shown as it is, and what misses a limit is marked wherever it is shown.
+#[test]
+fn limits_that_are_missed_are_marked_and_signs_are_their_own() {
+    let folder = search();
+    let put = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    let limit = "[[limits]]\nformula = \"impacts\"\nat_most = 3\n[[parameters]]\nname = \"v\"";
+    let text = SEARCH.replace("minimise = \"growth_deficit\"", "maximise = \"n_f\"");
+    put("search.toml", &text.replacen("[[parameters]]\nname = \"v\"", limit, 1));
+    put(
+        "evaluations.csv",
+        "\
+evaluation,generation,stage,status,starts,repeats,violation,cost,cost_standard_error,v_m_s,hardness_Pa,n_f,impacts
+0,0,search,infeasible,2,,0.5,-2.5,0.01,20,100000,2.5,4.5
+1,1,search,ok,2,,0,-1.5,0.01,30,200000,1.5,3
+2,2,confirm,infeasible,4,,0.25,-1.25,0.02,30,200000,1.25,3.75
+",
+    );
+    put(
+        "generations.csv",
+        "\
+generation,stage,evaluations,runs,failures,excluded,cost_lowest,cost_mean,best_evaluation,best_cost,\
+best_cost_standard_error,best_violation,infeasible
+0,search,1,2,0,0,,,0,-2.5,0.01,0.5,1
+1,search,2,4,0,0,-1.5,-1.5,1,-1.5,0.01,0,1
+",
+    );
+    put(
+        "best.csv",
+        "\
+rank,evaluation,cost,cost_standard_error,starts,violation,search_evaluation,search_cost,search_cost_standard_error,\
+search_starts,v_m_s,hardness_Pa
+1,2,-1.25,0.02,4,0.25,1,-1.5,0.01,2,30,200000
+",
+    );
+    let report = report(folder.path());
+    let of = |id: &str, name: &str| -> Vec<f64> {
+        let series = chart(&report, id).series.iter().find(|series| series.name.contains(name)).unwrap();
+        series.y.iter().copied().filter(|value| value.is_finite()).collect()
+    };
+    assert_eq!((of("cost", "best so far"), of("cost", "MISSES")), (vec![1.5], vec![2.5]));
+    assert_eq!(of("candidates", "MISS A LIMIT"), [2.5, 1.25]);
+    assert_eq!(of("candidates", "candidates"), [1.5]);
+    let parallel = &chart(&report, "parallel").series[0];
+    assert!(parallel.ascending && parallel.colors == [1.5], "bright ones are better: {:?}", parallel.colors);
+    let table = report.tables.iter().find(|table| table.title.contains("what they come to")).unwrap();
+    let at = |name: &str| table.head.iter().position(|head| head == name).unwrap();
+    let row = &table.rows[0];
+    assert_eq!([&row[at("limits")], &row[at("n_f")], &row[at("in_the_search")]], ["MISSED", "1.25", "1.5"]);
 }

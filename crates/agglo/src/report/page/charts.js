@@ -80,11 +80,11 @@ function mapTrace({ name, x, y, z, label }) {
   };
 }
 
-function parallelTrace({ dimensions, colors, label }, _, tone) {
+function parallelTrace({ dimensions, colors, label, ascending }, _, tone) {
   return {
     type: "parcoords", labelangle: -30, labelfont: { size: 12 }, tickfont: { size: 11 }, rangefont: { size: 11 },
     dimensions: dimensions.map((dimension) => ({ tickformat: ".4~g", ...dimension })),
-    line: { color: colors, colorscale: VIRIDIS, showscale: true, reversescale: true, colorbar: { title: { text: label, side: "right" } } },
+    line: { color: colors, colorscale: VIRIDIS, showscale: true, reversescale: !ascending, colorbar: { title: { text: label, side: "right" } } },
     unselected: { line: { color: tone("--line"), opacity: 0.3 } },
   };
 }

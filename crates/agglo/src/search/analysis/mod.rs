@@ -7,6 +7,8 @@ mod moments;
 mod morris;
 mod pictures;
 mod refinement;
+#[cfg(test)]
+mod refinement_tests;
 mod sobol_indices;
 mod tables;
 #[cfg(test)]

@@ -15,17 +15,25 @@ pub enum Stage {
     Polish,
     /// Fresh starts for the best.
     Confirm,
+    /// Further fresh starts for the one that was chosen by these.
+    Final,
     /// The run of the best and what is made of all that is known.
     Close,
 }
 
 impl Stage {
+    /// Whether its evaluations are compared with one another to find the best.
+    pub fn is_search(self) -> bool {
+        matches!(self, Self::Search | Self::Polish)
+    }
+
     /// Its word in tables.
     pub fn word(self) -> &'static str {
         match self {
             Self::Search => "search",
             Self::Polish => "polish",
             Self::Confirm => "confirm",
+            Self::Final => "final",
             Self::Close => "close",
         }
     }
@@ -71,6 +79,8 @@ pub struct Evaluation {
     pub status: Status,
     /// Random starts that count.
     pub starts: u32,
+    /// Number of the earlier evaluation with the same values, whose starts these are.
+    pub repeats: Option<u64>,
     /// How good it is.
     pub fitness: Fitness,
     /// Figures of its starts that count, one for each column of the model: `[starts][columns]`.
@@ -111,9 +121,28 @@ pub struct Archive {
     pub failures: u64,
     /// Candidates that were not run.
     pub excluded: u64,
+    /// Candidates of search and polish that miss a limit.
+    pub infeasible: u64,
+    /// Candidates whose values had been evaluated before.
+    pub repeats: u64,
+    /// What the stages have come to.
+    pub spent: Spent,
     /// The best of search and polish.
     best: Option<usize>,
     scatter: Scatter,
+}
+
+/// Candidates and starts of each stage, in the order of the stages.
+#[derive(Clone, Debug, Default)]
+pub struct Spent(pub Vec<(Stage, u64, u64)>);
+
+impl Spent {
+    fn add(&mut self, evaluation: &Evaluation, starts: u64) {
+        match self.0.last_mut().filter(|(stage, ..)| *stage == evaluation.stage) {
+            Some((_, candidates, runs)) => (*candidates, *runs) = (*candidates + 1, *runs + starts),
+            None => self.0.push((evaluation.stage, 1, starts)),
+        }
+    }
 }
 
 /// Costs of the starts of all candidates about their means.
@@ -140,15 +169,19 @@ impl Scatter {
 impl Archive {
     /// Adds an evaluation.
     pub fn add(&mut self, evaluation: Evaluation) {
-        self.runs += u64::from(evaluation.starts);
+        let new = if evaluation.repeats.is_some() { 0 } else { u64::from(evaluation.starts) };
+        self.runs += new;
+        self.repeats += u64::from(evaluation.repeats.is_some());
+        self.infeasible += u64::from(evaluation.status == Status::Infeasible && evaluation.stage.is_search());
+        self.spent.add(&evaluation, new);
         self.failures += u64::from(evaluation.status == Status::Failed);
         self.excluded += u64::from(evaluation.status == Status::Excluded);
         let costs: Vec<f64> = evaluation.costs.iter().filter_map(|costs| costs.first().copied()).collect();
-        if evaluation.has_figures() && !costs.is_empty() {
+        if evaluation.has_figures() && !costs.is_empty() && evaluation.repeats.is_none() {
             self.scatter.add(&Moments::of(&costs));
         }
         let is_better = |best: usize| evaluation.fitness.compare(&self.evaluations[best].fitness).is_lt();
-        let counts = evaluation.stage != Stage::Confirm && !evaluation.fitness.is_failure();
+        let counts = evaluation.stage.is_search() && !evaluation.fitness.is_failure();
         if counts && self.best.is_none_or(is_better) {
             self.best = Some(self.evaluations.len());
         }
@@ -179,7 +212,7 @@ impl Archive {
 
     fn with_costs(&self) -> Vec<&Evaluation> {
         let all = self.evaluations.iter();
-        all.filter(|one| one.stage != Stage::Confirm && !one.fitness.is_failure()).collect()
+        all.filter(|one| one.stage.is_search() && !one.fitness.is_failure()).collect()
     }
 
     /// Those that no other dominates, in the order of their first cost, each set of values once.
@@ -227,7 +260,8 @@ mod tests {
         let status = if costs.is_empty() { Status::Failed } else { Status::Ok };
         let (stage, generation, starts) = (Stage::Search, 0, 3);
         let (figures, costs) = (Vec::new(), Vec::new());
-        Evaluation { number, stage, generation, candidate, status, starts, fitness, figures, costs }
+        let repeats = None;
+        Evaluation { number, stage, generation, candidate, status, starts, repeats, fitness, figures, costs }
     }
 
     fn archive(costs: &[&[f64]]) -> Archive {

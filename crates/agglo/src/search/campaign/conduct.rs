@@ -1,22 +1,25 @@
 //! A campaign from its first proposal to its summary, over any model.
 
-use std::ops::ControlFlow;
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::archive::{Archive, Evaluation, Stage, Status};
+use super::clock::Clock;
+use super::course::{Course, Results};
 use super::folder::Folder;
 use super::journal::{Journal, Past};
 use super::progress::CampaignObserver;
 use super::records::{Records, Start};
-use super::summary::{CampaignSummary, Goal};
+use super::summary::CampaignSummary;
 use super::watch::{Now, Watch};
 use super::{CampaignEnding, CampaignError};
 use crate::record::{RecordError, atomic};
 use crate::search::optimiser::{Optimiser, Point};
 use crate::search::pool::{self, Finished, Halt, Outcome, Pool, Seeds, Task};
-use crate::search::{Axis, Candidate, Confirm, Ensemble, Fitness, Model};
+use crate::search::{Candidate, Ensemble, Fitness, Model};
 
 /// Candidates that are evaluated at once at most: what is prepared for them is kept until all are done.
 const AT_ONCE: usize = 512;
@@ -25,60 +28,6 @@ const HOPELESS_FROM: u64 = 20;
 
 /// How often tables are brought up to date for whoever looks at them meanwhile.
 const FLUSH_EVERY: Duration = Duration::from_secs(1);
-
-/// Begins the improvement of the best point.
-pub type Polish<'a> = dyn Fn(&[f64]) -> Box<dyn Optimiser> + 'a;
-
-/// What is done in the folder once all is evaluated, before the summary is written. It may find its own work done, and
-/// it breaks off where the second argument does.
-pub type Closing<'a> = dyn FnMut(&Results<'_>, &mut Ask<'_>) -> Result<ControlFlow<()>, CampaignError> + 'a;
-
-/// Tells the observer, who may ask to stop.
-pub type Ask<'a> = dyn FnMut() -> ControlFlow<()> + Send + 'a;
-
-/// Everything of a campaign but its model.
-pub struct Course<'a> {
-    /// One line that says what it is.
-    pub title: &'a str,
-    /// Seed of the random starts.
-    pub seed: u64,
-    /// Worker threads; at least 1.
-    pub threads: usize,
-    /// The parameters, in the order of a candidate's values.
-    pub parameters: Vec<Axis>,
-    /// What is to be small or large.
-    pub objectives: Vec<Goal>,
-    /// How many random starts a candidate gets.
-    pub ensemble: Ensemble,
-    /// What proposes the points.
-    pub optimiser: Box<dyn Optimiser>,
-    /// Candidates that there will be at most, if that is known.
-    pub evaluations_at_most: Option<u64>,
-    /// Improves the best point at the end.
-    pub polish: Option<&'a Polish<'a>>,
-    /// What the best candidates are held to.
-    pub confirm: Confirm,
-    /// Settings that make a candidate's scenario of the base.
-    pub settings: &'a dyn Fn(&Candidate) -> Vec<String>,
-    /// What the evaluations say, in sentences.
-    pub findings: &'a dyn Fn(&[Evaluation]) -> Vec<String>,
-    /// What is done once all is evaluated.
-    pub closing: &'a mut Closing<'a>,
-}
-
-/// What a campaign came to, for its closing.
-pub struct Results<'a> {
-    /// The campaign's folder.
-    pub folder: &'a Folder,
-    /// Its summary but for the wall time.
-    pub summary: &'a CampaignSummary,
-    /// The best candidate.
-    pub best: Option<&'a Candidate>,
-    /// All that was evaluated.
-    pub evaluations: &'a [Evaluation],
-    /// Names of the model's columns.
-    pub columns: &'a [String],
-}
 
 /// Why the steps of a campaign end early.
 pub(super) enum Stop {
@@ -128,14 +77,17 @@ pub fn conduct<M: Model>(
     let pool = Pool::new(model, &notebook);
     let known = past.starts.keys().next_back().map_or(0, |(evaluation, _)| *evaluation);
     let mut observer = |progress: &super::CampaignProgress| observer(progress);
-    let sign = if course.objectives.first().is_some_and(|goal| goal.is_to_be_large) { -1.0 } else { 1.0 };
-    let watch = Watch::new(&mut observer, sat_down, course.evaluations_at_most, known, sign);
+    let sign = course.objectives.first().map(|goal| if goal.is_to_be_large { -1.0 } else { 1.0 });
+    let most = course.planned.iter().map(|(_, candidates)| candidates).sum::<u64>();
+    let most = (most > 0).then_some(most);
+    let watch = Watch::new(&mut observer, sat_down, most, known, sign);
+    let clock = Clock::new(&course, &journal, &past, &wall_s);
     let ended = std::thread::scope(|scope| {
         let _home = Home(&pool);
         for _ in 0..course.threads.max(1) {
             scope.spawn(|| pool.work());
         }
-        Conductor::new(model, &course, folder, &pool, past, watch)?.all(course, &wall_s)
+        Conductor::new(model, &course, folder, &pool, (past, clock), watch)?.all(course, &wall_s)
     });
     match ended {
         Ok(summary) => Ok(CampaignEnding::Finished(Box::new(summary))),
@@ -163,8 +115,12 @@ pub(super) struct Conductor<'a, M: Model> {
     folder: &'a Folder,
     ensemble: Ensemble,
     fresh: Ensemble,
-    seeds: [Seeds; 2],
+    /// Of the search, of the starts that choose the best, and of those that it is reported by.
+    seeds: [Seeds; 3],
     past: Past,
+    clock: Clock<'a>,
+    /// Evaluations of the search by the bits of their values.
+    evaluated: BTreeMap<Vec<u64>, usize>,
     pub(super) records: Records,
     pub(super) archive: Archive,
     generations: u64,
@@ -179,7 +135,7 @@ impl<'a, M: Model> Conductor<'a, M> {
         course: &Course<'_>,
         folder: &'a Folder,
         pool: &'a Pool<'a, M>,
-        past: Past,
+        (past, clock): (Past, Clock<'a>),
         watch: Watch<'a>,
     ) -> Result<Self, RecordError> {
         let Course { ensemble, seed, confirm, .. } = course;
@@ -187,7 +143,8 @@ impl<'a, M: Model> Conductor<'a, M> {
             common_random_numbers: ensemble.common_random_numbers,
             ..Ensemble::fixed(confirm.starts)
         };
-        let (seen, unseen, seed) = (ensemble.clone(), fresh.clone(), *seed);
+        let (seen, unseen, last, seed) = (ensemble.clone(), fresh.clone(), fresh.clone(), *seed);
+        let chosen_by = confirm.starts;
         let records =
             Records::create(folder.root(), &course.parameters, course.objectives.len(), model.columns())?;
         Ok(Self {
@@ -199,8 +156,11 @@ impl<'a, M: Model> Conductor<'a, M> {
             seeds: [
                 Arc::new(move |evaluation, start| seen.seed(seed, evaluation, start)),
                 Arc::new(move |evaluation, start| unseen.fresh_seed(seed, evaluation, start)),
+                Arc::new(move |evaluation, start| last.fresh_seed(seed, evaluation, start + chosen_by)),
             ],
             past,
+            clock,
+            evaluated: BTreeMap::new(),
             records,
             archive: Archive::default(),
             generations: 0,
@@ -258,45 +218,62 @@ impl<'a, M: Model> Conductor<'a, M> {
             }
             let candidates = points.iter().map(|point| self.model.candidate(point)).collect();
             let fitnesses = self.generation(stage, candidates)?;
+            if fitnesses.len() < points.len() {
+                // The time is up; what was evaluated counts, but part of a generation teaches nothing.
+                return Ok(optimiser.recommended());
+            }
             optimiser.tell(&fitnesses);
             self.refuse_hopeless(HOPELESS_FROM)?;
         }
     }
 
-    /// Evaluates candidates, writes them down, and says how good they are.
+    /// Evaluates candidates, writes them down, and says how good they are; the first ones only where the time is up.
     pub(super) fn generation(
         &mut self,
         stage: Stage,
         mut candidates: Vec<Candidate>,
     ) -> Result<Vec<Fitness>, Stop> {
-        let count = candidates.len();
+        let first = self.archive.evaluations.len();
         while !candidates.is_empty() {
-            let rest = candidates.split_off(AT_ONCE.min(candidates.len()));
+            let most = AT_ONCE.min(candidates.len());
+            let count =
+                if stage.is_search() { self.clock.allows(&self.archive, self.pool, most)? } else { most };
+            if count == 0 {
+                break;
+            }
+            let rest = candidates.split_off(count);
             self.batch(stage, std::mem::replace(&mut candidates, rest))?;
         }
-        self.records.generation((self.generations, stage), &self.archive, count)?;
-        self.generations += 1;
-        let first = self.archive.evaluations.len() - count;
+        let count = self.archive.evaluations.len() - first;
+        if count > 0 {
+            self.records.generation((self.generations, stage), &self.archive, count)?;
+            self.generations += 1;
+        }
         Ok(self.archive.evaluations[first..].iter().map(|one| one.fitness.clone()).collect())
     }
 
     fn batch(&mut self, stage: Stage, candidates: Vec<Candidate>) -> Result<(), Stop> {
-        let first = self.archive.evaluations.len() as u64;
-        let is_fresh = stage == Stage::Confirm;
-        let seeds = Arc::clone(&self.seeds[usize::from(is_fresh)]);
-        let tasks = (first..).zip(&candidates).filter(|(_, candidate)| candidate.violation == 0.0);
-        let tasks = tasks.map(|(number, candidate)| self.task(number, candidate, &seeds)).collect();
-        let ensemble = if is_fresh { &self.fresh } else { &self.ensemble };
+        let first = self.archive.evaluations.len();
+        let seeds = Arc::clone(&self.seeds[family(stage)]);
+        let ways: Vec<Way> = (first..)
+            .zip(&candidates)
+            .map(|(number, candidate)| self.way(number, stage, candidate))
+            .collect();
+        let tasks = (first as u64..).zip(&candidates).zip(&ways).filter(|(_, way)| **way == Way::Run);
+        let tasks = tasks.map(|((number, candidate), _)| self.task(number, candidate, &seeds)).collect();
+        let ensemble = if stage.is_search() { &self.ensemble } else { &self.fresh };
         let (watch, archive, generations) = (&mut self.watch, &self.archive, self.generations);
         let look_up = |pool: &Pool<'_, M>| {
             let (decided, starts) = (pool.decided(), pool.starts());
             watch.tell(archive, &Now { stage, generations, decided, starts })
         };
         let mut ended = self.pool.evaluate(tasks, ensemble, &seeds, look_up)?.into_iter();
-        for (number, candidate) in (first..).zip(candidates) {
-            let is_excluded = candidate.violation != 0.0;
-            let outcomes = if is_excluded { None } else { ended.next() };
-            self.take_down(number, stage, candidate, outcomes, &seeds)?;
+        for ((number, candidate), way) in (first as u64..).zip(candidates).zip(ways) {
+            match way {
+                Way::Repeat(earlier) => self.repeat(number, stage, candidate, earlier, &seeds)?,
+                Way::Run => self.take_down(number, stage, candidate, ended.next(), &seeds)?,
+                Way::Excluded => self.take_down(number, stage, candidate, None, &seeds)?,
+            }
         }
         if self.flushed.elapsed() >= FLUSH_EVERY {
             self.records.flush()?;
@@ -304,6 +281,45 @@ impl<'a, M: Model> Conductor<'a, M> {
         }
         let now = Now { stage, generations, decided: 0, starts: self.pool.starts() };
         if self.watch.tell(&self.archive, &now).is_break() { Err(Stop::Asked) } else { Ok(()) }
+    }
+
+    /// What is done with a candidate that gets this number.
+    fn way(&mut self, number: usize, stage: Stage, candidate: &Candidate) -> Way {
+        if candidate.violation != 0.0 {
+            return Way::Excluded;
+        }
+        if !stage.is_search() {
+            return Way::Run;
+        }
+        let bits = candidate.values.iter().map(|value| value.to_bits()).collect();
+        match self.evaluated.entry(bits) {
+            Entry::Occupied(earlier) => Way::Repeat(*earlier.get()),
+            Entry::Vacant(free) => {
+                free.insert(number);
+                Way::Run
+            }
+        }
+    }
+
+    /// Writes down a candidate whose values were evaluated before: it has what is known of them.
+    fn repeat(
+        &mut self,
+        number: u64,
+        stage: Stage,
+        candidate: Candidate,
+        earlier: usize,
+        seeds: &Seeds,
+    ) -> Result<(), RecordError> {
+        let (generation, repeats) = (self.generations, Some(earlier as u64));
+        let known = self.archive.evaluations[earlier].clone();
+        if known.status == Status::Failed {
+            let reason = format!("its values are those of evaluation {earlier}, which failed");
+            self.records.failure(number, 0, seeds(number, 0), &reason)?;
+        }
+        let evaluation = Evaluation { number, stage, generation, candidate, repeats, ..known };
+        self.records.evaluation(&evaluation, self.model.columns().len())?;
+        self.archive.add(evaluation);
+        Ok(())
     }
 
     /// A task with what earlier sittings know of it; another seed would be another start.
@@ -355,6 +371,7 @@ impl<'a, M: Model> Conductor<'a, M> {
             candidate,
             status,
             starts: count,
+            repeats: None,
             fitness,
             figures: starts,
             costs,
@@ -406,7 +423,7 @@ impl<'a, M: Model> Conductor<'a, M> {
     }
 
     pub(super) fn seed_of_first_start(&self, evaluation: &Evaluation) -> u64 {
-        self.seeds[usize::from(evaluation.stage == Stage::Confirm)](evaluation.number, 0)
+        self.seeds[family(evaluation.stage)](evaluation.number, 0)
     }
 
     pub(super) fn folder(&self) -> &Path {
@@ -423,6 +440,30 @@ impl<'a, M: Model> Conductor<'a, M> {
 
     pub(super) fn generations(&self) -> u64 {
         self.generations
+    }
+
+    pub(super) fn is_out_of_time(&self) -> bool {
+        self.clock.has_ended()
+    }
+}
+
+/// What is done with a candidate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Way {
+    /// It is run.
+    Run,
+    /// It misses a constraint between parameters.
+    Excluded,
+    /// Its values are those of the evaluation with this number.
+    Repeat(usize),
+}
+
+/// Which of the seeds a stage has.
+fn family(stage: Stage) -> usize {
+    match stage {
+        Stage::Search | Stage::Polish | Stage::Close => 0,
+        Stage::Confirm => 1,
+        Stage::Final => 2,
     }
 }
 

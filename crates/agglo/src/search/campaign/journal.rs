@@ -4,6 +4,7 @@
 //! agglo 0.1.0,5a1f03c2                          version of the program and checksum of the campaign
 //! 17,0,5403271183612,12.3,ok,0.61,311.5,9e21ab04    evaluation, start, seed, wall time [s], figures, checksum
 //! 18,0,5403271183612,12.4,failed,"reason",11ce0792
+//! budget,16,12.4,goes_on,8c31aa02                   what the clock decided once so many candidates were evaluated
 //! ```
 //! Each line is handed to the operating system at once. A line that a kill or a loss of power cut short, or that was
 //! damaged, does not fit its checksum and is as if it had never been: its start is run again. Once the campaign has
@@ -35,6 +36,10 @@ pub struct Past {
     pub starts: BTreeMap<(u64, u32), Entry>,
     /// Wall time of all earlier sittings [s].
     pub wall_s: f64,
+    /// Candidates at which the budget of time let the search go on: the most.
+    pub went_on: Option<u64>,
+    /// Candidates at which the budget of time ended the search.
+    pub ended: Option<u64>,
 }
 
 impl Past {
@@ -75,9 +80,8 @@ impl Journal {
             )));
         }
         let mut past = Past::default();
-        for (key, wall_s, entry) in text.lines().skip(1).filter_map(parse) {
-            past.wall_s = past.wall_s.max(wall_s);
-            past.starts.entry(key).or_insert(entry);
+        for line in text.lines().skip(1) {
+            past.take(line);
         }
         let journal = Self::at(path, whole as u64, &heading)?;
         Ok(Ok((journal, past)))
@@ -120,20 +124,67 @@ impl Journal {
                 let _ = write!(line, "failed,{reason}");
             }
         }
-        let checksum = crc32fast::hash(line.as_bytes());
-        let _ = writeln!(line, ",{checksum:08x}");
+        seal(line);
         file.write_all(line.as_bytes()).map_err(RecordError::file("write", &self.path))
+    }
+
+    /// Writes down what the clock decided once so many candidates were evaluated, so that a later sitting decides the same.
+    ///
+    /// # Errors
+    /// [`RecordError::File`].
+    pub fn decide(&self, evaluations: u64, goes_on: bool, wall_s: f64) -> Result<(), RecordError> {
+        let mut open = self.open.lock().unwrap_or_else(PoisonError::into_inner);
+        let (file, line) = &mut *open;
+        line.clear();
+        let word = if goes_on { GOES_ON } else { ENDS };
+        // Writing to a string cannot fail.
+        let _ = write!(line, "{BUDGET},{evaluations},{wall_s:.3},{word}");
+        seal(line);
+        file.write_all(line.as_bytes()).map_err(RecordError::file("write", &self.path))
+    }
+}
+
+const BUDGET: &str = "budget";
+const GOES_ON: &str = "goes_on";
+const ENDS: &str = "ends";
+
+/// Ends a line with its checksum.
+fn seal(line: &mut String) {
+    let checksum = crc32fast::hash(line.as_bytes());
+    // Writing to a string cannot fail.
+    let _ = writeln!(line, ",{checksum:08x}");
+}
+
+impl Past {
+    /// Takes a line; nothing of one that does not fit its checksum.
+    fn take(&mut self, line: &str) {
+        let Some(content) = content(line) else { return };
+        if let Some((evaluations, wall_s, goes_on)) = decision(content) {
+            self.wall_s = self.wall_s.max(wall_s);
+            let kept = if goes_on { &mut self.went_on } else { &mut self.ended };
+            *kept = (*kept).max(Some(evaluations));
+        } else if let Some((key, wall_s, entry)) = start(content) {
+            self.wall_s = self.wall_s.max(wall_s);
+            self.starts.entry(key).or_insert(entry);
+        }
     }
 }
 
 type Line = ((u64, u32), f64, Entry);
 
-/// Nothing for a line that does not fit its checksum.
-fn parse(line: &str) -> Option<Line> {
+/// A line without its checksum, if it fits that.
+fn content(line: &str) -> Option<&str> {
     let (content, checksum) = line.rsplit_once(',')?;
-    if u32::from_str_radix(checksum, 16).ok()? != crc32fast::hash(content.as_bytes()) {
-        return None;
-    }
+    (u32::from_str_radix(checksum, 16).ok()? == crc32fast::hash(content.as_bytes())).then_some(content)
+}
+
+fn decision(content: &str) -> Option<(u64, f64, bool)> {
+    let mut words = content.strip_prefix(BUDGET)?.strip_prefix(',')?.split(',');
+    let (evaluations, wall_s) = (words.next()?.parse().ok()?, words.next()?.parse().ok()?);
+    Some((evaluations, wall_s, words.next()? == GOES_ON))
+}
+
+fn start(content: &str) -> Option<Line> {
     let mut words = content.splitn(6, ',');
     let key = (words.next()?.parse().ok()?, words.next()?.parse().ok()?);
     let seed = words.next()?.parse().ok()?;
@@ -190,6 +241,19 @@ mod tests {
         assert_eq!(past.of(1).map(|(start, _)| start).collect::<Vec<_>>(), [7]);
         journal.note(&Finished { evaluation: 9, start: 0, seed: 1, outcome: Ok(&[]) }, 2.0).unwrap();
         assert_eq!(open(&path).1.starts.len(), 5);
+    }
+
+    #[test]
+    fn what_the_clock_decided_comes_back() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("starts.journal");
+        let (journal, _) = open(&path);
+        journal.decide(8, true, 1.25).unwrap();
+        journal.decide(16, true, 2.5).unwrap();
+        journal.decide(24, false, 3.75).unwrap();
+        let (_, past) = open(&path);
+        let wanted = Past { wall_s: 3.75, went_on: Some(16), ended: Some(24), ..Past::default() };
+        assert_eq!(past, wanted);
     }
 
     /// Cut at any byte: all lines that are whole come back, and the next one does not stick to what was cut.

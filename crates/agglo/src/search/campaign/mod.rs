@@ -5,8 +5,10 @@
 //! beginning it anew with the starts that are known from its journal.
 
 mod archive;
+mod clock;
 mod conduct;
 mod confirm;
+mod course;
 mod error;
 mod folder;
 mod journal;
@@ -19,12 +21,13 @@ mod verbs;
 mod watch;
 
 pub use archive::{Evaluation, Stage, Status};
-pub use conduct::{Ask, Closing, Course, Polish, Results, conduct};
+pub use conduct::conduct;
+pub use course::{Ask, Closing, Course, Polish, Results};
 pub use error::CampaignError;
 pub use folder::Folder;
 pub use progress::{CampaignObserver, CampaignProgress};
-pub use summary::{Best, CampaignSummary, FrontPoint, Goal, Named, Noise};
-pub use verbs::{evaluations_at_most, resume, run, way_of};
+pub use summary::{Best, CampaignSummary, FrontPoint, Goal, LimitKept, Named, Noise, Spent};
+pub use verbs::{planned, resume, run, way_of};
 
 use std::path::Path;
 

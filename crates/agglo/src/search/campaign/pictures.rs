@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use super::archive::{Evaluation, Stage, Status};
-use super::conduct::Results;
+use super::archive::{Evaluation, Status};
+use super::course::Results;
 use crate::record::{RecordError, atomic};
 use crate::search::analysis::{
     self, EvaluationRow, Evaluations, Objective, Starts, measures_table, parameter_axis, parameter_value,
@@ -47,7 +47,7 @@ fn evaluations(campaign: &Campaign, problem: &Problem, known: &[Evaluation]) -> 
     let plain = |name: &str| analysis::Axis::new(name, "");
     let objective =
         |(formula, is_to_be_large): (&str, bool)| Objective { axis: plain(formula), is_to_be_large };
-    let searched = known.iter().filter(|evaluation| evaluation.stage != Stage::Confirm);
+    let searched = known.iter().filter(|evaluation| evaluation.stage.is_search());
     Evaluations {
         title: campaign.title.clone(),
         parameters: problem.axes().iter().map(parameter_axis).collect(),

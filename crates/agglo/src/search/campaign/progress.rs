@@ -9,6 +9,8 @@ use super::Stage;
 pub struct CampaignProgress {
     /// What is to be small or large, of the best candidate so far, and its standard error.
     pub best: Option<(f64, f64)>,
+    /// Whether there is something to be small or large.
+    pub has_goal: bool,
     /// What happens now.
     pub stage: Stage,
     /// Candidates that were evaluated so far.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::archive::{Archive, Evaluation, Stage};
+use super::archive::{Archive, Evaluation, Stage, Status};
 use super::tables::Table;
 use crate::record::RecordError;
 use crate::search::Axis;
@@ -31,10 +31,21 @@ pub struct Start<'a> {
     pub figures: &'a [f64],
 }
 
+/// One of the best candidates.
+#[derive(Clone, Copy, Debug)]
+pub struct Ranked<'a> {
+    /// As it was run again, or as the search saw it.
+    pub evaluation: &'a Evaluation,
+    /// As the search saw it, if it did.
+    pub search: Option<&'a Evaluation>,
+    /// As it was run once more after it was chosen.
+    pub last: Option<&'a Evaluation>,
+}
+
 /// `cost`, or `cost_1`, `cost_2` where there are several.
 fn cost_names(objectives: usize) -> Vec<String> {
-    if objectives == 1 {
-        vec!["cost".into()]
+    if objectives <= 1 {
+        vec!["cost".to_owned(); objectives]
     } else {
         (1..=objectives).map(|k| format!("cost_{k}")).collect()
     }
@@ -58,11 +69,12 @@ impl Records {
         let names = cost_names(objectives);
         let errors = names.iter().map(|name| format!("{name}_standard_error"));
         let parameter_names = parameters.iter().map(Axis::column);
-        let evaluations = words(&["evaluation", "generation", "stage", "status", "starts", "violation"])
-            .chain(names.iter().cloned())
-            .chain(errors)
-            .chain(parameter_names)
-            .chain(columns.iter().cloned());
+        let evaluations =
+            words(&["evaluation", "generation", "stage", "status", "starts", "repeats", "violation"])
+                .chain(names.iter().cloned())
+                .chain(errors)
+                .chain(parameter_names)
+                .chain(columns.iter().cloned());
         let runs =
             words(&["evaluation", "start", "seed"]).chain(names.clone()).chain(columns.iter().cloned());
         let generations = [
@@ -77,6 +89,8 @@ impl Records {
             "best_evaluation",
             "best_cost",
             "best_cost_standard_error",
+            "best_violation",
+            "infeasible",
         ];
         Ok(Self {
             parameters: parameters.to_vec(),
@@ -101,6 +115,7 @@ impl Records {
         table.word(evaluation.stage.word());
         table.word(evaluation.status.word());
         table.count(u64::from(evaluation.starts));
+        table.count(evaluation.repeats);
         table.number(fitness.violation.is_finite().then_some(fitness.violation));
         for known in [&fitness.costs, &errors] {
             (0..self.objectives).for_each(|k| table.number(finite(known.get(k).copied())));
@@ -119,7 +134,7 @@ impl Records {
         table.count(evaluation);
         table.count(u64::from(start.number));
         table.count(start.seed);
-        start.costs.iter().for_each(|cost| table.number(*cost));
+        start.costs.iter().take(self.objectives).for_each(|cost| table.number(*cost));
         start.figures.iter().for_each(|figure| table.number(finite(Some(*figure))));
         table.end_row()
     }
@@ -153,7 +168,9 @@ impl Records {
         count: usize,
     ) -> Result<(), RecordError> {
         let of_it = &archive.evaluations[archive.evaluations.len() - count..];
-        let costs: Vec<f64> = of_it.iter().filter_map(|one| one.fitness.costs.first().copied()).collect();
+        // Costs of those that miss a limit are no costs to be had.
+        let kept = of_it.iter().filter(|one| one.status == Status::Ok && self.objectives > 0);
+        let costs: Vec<f64> = kept.filter_map(|one| one.fitness.costs.first().copied()).collect();
         let table = &mut self.generations;
         table.count(generation);
         table.word(stage.word());
@@ -162,10 +179,12 @@ impl Records {
         }
         table.number(costs.iter().copied().reduce(f64::min));
         table.number((!costs.is_empty()).then(|| costs.iter().sum::<f64>() / costs.len() as f64));
-        let best = archive.best();
+        let best = archive.best().filter(|_| self.objectives > 0);
         table.count(best.map(|best| best.number));
         table.number(best.map(|best| best.fitness.cost()));
         table.number(best.and_then(error_of));
+        table.number(best.map(|best| best.fitness.violation));
+        table.count(archive.infeasible);
         table.end_row()
     }
 
@@ -182,11 +201,7 @@ impl Records {
     ///
     /// # Errors
     /// [`RecordError::File`].
-    pub fn best(
-        &self,
-        folder: &Path,
-        ranked: &[(&Evaluation, Option<&Evaluation>)],
-    ) -> Result<(), RecordError> {
+    pub fn best(&self, folder: &Path, ranked: &[Ranked<'_>]) -> Result<(), RecordError> {
         let fixed = [
             "rank",
             "evaluation",
@@ -198,19 +213,29 @@ impl Records {
             "search_cost",
             "search_cost_standard_error",
             "search_starts",
+            "final_evaluation",
+            "final_cost",
+            "final_cost_standard_error",
+            "final_starts",
+            "final_violation",
         ];
         let columns = words(&fixed).chain(self.parameters.iter().map(Axis::column));
         let mut table = Table::create(&folder.join("best.csv"), columns)?;
-        for (rank, (evaluation, search)) in (1..).zip(ranked) {
+        for (rank, Ranked { evaluation, search, last }) in (1..).zip(ranked) {
+            let starts = |one: &Evaluation| u64::from(one.starts);
+            let violation = |one: &Evaluation| finite(Some(one.fitness.violation));
             table.count(rank);
             table.count(evaluation.number);
             cost_with_error(&mut table, Some(evaluation));
-            table.count(u64::from(evaluation.starts));
-            let violation = evaluation.fitness.violation;
-            table.number(violation.is_finite().then_some(violation));
+            table.count(starts(evaluation));
+            table.number(violation(evaluation));
             table.count(search.map(|search| search.number));
             cost_with_error(&mut table, *search);
-            table.count(search.map(|search| u64::from(search.starts)));
+            table.count(search.map(starts));
+            table.count(last.map(|last| last.number));
+            cost_with_error(&mut table, *last);
+            table.count(last.map(starts));
+            table.number(last.and_then(violation));
             parameters(&mut table, &self.parameters, &evaluation.candidate.values);
             table.end_row()?;
         }

@@ -19,6 +19,9 @@ pub struct CampaignSummary {
     pub seed: u64,
     /// What is to be small or large; the cost of what is to be large is minus its value.
     pub objectives: Vec<Goal>,
+    /// Whether it is a study, which tries what it is told to and looks for no best.
+    #[serde(default)]
+    pub is_study: bool,
     /// The best candidate; null where there is nothing to be small.
     pub best: Option<Best>,
     /// Candidates that no other beats in every cost, where there are several; empty with one.
@@ -27,12 +30,24 @@ pub struct CampaignSummary {
     pub generations: u64,
     /// Candidates that were evaluated, those included that failed, were excluded, or got fresh starts at the end.
     pub evaluations: u64,
+    /// What each stage came to, beside what it was allowed.
+    #[serde(default)]
+    pub stages: Vec<Spent>,
+    /// Why the search tried fewer candidates than it was allowed: "convergence" or "budget.time"; null if it did not.
+    #[serde(default)]
+    pub ended_early: Option<String>,
     /// Simulations that count.
     pub runs: u64,
     /// Candidates that failed.
     pub failures: u64,
     /// Candidates that were not run, since they miss a constraint between parameters.
     pub excluded: u64,
+    /// Candidates of the search that miss a limit.
+    #[serde(default)]
+    pub infeasible: u64,
+    /// Candidates whose values had been evaluated before, and which were not run again.
+    #[serde(default)]
+    pub repeats: u64,
     /// How much of the differences between candidates may be chance.
     pub noise: Noise,
     /// What a study says, in sentences; empty for a search.
@@ -40,6 +55,49 @@ pub struct CampaignSummary {
     pub findings: Vec<String>,
     /// Wall time [s], all sittings together.
     pub wall_s: f64,
+}
+
+/// What a stage of a campaign came to.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Spent {
+    /// Its word: "search", "polish", "confirm", "final".
+    pub stage: String,
+    /// Candidates that it was allowed; null if that is not known.
+    pub allowed: Option<u64>,
+    /// Candidates that it evaluated.
+    pub candidates: u64,
+    /// Simulations that count.
+    pub runs: u64,
+}
+
+/// A limit of the outcome, and whether it is kept.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LimitKept {
+    /// A column of a run's summary, or a formula of columns and parameters.
+    pub formula: String,
+    /// Its smallest value.
+    pub at_least: Option<f64>,
+    /// Its largest value.
+    pub at_most: Option<f64>,
+    /// Its mean over the starts.
+    pub mean: Option<f64>,
+    /// Standard error of that; null from one start.
+    pub standard_error: Option<f64>,
+    /// Whether the mean is within the bounds.
+    pub is_kept: bool,
+}
+
+impl LimitKept {
+    /// "dispersion_degree = 0.75 +- 0.01, where at least 0.8 is wanted: missed".
+    pub fn in_words(&self) -> String {
+        let error = self.standard_error.map(|error| format!(" +- {}", figure(error))).unwrap_or_default();
+        let mean = self.mean.map_or("unknown".to_owned(), |mean| figure(mean) + &error);
+        let least = self.at_least.map(|least| format!("at least {least}"));
+        let most = self.at_most.map(|most| format!("at most {most}"));
+        let wanted: Vec<String> = least.into_iter().chain(most).collect();
+        let verdict = if self.is_kept { "kept" } else { "missed" };
+        format!("{} = {mean}, where {} is wanted: {verdict}", self.formula, wanted.join(" and "))
+    }
 }
 
 /// What is to be small or large.
@@ -56,7 +114,7 @@ pub struct Goal {
 pub struct Best {
     /// Number of the evaluation that these figures are from.
     pub evaluation: u64,
-    /// Its mean cost over `starts`; if it was confirmed, over starts that the search did not see.
+    /// Its mean cost over `starts`; if it was confirmed, over starts that had no part in choosing it.
     pub cost: f64,
     /// Standard error of that; null from one start.
     pub cost_standard_error: Option<f64>,
@@ -67,12 +125,22 @@ pub struct Best {
     pub starts: u32,
     /// Whether the starts are fresh.
     pub is_confirmed: bool,
+    /// Its mean cost by which it was chosen among those that were run again, which is too good where costs scatter; null if
+    /// there was nothing to choose.
+    #[serde(default)]
+    pub confirm_cost: Option<f64>,
+    /// Standard error of that; null from one start.
+    #[serde(default)]
+    pub confirm_cost_standard_error: Option<f64>,
     /// Its mean cost in the search, which is too good where costs scatter; null if the search did not evaluate it.
     pub search_cost: Option<f64>,
     /// Standard error of that; null from one start.
     pub search_cost_standard_error: Option<f64>,
     /// By how much it misses the limits: the sum of the parts; 0 if it keeps them.
     pub violation: f64,
+    /// The limits of its outcome.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub limits: Vec<LimitKept>,
     /// Seed of its first start, which the run in `best/` has.
     pub start_seed: u64,
     /// Values by the names of parameters, in SI units; choices as their words.
@@ -96,6 +164,9 @@ pub struct FrontPoint {
     pub standard_errors: Vec<f64>,
     /// Values by the names of parameters.
     pub parameters: Named,
+    /// By how much it misses the limits; 0 if it keeps them.
+    #[serde(default)]
+    pub violation: f64,
 }
 
 /// How much of the differences between candidates may be chance; null where it cannot be said.
@@ -121,12 +192,19 @@ impl CampaignSummary {
     pub fn table(&self) -> Vec<(String, String)> {
         let mut rows = Vec::new();
         if let Some(best) = &self.best {
-            rows.push(("best".to_owned(), self.best_row(best)));
+            rows.push((self.best_is_called().to_owned(), self.best_row(best)));
+            rows.extend(best.limits.iter().map(|limit| ("  limit".to_owned(), limit.in_words())));
             let parameters = best.readable.iter().filter_map(|text| text.split_once(" = "));
             rows.extend(parameters.map(|(name, value)| (format!("  {name}"), value.to_owned())));
         }
         if !self.front.is_empty() {
-            rows.push(("front".to_owned(), format!("{} candidates that no other beats", self.front.len())));
+            let missed = if self.front.iter().any(|point| point.violation > 0.0) {
+                "; all candidates miss a limit"
+            } else {
+                ""
+            };
+            let count = self.front.len();
+            rows.push(("front".to_owned(), format!("{count} candidates that no other beats{missed}")));
         }
         rows.push(("evaluations".to_owned(), self.evaluations_row()));
         let starts = self.noise.starts_mean.map(|mean| format!(", {} a candidate", figure(mean)));
@@ -135,6 +213,33 @@ impl CampaignSummary {
         rows.extend(self.findings.iter().map(|finding| ("finding".to_owned(), finding.clone())));
         rows.push(("wall time".to_owned(), readable(self.wall_s, "s")));
         rows
+    }
+
+    /// A study tries what it was told to; it does not look for the best.
+    fn best_is_called(&self) -> &'static str {
+        let is_to_be_large = self.objectives.first().is_some_and(|goal| goal.is_to_be_large);
+        match (self.is_study, is_to_be_large) {
+            (false, _) => "best",
+            (true, true) => "largest mean",
+            (true, false) => "smallest mean",
+        }
+    }
+
+    /// What the best candidate comes to, and which limits it misses, in words for a page.
+    pub fn best_in_words(&self) -> Option<String> {
+        let best = self.best.as_ref()?;
+        let missed = best.limits.iter().filter(|limit| !limit.is_kept);
+        let missed: Vec<String> = missed.map(LimitKept::in_words).collect();
+        let whole = if missed.is_empty() {
+            String::new()
+        } else {
+            format!(
+                " It misses {}: {}.",
+                if missed.len() == 1 { "a limit" } else { "limits" },
+                missed.join("; ")
+            )
+        };
+        Some(format!("The {} has {}.{whole}", self.best_is_called(), self.best_row(best)))
     }
 
     fn best_row(&self, best: &Best) -> String {
@@ -150,21 +255,43 @@ impl CampaignSummary {
             (count, true) => format!("{count} fresh starts"),
             (count, false) => format!("{count} starts"),
         };
+        let chosen = best.confirm_cost.map(|cost| value(cost, best.confirm_cost_standard_error));
+        let chosen = chosen.map(|value| format!("; chosen by {value}")).unwrap_or_default();
         let searched = best.search_cost.filter(|_| best.is_confirmed);
         let searched = searched.map(|cost| value(cost, best.search_cost_standard_error));
         let searched = searched.map(|value| format!("; in the search {value}")).unwrap_or_default();
-        let missed = if best.violation > 0.0 { "; it misses the limits" } else { "" };
-        format!("{name} = {} from {starts}{searched}{missed}", value(best.cost, best.cost_standard_error))
+        let missed = if best.violation > 0.0 { "; IT MISSES THE LIMITS" } else { "" };
+        let value = value(best.cost, best.cost_standard_error);
+        format!("{name} = {value} from {starts}{chosen}{searched}{missed}")
     }
 
     fn evaluations_row(&self) -> String {
-        let Self { evaluations, generations, failures, excluded, .. } = self;
+        let Self { evaluations, generations, failures, excluded, infeasible, repeats, .. } = self;
         let batches = if *generations == 1 { "1 batch".to_owned() } else { format!("{generations} batches") };
-        let mut parts = vec![format!("{evaluations} in {batches}")];
-        for (count, what) in [(failures, "failed"), (excluded, "not run: they miss the constraints")] {
+        let stages: Vec<String> = self.stages.iter().map(|stage| self.stage_in_words(stage)).collect();
+        let stages = if stages.is_empty() { String::new() } else { format!(": {}", stages.join(", ")) };
+        let mut parts = vec![format!("{evaluations} in {batches}{stages}")];
+        let counts = [
+            (failures, "failed"),
+            (excluded, "not run: they miss the constraints"),
+            (infeasible, "miss the limits"),
+            (repeats, "not run again: their values were known"),
+        ];
+        for (count, what) in counts {
             parts.extend((*count > 0).then(|| format!("{count} {what}")));
         }
-        parts.join(", ")
+        parts.join("; ")
+    }
+
+    /// "search 15 of 24 (it had converged)".
+    fn stage_in_words(&self, stage: &Spent) -> String {
+        let allowed = stage.allowed.map(|allowed| format!(" of {allowed}")).unwrap_or_default();
+        let why = match self.ended_early.as_deref().filter(|_| stage.stage == "search") {
+            Some("budget.time") => " (the time was up)",
+            Some(_) => " (it had converged)",
+            None => "",
+        };
+        format!("{} {}{allowed}{why}", stage.stage, stage.candidates)
     }
 
     fn noise_row(&self) -> Option<String> {

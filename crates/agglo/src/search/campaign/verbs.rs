@@ -3,7 +3,9 @@
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use super::conduct::{Ask, Course, Polish, Results, conduct};
+use super::archive::Stage;
+use super::conduct::conduct;
+use super::course::{Ask, Course, Polish, Results};
 use super::folder::Folder;
 use super::progress::CampaignObserver;
 use super::summary::Goal;
@@ -82,15 +84,18 @@ pub fn resume(
     let course = Course {
         title: &campaign.title,
         seed: campaign.seed,
+        is_study: !is_search,
         threads,
         parameters: problem.axes().to_vec(),
         objectives: problem.objectives().map(|(formula, large)| goal(formula, large)).collect(),
         ensemble: campaign.ensemble.clone(),
         optimiser: optimiser(&campaign, &problem),
-        evaluations_at_most: evaluations_at_most(&campaign, &problem),
+        planned: planned(&campaign, &problem),
+        budget_s: campaign.budget.as_ref().map(|budget| budget.time.si()),
         polish: campaign.polish.as_ref().map(|_| &polish as &Polish<'_>),
         confirm: if is_search { campaign.confirm } else { Confirm { candidates: 0, starts: 0 } },
         settings: &|candidate| problem.settings(candidate),
+        limits: &|evaluation| problem.limits_of(&evaluation.candidate, &evaluation.figures),
         findings: &|known| pictures::findings(&campaign, &problem, known),
         closing: &mut |results, ask| {
             pictures::clear(&results.folder.pictures())?;
@@ -142,15 +147,24 @@ fn optimiser(campaign: &Campaign, problem: &Problem) -> Box<dyn Optimiser> {
     method.start(problem.axes().len(), campaign.objectives.len(), campaign.seed)
 }
 
-/// Candidates that a search or study evaluates at most, those with fresh starts included.
-pub fn evaluations_at_most(campaign: &Campaign, problem: &Problem) -> Option<u64> {
+/// Candidates that each stage of a search or study is allowed.
+pub fn planned(campaign: &Campaign, problem: &Problem) -> Vec<(Stage, u64)> {
     if let Some(plan) = &campaign.plan {
-        return Some(plan.evaluations(&levels(problem)));
+        return vec![(Stage::Search, plan.evaluations(&levels(problem)))];
     }
-    let searched = campaign.method.as_ref()?.evaluations();
-    let polished = campaign.polish.as_ref().map_or(0, |polish| polish.evaluations);
+    let searched = campaign.method.as_ref().map_or(0, Method::evaluations) as u64;
+    let polished = campaign.polish.as_ref().map_or(0, |polish| polish.evaluations) as u64;
     let Confirm { candidates, starts } = campaign.confirm;
-    Some((searched + polished) as u64 + if starts > 0 { u64::from(candidates) } else { 0 })
+    let confirmed = if starts > 0 { u64::from(candidates) } else { 0 };
+    // Where there is a choice, the one that was chosen is run once more.
+    let last = u64::from(confirmed > 1);
+    let all = [
+        (Stage::Search, searched),
+        (Stage::Polish, polished),
+        (Stage::Confirm, confirmed),
+        (Stage::Final, last),
+    ];
+    all.into_iter().filter(|(_, candidates)| *candidates > 0).collect()
 }
 
 /// How the points are chosen, in words: "method" or "plan" and its name in the file.

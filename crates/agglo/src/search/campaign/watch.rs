@@ -17,8 +17,8 @@ pub struct Watch<'a> {
     evaluations_at_most: Option<u64>,
     /// Evaluations that were known when it sat down.
     known: u64,
-    /// -1 where a cost is minus what is to be large.
-    sign: f64,
+    /// -1 where a cost is minus what is to be large; none where there is no goal.
+    sign: Option<f64>,
 }
 
 /// Where a campaign is.
@@ -35,13 +35,13 @@ pub struct Now {
 }
 
 impl<'a> Watch<'a> {
-    /// Sits down with `known` evaluations from earlier sittings; what is told is `sign` times the cost.
+    /// Sits down with `known` evaluations from earlier sittings; what is told is `sign` times the cost, if there is one.
     pub fn new(
         observer: &'a mut CampaignObserver<'a>,
         sat_down: Instant,
         evaluations_at_most: Option<u64>,
         known: u64,
-        sign: f64,
+        sign: Option<f64>,
     ) -> Self {
         Self { observer, sat_down, told: None, evaluations_at_most, known, sign }
     }
@@ -57,10 +57,12 @@ impl<'a> Watch<'a> {
         let new = evaluations.saturating_sub(self.known) as f64;
         let left = self.evaluations_at_most.map(|most| most.saturating_sub(evaluations) as f64);
         let of = |best: &super::Evaluation| {
-            (self.sign * best.fitness.cost(), best.fitness.standard_errors.first().copied().unwrap_or(0.0))
+            let error = best.fitness.standard_errors.first().copied().unwrap_or(0.0);
+            Some((self.sign? * best.fitness.cost(), error))
         };
         let progress = CampaignProgress {
-            best: archive.best().map(of),
+            best: archive.best().and_then(of),
+            has_goal: self.sign.is_some(),
             stage: now.stage,
             evaluations,
             evaluations_at_most: self.evaluations_at_most,

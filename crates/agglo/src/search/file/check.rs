@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::{Campaign, Constraint, Limit};
 use crate::math::formula;
-use crate::scenario::Fault;
+use crate::scenario::{Fault, readable};
 use crate::search::optimiser::Method;
 use crate::search::{Axis, Model, Problem, Until, columns};
 
@@ -152,6 +152,17 @@ impl Check<'_> {
         }
         if polish.is_some() && (method.is_none() || objectives.len() != 1) {
             self.fail("polish", "improves the best candidate of a search with one objective");
+        }
+        if let Some(budget) = &self.campaign.budget {
+            let seconds = budget.time.si();
+            if plan.is_some() {
+                self.fail("budget", "is for searches; a study runs its whole plan");
+            } else if seconds <= 0.0 {
+                self.fail(
+                    "budget.time",
+                    format!("found {}; more than 0 s is wanted", readable(seconds, "s")),
+                );
+            }
         }
         let confirm = &self.campaign.confirm;
         if confirm.candidates > 0 && confirm.starts == 0 {

@@ -13,6 +13,7 @@ pub use scalar::Scalar;
 use super::ensemble::Ensemble;
 use super::optimiser::{Method, NelderMead};
 use super::plan::Plan;
+use crate::units::Time;
 
 /// A whole search or study.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -57,6 +58,9 @@ pub struct Campaign {
     /// Improves the best candidate of the search; not if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub polish: Option<NelderMead>,
+    /// What the whole search may take; as long as it needs if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub budget: Option<Budget>,
     /// What the best candidates are held to at the end; of a search.
     #[serde(default)]
     pub confirm: Confirm,
@@ -162,6 +166,15 @@ pub struct Limit {
     /// Its largest value.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at_most: Option<f64>,
+}
+
+/// What a search may take.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Budget {
+    /// Wall time of all sittings together. No candidates are begun for which, with the confirmation and the run of the best,
+    /// there is no time left by the starts so far.
+    pub time: Time,
 }
 
 /// What the best candidates are held to at the end: starts that the search has not seen.

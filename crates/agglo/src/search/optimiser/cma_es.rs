@@ -16,7 +16,8 @@
 //!   smaller again by as much. Where no standard errors are told the population stays what it is.
 //! * End: a run stops when its steps are below 1e-11, when its best costs differ by no more than `tolerance` over
 //!   10 + 30 d/λ generations, or when C is too thin to compute with. Then the population grows and another run starts at a
-//!   point drawn uniformly (IPOP).
+//!   point drawn uniformly (IPOP), until all `evaluations` are used or `restarts` runs have followed the first; the last
+//!   generation is as large as what is left.
 //! * Recommendation: the mean of the distribution, not the best point seen, which with noise is a lucky one. It is asked
 //!   as the last point of each run, so that it is evaluated; after several runs the best of these counts.
 //!
@@ -67,6 +68,8 @@ use super::{
 use crate::math::rng::Stream;
 use crate::search::Fitness;
 
+/// Points that a generation learns from at the least.
+const LEAST: usize = 4;
 /// Above this part of the variance of the costs noise makes the population grow.
 const MOST_NOISE: f64 = 0.5;
 /// How fast.
@@ -123,8 +126,8 @@ impl CmaEs {
         if self.evaluations < 2 {
             faults.push(("evaluations", "at least 2 are needed".into()));
         }
-        if self.population.is_some_and(|population| population < 4) {
-            faults.push(("population", "at least 4 points are needed".into()));
+        if self.population.is_some_and(|population| population < LEAST) {
+            faults.push(("population", format!("at least {LEAST} points are needed")));
         }
         if !(self.step > 0.0 && self.step <= WIDEST) {
             faults.push(("step", format!("{} is not above 0 and at most {WIDEST}", self.step)));
@@ -222,12 +225,15 @@ impl Search {
 
     fn restart(&mut self) {
         self.least *= self.parameters.growth;
-        self.population = self.least;
         self.restarts += 1;
-        if self.restarts > self.parameters.restarts || self.left() <= self.population as usize {
+        if self.restarts > self.parameters.restarts || self.left() == 0 {
             self.stage = Stage::Over;
             return;
         }
+        // What is left of the budget is used, with a population that fits into it.
+        let most = self.left().saturating_sub(1).max(LEAST) as f64;
+        self.least = self.least.min(most);
+        self.population = self.least;
         let dimensions = self.distribution.mean.len();
         self.stage = Stage::Generations;
         self.rates = Rates::new(self.population as usize, dimensions);
@@ -283,13 +289,18 @@ impl Optimiser for Search {
         if self.stage == Stage::Over || self.left() == 0 {
             return Vec::new();
         }
-        if self.left() <= population || self.has_converged() {
+        if self.left() == 1 || self.has_converged() {
             self.stage = Stage::Mean;
             return vec![self.mean()];
         }
+        // The last generation is as large as the budget allows, with one point kept for the mean.
+        let count = population.min(self.left() - 1);
+        if count < population && count >= LEAST {
+            self.rates = Rates::new(count, self.distribution.mean.len());
+        }
         let Self { distribution, deviates, draws, .. } = self;
         draws.clear();
-        draws.extend((0..population).map(|_| distribution.draw(deviates)));
+        draws.extend((0..count).map(|_| distribution.draw(deviates)));
         draws.iter().map(|draw| distribution.point(draw).map(mirrored).collect()).collect()
     }
 
@@ -301,7 +312,9 @@ impl Optimiser for Search {
                 keep_best(&mut self.best, std::iter::once(mean));
                 self.restart();
             }
-            _ => self.learn(fitnesses),
+            // Too few points tell nothing of the shape; the best of them counts all the same.
+            _ if fitnesses.len() >= LEAST => self.learn(fitnesses),
+            _ => {}
         }
     }
 

@@ -97,6 +97,8 @@ struct Search {
     parameters: NelderMead,
     stage: Stage,
     evaluations: usize,
+    /// Points of a whole simplex.
+    size: usize,
     /// Best first once evaluated; points are not yet mirrored into the cube.
     simplex: Vec<Candidate>,
     asked: Vec<Point>,
@@ -111,7 +113,8 @@ impl Search {
             let inward = if first[axis] + parameters.step > 1.0 { -parameters.step } else { parameters.step };
             point[axis] += inward;
         }
-        Self { parameters, stage: Stage::Simplex, evaluations: 0, simplex: Vec::new(), asked }
+        let size = dimensions + 1;
+        Self { parameters, stage: Stage::Simplex, evaluations: 0, size, simplex: Vec::new(), asked }
     }
 
     fn dimensions(&self) -> usize {
@@ -215,9 +218,12 @@ impl Search {
 
 impl Optimiser for Search {
     fn ask(&mut self) -> Vec<Point> {
-        if self.evaluations + self.asked.len() > self.parameters.evaluations || self.has_converged() {
+        let left = self.parameters.evaluations.saturating_sub(self.evaluations);
+        if left == 0 || self.has_converged() {
             return Vec::new();
         }
+        // Of a simplex that shrinks as many points as the budget allows.
+        self.asked.truncate(left);
         self.asked.iter().map(|point| point.iter().copied().map(mirrored).collect()).collect()
     }
 
@@ -226,7 +232,9 @@ impl Optimiser for Search {
         let mut told = super::candidates(&mut self.asked, fitnesses).collect::<Vec<_>>();
         if matches!(self.stage, Stage::Simplex) {
             self.simplex.append(&mut told);
-            self.reflect();
+            if self.simplex.len() == self.size {
+                self.reflect();
+            }
         } else if let Some(candidate) = told.pop() {
             self.judge(candidate);
         }

@@ -161,3 +161,35 @@ fn val_random_search_has_its_place() {
         assert!((found - expected).abs() < 2.0 * error, "{noisy:?} {found} {expected}");
     }
 }
+
+/// What is asked for is what is used: with a rugged cost, on which nothing converges, each method asks for exactly as many
+/// points as it says, whatever the number.
+#[test]
+fn budgets_are_used_to_the_last_evaluation() {
+    let rugged = |point: &[f64]| point.iter().map(|x| (1e4 * x).sin()).sum::<f64>();
+    for dimensions in 1..5 {
+        for evaluations in (dimensions + 1).max(2)..40 {
+            let genetic = Genetic { population: 4, generations: evaluations / 4, ..Default::default() };
+            for method in [
+                Method::CmaEs(CmaEs { evaluations, ..Default::default() }),
+                Method::NelderMead(NelderMead { evaluations, ..Default::default() }),
+                Method::Random(Random { points: evaluations }),
+                Method::Sobol(Sobol { points: evaluations }),
+                Method::Genetic(genetic),
+            ] {
+                let mut count = 0;
+                let mut search = method.start(dimensions, 1, 3);
+                loop {
+                    let points = search.ask();
+                    if points.is_empty() {
+                        break;
+                    }
+                    count += points.len();
+                    search.tell(&points.iter().map(|x| Fitness::new(vec![rugged(x)])).collect::<Vec<_>>());
+                }
+                assert_eq!(count, method.evaluations(), "{method:?} in {dimensions} dimensions");
+                assert!(search.recommended().is_some_and(|point| point.len() == dimensions));
+            }
+        }
+    }
+}

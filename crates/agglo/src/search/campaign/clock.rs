@@ -1,0 +1,89 @@
+//! The budget of time: whether a search goes on.
+//!
+//! The clock is looked at before each few candidates, and what it decides is written into the journal, so that a campaign
+//! that is resumed decides the same. Time is kept for what comes after the search: the best are run again, and the run of
+//! the best is repeated with frames.
+
+use super::CampaignError;
+use super::archive::Archive;
+use super::conduct::Stop;
+use super::course::Course;
+use super::journal::{Journal, Past};
+use crate::search::Model;
+use crate::search::pool::Pool;
+
+/// The budget of time of a campaign.
+pub(super) struct Clock<'a> {
+    journal: &'a Journal,
+    wall_s: &'a dyn Fn() -> f64,
+    budget_s: Option<f64>,
+    threads: usize,
+    /// Starts that are run after the search.
+    afterwards: f64,
+    /// Starts that every candidate gets.
+    starts_at_least: f64,
+    /// Starts that earlier sittings have run.
+    starts_before: u64,
+    /// Candidates at which it was decided to go on: the most.
+    went_on: Option<u64>,
+    /// Candidates at which it was decided to end.
+    ended: Option<u64>,
+}
+
+impl<'a> Clock<'a> {
+    /// With what earlier sittings decided.
+    pub fn new(course: &Course<'_>, journal: &'a Journal, past: &Past, wall_s: &'a dyn Fn() -> f64) -> Self {
+        let confirm = course.confirm;
+        let again = if confirm.candidates > 1 { confirm.candidates + 1 } else { confirm.candidates };
+        Self {
+            journal,
+            wall_s,
+            budget_s: course.budget_s,
+            threads: course.threads.max(1),
+            afterwards: f64::from(again) * f64::from(confirm.starts),
+            starts_at_least: f64::from(course.ensemble.least()),
+            starts_before: past.starts.len() as u64,
+            went_on: past.went_on,
+            ended: past.ended,
+        }
+    }
+
+    /// Whether the search was ended for want of time.
+    pub fn has_ended(&self) -> bool {
+        self.ended.is_some()
+    }
+
+    /// How many of the next `wanted` candidates may be evaluated before the clock is looked at again; none if the time is up.
+    pub fn allows<M: Model>(
+        &mut self,
+        archive: &Archive,
+        pool: &Pool<'_, M>,
+        wanted: usize,
+    ) -> Result<usize, Stop> {
+        let Some(budget_s) = self.budget_s else { return Ok(wanted) };
+        let done = archive.evaluations.len() as u64;
+        if let Some(ended) = self.ended {
+            return Ok(wanted.min(ended.saturating_sub(done) as usize));
+        }
+        let count = wanted.min(2 * self.threads);
+        if self.went_on.is_some_and(|went_on| done <= went_on) {
+            return Ok(count);
+        }
+        let wall_s = (self.wall_s)();
+        let goes_on =
+            done == 0 || wall_s + self.still_needed(archive, pool.starts(), count, wall_s) <= budget_s;
+        self.journal.decide(done, goes_on, wall_s).map_err(CampaignError::from)?;
+        let kept = if goes_on { &mut self.went_on } else { &mut self.ended };
+        *kept = Some(done);
+        Ok(if goes_on { count } else { 0 })
+    }
+
+    /// Wall time [s] that so many candidates and what follows the search will take, by the starts so far.
+    fn still_needed(&self, archive: &Archive, starts_now: u64, candidates: usize, wall_s: f64) -> f64 {
+        let each = archive.noise().starts_mean.unwrap_or(self.starts_at_least);
+        let per_start = wall_s / (self.starts_before + starts_now).max(1) as f64;
+        // The run with frames is one start on one thread.
+        let with_frames = self.threads as f64;
+        per_start * (candidates as f64 * each + self.afterwards + with_frames)
+    }
+}

@@ -1,0 +1,70 @@
+//! Everything of a campaign but its model, and what it came to.
+
+use std::ops::ControlFlow;
+
+use super::CampaignError;
+use super::archive::{Evaluation, Stage};
+use super::folder::Folder;
+use super::summary::{CampaignSummary, Goal, LimitKept};
+use crate::search::optimiser::Optimiser;
+use crate::search::{Axis, Candidate, Confirm, Ensemble};
+
+/// Begins the improvement of the best point.
+pub type Polish<'a> = dyn Fn(&[f64]) -> Box<dyn Optimiser> + 'a;
+
+/// What is done in the folder once all is evaluated, before the summary is written. It may find its own work done, and
+/// it breaks off where the second argument does.
+pub type Closing<'a> = dyn FnMut(&Results<'_>, &mut Ask<'_>) -> Result<ControlFlow<()>, CampaignError> + 'a;
+
+/// Tells the observer, who may ask to stop.
+pub type Ask<'a> = dyn FnMut() -> ControlFlow<()> + Send + 'a;
+
+/// Everything of a campaign but its model.
+pub struct Course<'a> {
+    /// One line that says what it is.
+    pub title: &'a str,
+    /// Seed of the random starts.
+    pub seed: u64,
+    /// Worker threads; at least 1.
+    pub threads: usize,
+    /// Whether its optimiser is a plan.
+    pub is_study: bool,
+    /// The parameters, in the order of a candidate's values.
+    pub parameters: Vec<Axis>,
+    /// What is to be small or large.
+    pub objectives: Vec<Goal>,
+    /// How many random starts a candidate gets.
+    pub ensemble: Ensemble,
+    /// What proposes the points.
+    pub optimiser: Box<dyn Optimiser>,
+    /// Candidates that each stage is allowed; empty if that is not known.
+    pub planned: Vec<(Stage, u64)>,
+    /// Wall time [s] that the whole campaign is to end in; none for as long as it takes.
+    pub budget_s: Option<f64>,
+    /// Improves the best point at the end.
+    pub polish: Option<&'a Polish<'a>>,
+    /// What the best candidates are held to.
+    pub confirm: Confirm,
+    /// Settings that make a candidate's scenario of the base.
+    pub settings: &'a dyn Fn(&Candidate) -> Vec<String>,
+    /// The limits of an evaluation's outcome, and whether it keeps them.
+    pub limits: &'a dyn Fn(&Evaluation) -> Vec<LimitKept>,
+    /// What the evaluations say, in sentences.
+    pub findings: &'a dyn Fn(&[Evaluation]) -> Vec<String>,
+    /// What is done once all is evaluated.
+    pub closing: &'a mut Closing<'a>,
+}
+
+/// What a campaign came to, for its closing.
+pub struct Results<'a> {
+    /// The campaign's folder.
+    pub folder: &'a Folder,
+    /// Its summary but for the wall time.
+    pub summary: &'a CampaignSummary,
+    /// The best candidate.
+    pub best: Option<&'a Candidate>,
+    /// All that was evaluated.
+    pub evaluations: &'a [Evaluation],
+    /// Names of the model's columns.
+    pub columns: &'a [String],
+}
