@@ -1,6 +1,6 @@
 //! Steps, time on the clock and bytes on the disk, carried on from the first moments of a run to its end.
 
-use super::Plan;
+use super::{Plan, counts};
 use super::push::Push;
 use crate::acoustics::RayForce;
 use crate::engine::Engine;
@@ -12,8 +12,9 @@ use crate::units::Time;
 const MOST_PAIRS: f64 = 1e9;
 /// Checkpoints that stay in a run's folder.
 const CHECKPOINTS_KEPT: f64 = 2.0;
-/// Bytes of a report without its frames: charts, words and what draws them.
-const BYTES_PER_REPORT: f64 = 2.2e6;
+/// Bytes of a report without its frames: charts, words and what draws them; and of each grain in each frame that it shows.
+const BYTES_PER_REPORT: f64 = 2e6;
+const BYTES_PER_SHOWN_GRAIN: f64 = 14.0;
 
 /// Why the first steps are not tried, if they are not.
 pub(super) fn too_much_to_try(scenario: &Scenario, grains: usize) -> Option<String> {
@@ -113,6 +114,6 @@ pub(super) fn of_files(plan: &mut Plan, scenario: &Scenario, tried: &Rehearsal, 
     let flying = weights.flying_frame.unwrap_or(quiet);
     let frame = quiet + flying_part.min(1.0) * (flying - quiet);
     let kept = CHECKPOINTS_KEPT * weights.checkpoint;
-    plan.disk =
-        Some(weights.so_far + due(series) * weights.row + due(frames) * frame + kept + BYTES_PER_REPORT);
+    let report = BYTES_PER_REPORT + BYTES_PER_SHOWN_GRAIN * counts::shown_grains(plan, scenario);
+    plan.disk = Some(weights.so_far + due(series) * weights.row + due(frames) * frame + kept + report);
 }

@@ -10,7 +10,12 @@ use crate::packing::{Lattice, LatticeKind, Placement, SATURATION};
 use crate::scenario::{GrainGroup, Scenario};
 
 /// The program itself, with what writes its tables.
-const BYTES_OF_PROGRAM: f64 = 25e6;
+const BYTES_OF_PROGRAM: f64 = 14e6;
+/// What makes a report, and what it keeps of each grain in each frame that it shows.
+const BYTES_OF_REPORT: f64 = 10e6;
+const BYTES_PER_SHOWN_GRAIN: f64 = 190.0;
+/// A report shows no more grains than this, all frames together: the rest is thinned out.
+const MOST_SHOWN: f64 = 1.3e6;
 const BYTES_PER_GRAIN: f64 = 400.0;
 const BYTES_PER_CONTACT: f64 = 200.0;
 const BYTES_PER_RAY: f64 = 120.0;
@@ -35,11 +40,20 @@ pub(super) fn grains(plan: &mut Plan, scenario: &Scenario, base: &Path) -> Vec<u
     counts
 }
 
-/// Memory of the run.
+/// Memory of the run, its report included.
 pub(super) fn memory(plan: &mut Plan, scenario: &Scenario) {
     let contacts = if scenario.engine.is_hard() { 0.0 } else { CONTACTS_PER_GRAIN };
     let grains = plan.grains as f64 * (BYTES_PER_GRAIN + contacts * BYTES_PER_CONTACT);
-    plan.memory = BYTES_OF_PROGRAM + grains + plan.rays_per_pulse as f64 * BYTES_PER_RAY;
+    let shown = shown_grains(plan, scenario);
+    let report = BYTES_OF_REPORT + shown * BYTES_PER_SHOWN_GRAIN;
+    plan.memory = BYTES_OF_PROGRAM + grains + plan.rays_per_pulse as f64 * BYTES_PER_RAY + report;
+}
+
+/// Grains in the frames that a report shows, all frames together.
+pub(super) fn shown_grains(plan: &Plan, scenario: &Scenario) -> f64 {
+    let frames = scenario.resolved().output.frames;
+    let count = frames.map_or(0.0, |interval| scenario.time.end.si() / interval.si() + 1.0);
+    (count * plan.grains as f64).min(MOST_SHOWN)
 }
 
 pub(super) fn pulses(plan: &mut Plan, scenario: &Scenario) {
