@@ -1,7 +1,7 @@
 //! Steps, time on the clock and bytes on the disk, carried on from the first moments of a run to its end.
 
-use super::{Plan, counts};
 use super::push::Push;
+use super::{Plan, counts};
 use crate::acoustics::RayForce;
 use crate::engine::Engine;
 use crate::run::{Paces, Rehearsal};

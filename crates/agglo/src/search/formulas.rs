@@ -60,12 +60,12 @@ pub struct Reader<'a> {
 impl Reader<'_> {
     /// A formula of parameters only.
     fn of_parameters(&mut self, text: &str, key: &str) -> Option<Formula> {
-        let read = Formula::new(text, |name| match self.parameter(name)? {
-            Some(source) => Ok(source),
-            None => {
+        let read = Formula::new(text, |name| {
+            let found = self.parameter(name)?;
+            found.ok_or_else(|| {
                 let near = nearest(name, self.names.iter().copied());
-                Err(unknown(name, &format!("no parameter; parameters are {}", self.names.join(", ")), near))
-            }
+                unknown(name, &format!("no parameter; parameters are {}", self.names.join(", ")), near)
+            })
         });
         read.map_err(|message| self.faults.push(Fault::new(key, message))).ok()
     }

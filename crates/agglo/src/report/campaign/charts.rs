@@ -231,7 +231,7 @@ fn parallel(folder: &Folder, searched: &Sheet) -> Option<Chart> {
             .to_owned(),
         words: vec![format!("{} candidates over {} axes", searched.rows.len(), dimensions.len())],
         kind: Kind::Parallel,
-        series: vec![Series { label, colors, dimensions, ascending, ..Series::default() }],
+        series: vec![Series { label, colors, ascending, dimensions, ..Series::default() }],
         ..Chart::default()
     })
 }

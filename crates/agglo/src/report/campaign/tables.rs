@@ -89,7 +89,8 @@ fn own_signs(folder: &Folder, sheet: &mut Sheet, goal: &str) {
             // What counts is what it came to at last.
             let missed = last.map(|last| row[last].clone()).filter(|entry| !entry.is_empty());
             let missed = missed.unwrap_or_else(|| row[at].clone()).parse::<f64>();
-            row[at] = missed.map_or("", |missed| if missed > 0.0 { "MISSED" } else { "kept" }).to_owned();
+            let mark = missed.map_or("", |missed| if missed > 0.0 { "MISSED" } else { "kept" });
+            mark.clone_into(&mut row[at]);
         }
     }
     if let Some(at) = sheet.place("cost") {
