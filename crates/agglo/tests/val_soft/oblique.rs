@@ -31,7 +31,7 @@ fn coming(velocity: Vec3) -> impl FnOnce(&mut Particles) {
 }
 
 fn is_apart(simulation: &Simulation) -> bool {
-    simulation.system.trial.contact.touching == 0
+    simulation.system.trial.contact.worst_strain <= 0.0
 }
 
 /// Steps until the grains part; `look` sees every step.

@@ -41,7 +41,7 @@ fn pressed(laws: &str, engine: String) -> Vec3 {
         grains.spin = vec![Vec3::new(0.0, 0.0, 100.0), Vec3::new(50.0, 0.0, 0.0)];
     });
     common::finish(&mut simulation);
-    assert_eq!(simulation.system.trial.contact.touching, 1, "the grains parted");
+    assert!(simulation.system.trial.contact.worst_strain > 0.0, "the grains parted");
     common::grain(&simulation, 1).position
 }
 
