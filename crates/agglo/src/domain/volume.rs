@@ -26,7 +26,8 @@ pub enum Boundary {
     /// The volume repeats itself: what leaves enters on the opposite side, and grains collide across the faces.
     #[default]
     Periodic,
-    /// What leaves enters on the opposite side, but grains do not collide across the faces ([B], section 7).
+    /// What leaves enters on the opposite side, but grains do not collide across the faces ([B], section 7): r -> -r from
+    /// the middle of the volume, so that a grain that a step has taken beyond a face comes out as far before the opposite one.
     Antipodal,
     /// Smooth hard walls: the component across the face changes its sign.
     Reflecting,
@@ -91,6 +92,23 @@ impl Volume {
         let (lower, upper) = (self.lower(), self.upper());
         let inside = |axis: usize| wrapped(position[axis], lower[axis], upper[axis]);
         Vec3::new(inside(0), inside(1), inside(2))
+    }
+
+    /// Where a grain that a step has taken out of an antipodal volume goes on ([B], section 7: r_x -> -r_x, its velocity
+    /// kept): each coordinate that is beyond a face and moves outwards is mirrored in the middle of the volume.
+    ///
+    /// From e beyond one face it comes to e before the opposite one, outside, and moves in. One that moves inwards is left
+    /// alone: it would be thrown to and fro for ever.
+    #[inline]
+    #[must_use]
+    pub fn mirrored(&self, position: Vec3, velocity: Vec3) -> Vec3 {
+        let (lower, upper) = (self.lower(), self.upper());
+        let along = |axis: usize| {
+            let (at, speed) = (position[axis], velocity[axis]);
+            let leaves = (at >= upper[axis] && speed > 0.0) || (at < lower[axis] && speed < 0.0);
+            if leaves { lower[axis] + (upper[axis] - at) } else { at }
+        };
+        Vec3::new(along(0), along(1), along(2))
     }
 
     /// The shortest of the vectors [m] that lead from one point to the images of another, given one of them; where
@@ -196,6 +214,19 @@ mod tests {
         assert_eq!((across.x, across.y), (0.1, 1.04));
         assert!((across.z + 3.5).abs() < 1e-15);
         assert!(volume.wrap(Vec3::new(f64::NAN, 1.04, -3.0)).x.is_nan());
+    }
+
+    /// D + e comes to -D - e, along each axis by itself and only outwards; the faces are at -0.3, 0.7 and so on.
+    #[test]
+    fn antipodal_volumes_mirror_who_leaves() {
+        let volume = volume(Boundary::Antipodal);
+        let found = volume.mirrored(Vec3::new(0.95, 1.05, -7.25), Vec3::new(3.0, -1.0, -2.0));
+        // One rounding of each sum.
+        assert!((found - Vec3::new(-0.55, 1.05, -2.25)).norm() < 1e-15, "{found:?}");
+        let inwards = Vec3::new(-0.55, 1.05, -2.25);
+        assert_eq!(volume.mirrored(inwards, Vec3::new(3.0, -1.0, -2.0)), inwards);
+        // At the faces themselves it is what an edge does.
+        assert_eq!(volume.mirrored(volume.upper(), Vec3::new(1.0, 1.0, 1.0)), volume.lower());
     }
 
     #[test]

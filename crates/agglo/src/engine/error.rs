@@ -124,19 +124,56 @@ pub enum SimError {
         /// The laws that act.
         laws: String,
     },
-    /// Impacts follow one another without end at one moment.
+    /// Bounces follow one another without end while the clock stands, or as good as stands.
     #[error(
-        "t = {time:.6e} s: {events} impacts at one moment, the last between grains {} and {}; raise \
-         engine.event_driven.contact_duration",
-        grains[0], grains[1]
+        "t = {time:.6e} s: the clock went on by {lasted:.1e} s in {events} events, the last bounce is that of {who}; {help}"
     )]
     Standstill {
         /// When [s].
         time: f64,
-        /// How many events at that moment.
+        /// By how much the clock went on [s].
+        lasted: f64,
+        /// In how many events.
         events: u64,
-        /// Stable names of the last pair.
-        grains: [u32; 2],
+        /// Whose bounce was the last: two grains by their stable names, or a grain and a wall.
+        who: String,
+        /// What to do.
+        help: &'static str,
+    },
+    /// A sphere is so far out, or so fast, that its place cannot be told to a thousandth of its radius.
+    #[error(
+        "t = {time:.6e} s: the place of grain {grain}, {place:.3e} m from the origin at {speed:.3e} m/s, is known to \
+         {rounding:.1e} m only, since numbers have 16 digits; that is more than a thousandth of its radius ({radius:.3e} m). \
+         Put the grains nearer to the origin, or end the run sooner"
+    )]
+    OutOfDigits {
+        /// When [s].
+        time: f64,
+        /// Stable name of the grain.
+        grain: u32,
+        /// Its distance from the origin [m].
+        place: f64,
+        /// Its speed [m/s].
+        speed: f64,
+        /// What its place is rounded to [m].
+        rounding: f64,
+        /// Its radius [m].
+        radius: f64,
+    },
+    /// A sphere in an open volume has flown so far that cells cannot be counted.
+    #[error(
+        "t = {time:.6e} s: grain {grain} is {place:.3e} m from the origin, more than 1e9 cells of {cell:.3e} m from \
+         [volume]; use a larger volume, or end the run sooner"
+    )]
+    OutOfCells {
+        /// When [s].
+        time: f64,
+        /// Stable name of the grain.
+        grain: u32,
+        /// Its distance from the origin [m].
+        place: f64,
+        /// Width of a cell [m].
+        cell: f64,
     },
     /// A sphere has grown wider than a periodic volume.
     #[error(

@@ -7,7 +7,8 @@
 //! ΔK of partner i: m_j/(m_i + m_j) of what the pair lost;   published: |m_i (v_i'² - v_i²)/2|
 //! ```
 //! n is rounded down, at most p, and breaking means n ≥ 2. Pieces are whole numbers of primaries, equal up to one; n falls further
-//! until ΔZ of these pieces fits into ΔK.
+//! until ΔZ of these pieces fits into ΔK. Where masses are drawn from a power law, they are drawn for this n, before the
+//! energies are worked out: ΔZ is that of the pieces that come of it.
 //!
 //! # Source
 //! [B] T. I. Zohdi, Proc. R. Soc. Lond. A 460, 3421 (2004), section 5.
@@ -24,8 +25,8 @@
 //! | γ      | `surface_energy` | J/m² | of the material; without it nothing breaks               |
 //!
 //! # Valid when
-//! Pieces are spheres without pores, so surfaces between primaries inside a piece cost nothing. The energy booked is
-//! that of equal pieces, the most that n pieces can have; pieces from a power law have less.
+//! Pieces are spheres without pores, so surfaces between primaries inside a piece cost nothing. Whether and into how many
+//! pieces a body breaks is asked of equal ones, whose surface is the most that n pieces can have.
 //!
 //! # Compared with others
 //! The condition printed as [B] 5.3, break if b ≤ b0, is always true. In the frame of the centre of mass ΔK is the same for every
@@ -44,6 +45,8 @@ use std::f64::consts::PI;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+use crate::math::rng::{Purpose, Stream};
 
 /// Fragmentation, [B] 5.1-5.5; materials need a `surface_energy`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -111,51 +114,97 @@ pub fn surface(pieces: u32, surface_energy: f64, radius: f64, primaries: u32) ->
         return 0.0;
     }
     let [small, larger] = [primaries / pieces, primaries % pieces];
-    let area_of = |count: u32| (f64::from(count) / f64::from(primaries)).cbrt().powi(2);
-    let areas = f64::from(larger) * area_of(small + 1) + f64::from(pieces - larger) * area_of(small);
+    let areas = f64::from(larger) * area_of(small + 1, primaries)
+        + f64::from(pieces - larger) * area_of(small, primaries);
     surface_energy * sphere(radius) * (areas - 1.0)
+}
+
+/// Surface of a piece over that of the whole.
+fn area_of(share: u32, primaries: u32) -> f64 {
+    (f64::from(share) / f64::from(primaries)).cbrt().powi(2)
 }
 
 fn sphere(radius: f64) -> f64 {
     4.0 * PI * radius * radius
 }
 
+/// Random numbers for the sizes of the pieces of two partners, a sequence for each.
+#[derive(Clone, Debug)]
+pub struct Draws([Stream; 2]);
+
+impl Draws {
+    /// Those of an impact under a seed; numbers of impacts are two apart.
+    pub fn new(seed: u64, impact: u32) -> Self {
+        Self([0, 1].map(|side| Stream::new(seed, Purpose::PieceSize, impact.wrapping_add(side))))
+    }
+
+    /// Those of the partners in the other order.
+    #[must_use]
+    pub fn swapped(self) -> Self {
+        let [a, b] = self.0;
+        Self([b, a])
+    }
+
+    /// The sequence of a partner, 0 or 1, from its beginning.
+    pub fn of(&self, side: usize) -> &Stream {
+        &self.0[side]
+    }
+}
+
 impl Pieces {
-    /// Primaries of each of `count` pieces of a body that has `primaries`, largest first; `uniform` gives random
-    /// numbers in [0, 1).
-    pub fn share(&self, primaries: u32, count: u32, uniform: &mut dyn FnMut() -> f64) -> Vec<u32> {
+    /// Primaries of each of `count` pieces of a body that has `primaries`, largest first; `draws` decides them.
+    pub fn share(&self, primaries: u32, count: u32, draws: &Stream) -> Vec<u32> {
+        let mut shares = Vec::with_capacity(count as usize);
+        self.each(primaries, count, draws, |share| shares.push(share));
+        shares.sort_unstable_by(|a, b| b.cmp(a));
+        shares
+    }
+
+    /// Energy [J] of the new surfaces of these pieces; `surface_energy` in J/m², `radius` of the whole in m.
+    pub fn surface(
+        &self,
+        count: u32,
+        surface_energy: f64,
+        radius: f64,
+        primaries: u32,
+        draws: &Stream,
+    ) -> f64 {
+        if count < 2 || matches!(self, Self::Equal) {
+            return surface(count, surface_energy, radius, primaries);
+        }
+        let mut areas = 0.0;
+        self.each(primaries, count, draws, |share| areas += area_of(share, primaries));
+        surface_energy * sphere(radius) * (areas - 1.0)
+    }
+
+    fn each(&self, primaries: u32, count: u32, draws: &Stream, mut visit: impl FnMut(u32)) {
         let count = count.clamp(1, primaries.max(1));
         match self {
             Self::Equal => {
                 let [each, left] = [primaries / count, primaries % count];
-                (0..count).map(|piece| each + u32::from(piece < left)).collect()
+                (0..count).for_each(|piece| visit(each + u32::from(piece < left)));
             }
-            Self::PowerLaw(law) => law.share(primaries, count, uniform),
+            Self::PowerLaw(law) => law.each(primaries, count, draws, visit),
         }
     }
 }
 
 impl PowerLaw {
-    fn share(&self, primaries: u32, count: u32, uniform: &mut dyn FnMut() -> f64) -> Vec<u32> {
-        let masses: Vec<f64> = (0..count).map(|_| self.mass(f64::from(primaries), uniform())).collect();
-        let (sum, free): (f64, u32) = (masses.iter().sum(), primaries - count);
+    fn each(&self, primaries: u32, count: u32, draws: &Stream, mut visit: impl FnMut(u32)) {
+        let masses = || {
+            let mut draws = draws.clone();
+            (0..count).map(move |_| self.mass(f64::from(primaries), draws.uniform()))
+        };
+        let (sum, free) = (masses().sum::<f64>(), primaries - count);
         // Cut where the running sum of masses falls: the rounded cuts add up to all there is.
         let (mut running, mut cut) = (0.0, 0);
-        let mut shares: Vec<u32> = masses
-            .iter()
-            .map(|mass| {
-                running += mass;
-                let next = ((running / sum * f64::from(free)).round() as u32).clamp(cut, free);
-                let share = 1 + next - cut;
-                cut = next;
-                share
-            })
-            .collect();
-        if let Some(last) = shares.last_mut() {
-            *last += free - cut;
+        for (mass, piece) in masses().zip(1..) {
+            running += mass;
+            let next = ((running / sum * f64::from(free)).round() as u32).clamp(cut, free);
+            let next = if piece == count { free } else { next };
+            visit(1 + next - cut);
+            cut = next;
         }
-        shares.sort_unstable_by(|a, b| b.cmp(a));
-        shares
     }
 
     /// A mass between 1 and `largest` for a random number from 0 to 1.
@@ -172,7 +221,6 @@ impl PowerLaw {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::rng::{Purpose, Stream};
 
     /// The printed form b = b0/(1 + ΔK b0/(3 γ V0)) and n = (b0/b)³, rounded down.
     #[test]
@@ -227,19 +275,41 @@ mod tests {
 
     #[test]
     fn equal_shares() {
-        let mut none = || panic!("equal pieces need no random numbers");
-        assert_eq!(Pieces::Equal.share(7, 3, &mut none), [3, 2, 2]);
-        assert_eq!(Pieces::Equal.share(8, 4, &mut none), [2; 4]);
-        assert_eq!(Pieces::Equal.share(3, 9, &mut none), [1; 3]);
+        let any = Stream::new(3, Purpose::Sampling, 0);
+        assert_eq!(Pieces::Equal.share(7, 3, &any), [3, 2, 2]);
+        assert_eq!(Pieces::Equal.share(8, 4, &any), [2; 4]);
+        assert_eq!(Pieces::Equal.share(3, 9, &any), [1; 3]);
+    }
+
+    /// Surfaces from the radii of the pieces that are drawn, and never more than those of equal ones. Of two that are 97 and 3
+    /// they are (97^(2/3) + 3^(2/3))/100^(2/3) - 1 = 0.076 of the whole's, of halves 0.26.
+    #[test]
+    fn surfaces_are_those_of_the_pieces_drawn() {
+        let (gamma, radius, primaries) = (2.0, 0.5, 100);
+        let mut most: f64 = 0.0;
+        for exponent in [0.3, 1.0, 1.83, 4.0] {
+            let law = Pieces::PowerLaw(PowerLaw { exponent });
+            for (part, count) in (0..200).flat_map(|part| [2, 3, 10, 99].map(|count| (part, count))) {
+                let draws = Stream::new(3, Purpose::PieceSize, part);
+                let shares = law.share(primaries, count, &draws);
+                let radii = shares.iter().map(|share| radius * (f64::from(*share) / 100.0).cbrt());
+                let by_hand = 4.0 * PI * gamma * (radii.map(|b| b * b).sum::<f64>() - radius * radius);
+                let found = law.surface(count, gamma, radius, primaries, &draws);
+                // Sums of up to a hundred terms that are 1 before they are less.
+                assert!((found - by_hand).abs() < 1e-13 * sphere(radius), "{found} {by_hand}");
+                assert!(found <= surface(count, gamma, radius, primaries) * (1.0 + 1e-12));
+                most = most.max(surface(count, gamma, radius, primaries) / found);
+            }
+        }
+        assert!(most > 2.0, "all were nearly equal: {most}");
     }
 
     #[test]
     fn power_law_shares_add_up_largest_first() {
-        let mut stream = Stream::new(3, Purpose::Sampling, 0);
         for exponent in [0.3, 1.0, 1.83, 4.0] {
             let law = Pieces::PowerLaw(PowerLaw { exponent });
             for (primaries, count) in [(2, 2), (10, 3), (1000, 17), (50, 50), (12, 1)] {
-                let shares = law.share(primaries, count, &mut || stream.uniform());
+                let shares = law.share(primaries, count, &Stream::new(3, Purpose::Sampling, primaries));
                 assert_eq!((shares.len(), shares.iter().sum::<u32>()), (count as usize, primaries));
                 assert!(shares.is_sorted_by(|a, b| a >= b) && shares.iter().all(|share| *share > 0));
             }

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::contact_area::ContactArea;
 use super::cooling::{Cooler, Integration};
-use super::fragmentation::{BreakingEnergy, Fragmentation};
+use super::fragmentation::{BreakingEnergy, Draws, Fragmentation, Pieces};
 use super::heat::{Balance, HeatBalance, warmed};
 use super::restitution::Restitution;
 use super::restitution::hardness::{ForceTime, Hardness, Solver};
@@ -13,6 +13,7 @@ use super::sticking::common_velocity;
 use super::tangential::SlipLimit;
 use super::{Body, Impact, ImpactEnergy, Outcome, Sticking, softening};
 use crate::math::Vec3;
+use crate::math::rng::Stream;
 use crate::particles::{Material, Mixture};
 use crate::scenario::Scenario;
 use crate::units::Quantity;
@@ -91,11 +92,22 @@ impl ImpactLaws {
         &self.materials[body.material as usize]
     }
 
-    /// The impact of two partners; `normal` is the unit vector from the first to the second.
-    ///
-    /// Swapping the partners and turning the normal round gives the same bits, swapped. Partners that do not approach are
-    /// left as they are, with restitution 1.
+    /// The impact of two partners of which no piece is drawn at random, or of which the draw does not matter.
     pub fn impact(&self, bodies: [&Body; 2], normal: Vec3) -> Outcome {
+        self.impact_drawn(bodies, normal, &Draws::new(0, 0))
+    }
+
+    /// Whether sizes of pieces are drawn at random.
+    pub fn draws_pieces(&self) -> bool {
+        self.fragmentation.as_ref().is_some_and(|law| matches!(law.pieces, Pieces::PowerLaw(_)))
+    }
+
+    /// The impact of two partners; `normal` is the unit vector from the first to the second, `draws` decide the sizes of
+    /// pieces.
+    ///
+    /// Swapping the partners with their draws and turning the normal round gives the same bits, swapped. Partners that do not
+    /// approach are left as they are, with restitution 1.
+    pub fn impact_drawn(&self, bodies: [&Body; 2], normal: Vec3, draws: &Draws) -> Outcome {
         let relative = bodies[0].velocity - bodies[1].velocity;
         let approach = relative.dot(normal);
         if approach.is_nan() || approach <= 0.0 {
@@ -108,7 +120,7 @@ impl ImpactLaws {
         let along = if slip > 0.0 { across * (1.0 / slip) } else { Vec3::ZERO };
         let pair =
             &self.pairs[bodies[0].material as usize * self.materials.len() + bodies[1].material as usize];
-        let meeting = Meeting::new(self, bodies, pair.friction, [normal, along], [approach, slip]);
+        let meeting = Meeting::new(self, bodies, draws, pair.friction, [normal, along], [approach, slip]);
         let solution = meeting.solve(pair.rebound);
         let stuck = solution.restitution == 0.0 && self.sticking == Sticking::Merge;
         let trial = meeting.trial(solution.restitution, stuck);
@@ -163,11 +175,11 @@ impl ImpactLaws {
         published && self.cools()
     }
 
-    /// Numbers of primaries of the pieces of a body that breaks into `pieces`, largest first; they add up to its own.
-    /// `uniform` gives random numbers in [0, 1).
-    pub fn share_primaries(&self, body: &Body, pieces: u32, uniform: &mut dyn FnMut() -> f64) -> Vec<u32> {
+    /// Numbers of primaries of the pieces of a body that breaks into `pieces`, largest first; they add up to its own. With
+    /// the numbers that its impact was given, they are those whose surfaces it booked.
+    pub fn share_primaries(&self, body: &Body, pieces: u32, draws: &Stream) -> Vec<u32> {
         match &self.fragmentation {
-            Some(law) => law.pieces.share(body.primaries, pieces, uniform),
+            Some(law) => law.pieces.share(body.primaries, pieces, draws),
             None => vec![body.primaries],
         }
     }

@@ -24,7 +24,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use cooling::Cooling;
-pub use fragmentation::Fragmentation;
+pub use fragmentation::{Draws, Fragmentation};
 pub use heat::HeatBalance;
 pub use laws::ImpactLaws;
 pub use restitution::Restitution;

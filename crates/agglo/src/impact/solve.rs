@@ -2,7 +2,7 @@
 //!
 //! All of it happens in two numbers, the speeds along the normal and along the slip; vectors come back at the end.
 
-use super::fragmentation::{self, BreakingEnergy};
+use super::fragmentation::{self, BreakingEnergy, Draws};
 use super::heat::{Balance, parts, warmed};
 use super::laws::{ImpactLaws, Matter, Rebound};
 use super::restitution::Hardness;
@@ -23,6 +23,7 @@ pub(super) struct Meeting<'a> {
     laws: &'a ImpactLaws,
     matter: [&'a Matter; 2],
     bodies: [&'a Body; 2],
+    draws: &'a Draws,
     friction: f64,
     pub reduced_mass: f64,
     pub approach: f64,
@@ -66,6 +67,7 @@ impl<'a> Meeting<'a> {
     pub fn new(
         laws: &'a ImpactLaws,
         bodies: [&'a Body; 2],
+        draws: &'a Draws,
         friction: f64,
         [normal, along]: [Vec3; 2],
         [approach, slip]: [f64; 2],
@@ -79,6 +81,7 @@ impl<'a> Meeting<'a> {
             laws,
             matter: [laws.matter(a), laws.matter(b)],
             bodies,
+            draws,
             friction,
             reduced_mass: a.mass * b.mass / (a.mass + b.mass),
             approach,
@@ -124,7 +127,8 @@ impl<'a> Meeting<'a> {
                 Heat { each: parts(self.laws.heat.share, masses).map(|part| part * total), reaction }
             }
             Balance::Published => {
-                let done = work::work(self.reduced_mass, self.approach, trial.restitution);
+                let force_over = self.laws.hardness.as_ref().map(|law| law.force_over).unwrap_or_default();
+                let done = work::work(force_over, self.reduced_mass, self.approach, trial.restitution);
                 let of = |side: usize| self.own_loss(trial, side) + done + reaction - surfaces[side];
                 Heat { each: [of(0), of(1)], reaction: 2.0 * reaction }
             }
@@ -234,7 +238,7 @@ impl<'a> Meeting<'a> {
             let pieces = fragmentation::pieces(energy, surface_energy, body.radius, body.primaries);
             breakage.pieces[side] = pieces;
             breakage.surfaces[side] =
-                fragmentation::surface(pieces, surface_energy, body.radius, body.primaries);
+                law.pieces.surface(pieces, surface_energy, body.radius, body.primaries, self.draws.of(side));
         }
         breakage
     }

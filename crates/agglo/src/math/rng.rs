@@ -44,6 +44,8 @@ pub enum Purpose {
     Search = 7,
     /// Seeds of the random starts of an ensemble.
     Start = 8,
+    /// Sizes of the pieces of agglomerates that break.
+    PieceSize = 9,
 }
 
 /// An endless sequence of random numbers that belongs to (seed, purpose, part).

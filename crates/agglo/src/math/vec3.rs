@@ -101,6 +101,12 @@ impl Vec3 {
         Self::new(self.x.max(other.x), self.y.max(other.y), self.z.max(other.z))
     }
 
+    /// Sum of the components' sizes; not finite where one is not.
+    #[inline]
+    pub fn sum_of_sizes(self) -> f64 {
+        self.x.abs() + self.y.abs() + self.z.abs()
+    }
+
     /// Two unit vectors that make a right-handed frame with the unit vector `self`: (e1, e2, self).
     pub fn frame(self) -> (Self, Self) {
         let [a, b, c] = self.to_array().map(f64::abs);

@@ -38,17 +38,23 @@ impl Approach {
         self.between.norm_squared()
     }
 
-    /// Time [s] that the way takes at the present speed of approach, [B] 6.14; infinite for spheres that part.
+    /// Time [s] that the way takes at the present speed of approach, [B] 6.14; infinite for spheres that part, by their gap.
+    ///
+    /// With the distance of the centres it is the printed formula, which does not ask whether they part.
     #[inline]
     pub fn time_left(&self, distance: Distance) -> f64 {
+        match distance {
+            Distance::Gap => self.time_of_gap(),
+            Distance::Centers => self.distance_squared() / self.closing.abs(),
+        }
+    }
+
+    fn time_of_gap(&self) -> f64 {
         if self.closing <= 0.0 {
             return f64::INFINITY;
         }
         let apart = self.between.norm();
-        let way = match distance {
-            Distance::Gap => apart - self.reach,
-            Distance::Centers => apart,
-        };
+        let way = apart - self.reach;
         if way > 0.0 {
             way * apart / self.closing
         } else if self.approaches(apart) {
@@ -56,6 +62,17 @@ impl Approach {
         } else {
             f64::INFINITY
         }
+    }
+
+    /// Time [s] after which two spheres that approach are at most the part `depth` of their reach in one another;
+    /// infinite for spheres that part.
+    #[inline]
+    pub fn time_to_sink(&self, depth: f64) -> f64 {
+        if self.closing <= 0.0 {
+            return f64::INFINITY;
+        }
+        let apart = self.between.norm();
+        ((apart - self.reach).max(0.0) + depth * self.reach) * apart / self.closing
     }
 
     fn approaches(&self, apart: f64) -> bool {

@@ -18,7 +18,7 @@ pub struct Counts {
     pub merges: u64,
     /// Agglomerates that broke.
     pub fragmentations: u64,
-    /// Bounces that were made elastic, since a partner had just bounced.
+    /// Bounces that were made elastic, since their pair had bounced again and again just before.
     pub guarded: u64,
     /// Merges, and impacts in which one or both partners broke: lines of the table of events.
     pub events: u64,
@@ -58,6 +58,8 @@ pub struct Flows {
     pub cooled: f64,
     /// Momentum from walls [kg m/s].
     pub walls: Vec3,
+    /// Kinetic energy that bounces would have lost that were made elastic, each counted by itself [J].
+    pub kept: f64,
 }
 
 /// The ledger of hard spheres.

@@ -3,17 +3,18 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::domain::Volume;
+use crate::domain::{Boundary, Volume};
 use crate::engine::{SimError, Warnings};
 use crate::impact::sticking::merged;
-use crate::impact::{Body, ImpactLaws, Outcome};
+use crate::impact::{Body, Draws, ImpactLaws, Outcome};
 use crate::math::Vec3;
 use crate::measure::SizeRates;
 
 use super::books::{Books, Counts};
+use super::collapse::Collapse;
 use super::events::{Descent, EventKind, GrainEvent};
 use super::pieces;
-use super::spheres::Spheres;
+use super::spheres::{PLACE_TOLERANCE, Spheres};
 
 /// Two spheres that meet.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,6 +87,8 @@ pub struct CloudState {
     pub rates: SizeRates,
     /// Warnings.
     pub warnings: Warnings,
+    /// Pairs that bounce again and again.
+    pub collapse: Collapse,
 }
 
 /// The spheres of a run.
@@ -103,7 +106,7 @@ pub struct Cloud {
     pub descents: Vec<Descent>,
     /// Whether events are written down.
     pub keeps_events: bool,
-    /// Bounces within this time [s] of the last one are elastic.
+    /// Bounces of a pair that follow one another within this time [s] again and again are elastic.
     pub contact_duration: f64,
     /// Seed of random numbers.
     pub seed: u64,
@@ -127,7 +130,7 @@ impl Cloud {
         }
         match pieces::find_room(self, &encounter, &outcome, surroundings) {
             Some(found) => pieces::break_up(self, &encounter, &outcome, found),
-            None => self.stay_whole(encounter, outcome.pieces),
+            None => self.stay_whole(encounter),
         }
     }
 
@@ -144,19 +147,15 @@ impl Cloud {
             distance,
             normal,
             approach: (a.velocity - b.velocity).dot(normal),
-            overlaps: length < (a.radius + b.radius) * (1.0 - 1e-9),
+            overlaps: length < (a.radius + b.radius) * (1.0 - 1e-9) - a.rounding(time) - b.rounding(time),
         }
     }
 
-    /// The same impact where there is no room for `pieces`: those that would break stay whole.
-    fn stay_whole(&mut self, mut encounter: Encounter, pieces: [u32; 2]) -> Change {
+    /// The same impact where there is no room for pieces: both stay whole.
+    fn stay_whole(&mut self, mut encounter: Encounter) -> Change {
         self.state.counts.no_room += 1;
         self.state.warnings.add("an agglomerate could not break: there was no room for its pieces");
-        for (body, pieces) in encounter.bodies.iter_mut().zip(pieces) {
-            if pieces > 1 {
-                body.primaries = 1;
-            }
-        }
+        encounter.bodies.iter_mut().for_each(|body| body.primaries = 1);
         let [a, b] = &encounter.bodies;
         let outcome = self.laws.impact([a, b], encounter.normal);
         self.carry_out(&encounter, &outcome)
@@ -188,14 +187,33 @@ impl Cloud {
 
     fn outcome(&mut self, encounter: &Encounter) -> Outcome {
         let [a, b] = &encounter.bodies;
-        let outcome = self.laws.impact([a, b], encounter.normal);
-        let bounces = !outcome.sticks && outcome.pieces == [1, 1] && outcome.restitution < 1.0;
-        let since = |at: u32| encounter.time - self.state.spheres.bulk[at as usize].bounced_at;
-        if bounces && encounter.contact.spheres.into_iter().any(|at| since(at) < self.contact_duration) {
+        let outcome = self.laws.impact_drawn([a, b], encounter.normal, &self.draws(encounter));
+        let loses = outcome.restitution < 1.0 || outcome.energy.tangential > 0.0;
+        let bounces = !outcome.sticks && outcome.pieces == [1, 1];
+        if bounces && loses && self.contact_duration > 0.0 && self.collapses(encounter) {
             self.state.counts.guarded += 1;
+            self.state.books.flows.kept += outcome.energy.normal + outcome.energy.tangential;
             return self.laws.elastic([a, b], encounter.normal);
         }
         outcome
+    }
+
+    /// Whether a bounce belongs to an inelastic collapse.
+    fn collapses(&mut self, encounter: &Encounter) -> bool {
+        let bulk = encounter.contact.spheres.map(|at| self.state.spheres.bulk[at as usize]);
+        let (time, duration) = (encounter.time, self.contact_duration);
+        bulk.iter().all(|one| time - one.bounced_at < duration)
+            && self.state.collapse.has_come(bulk.map(|one| one.id), time, duration)
+    }
+
+    /// Random numbers for the sizes of each partner's pieces. They belong to places in space, not to the order in which the
+    /// partners are named.
+    pub(super) fn draws(&self, encounter: &Encounter) -> Draws {
+        let [a, b] = encounter.contact.spheres;
+        let counts = &self.state.counts;
+        let event = 2 * (counts.fragmentations + counts.no_room) as u32;
+        let draws = Draws::new(self.seed, event);
+        if !self.laws.draws_pieces() || self.is_first(a, b) { draws } else { draws.swapped() }
     }
 
     fn count(&mut self, outcome: &Outcome, overlap: bool) {
@@ -271,7 +289,10 @@ impl Cloud {
         let spheres = &mut self.state.spheres;
         let parents = [kept, gone].map(|at| spheres.bulk[at as usize]);
         let motion = &mut spheres.motion[kept as usize];
-        motion.position = self.volume.wrap(motion.position + center);
+        motion.position += center;
+        if self.volume.boundary == Boundary::Periodic {
+            motion.position = self.volume.wrap(motion.position);
+        }
         motion.radius = both.radius;
         let bulk = &mut spheres.bulk[kept as usize];
         bulk.mass = both.mass;
@@ -333,6 +354,34 @@ impl Cloud {
                 mass,
             }));
         }
+    }
+
+    /// Whether a sphere has a motion, and is where doubles can tell its place to a thousandth of its radius.
+    ///
+    /// # Errors
+    /// [`SimError`] where not.
+    #[inline]
+    pub(super) fn check_motion(&self, at: u32, time: f64) -> Result<(), SimError> {
+        let motion = &self.state.spheres.motion[at as usize];
+        // What is not a number is not below either.
+        if motion.rounding(time) <= PLACE_TOLERANCE * motion.radius {
+            return Ok(());
+        }
+        if !(motion.velocity.norm_squared().is_finite() && motion.position.is_finite()) {
+            return Err(self.not_finite(at, time));
+        }
+        let grain = self.state.spheres.bulk[at as usize].id;
+        let (place, speed) = (motion.at(time).norm(), motion.velocity.norm());
+        let (rounding, radius) = (motion.rounding(time), motion.radius);
+        Err(SimError::OutOfDigits { time, grain, place, speed, rounding, radius })
+    }
+
+    /// The same for all spheres.
+    ///
+    /// # Errors
+    /// [`SimError`] for the first that is not.
+    pub(super) fn check_motions(&self, time: f64) -> Result<(), SimError> {
+        self.state.spheres.living().try_for_each(|at| self.check_motion(at, time))
     }
 
     /// The error of a sphere whose motion is not finite at `time` [s].

@@ -15,17 +15,20 @@
 //!   A merged sphere that overlaps others meets them at the same instant, one after the other, in the order of
 //!   memory, which is that of space; each may merge in turn.
 //! - Simultaneous events are taken in the order of names.
-//! - Inelastic collapse: a bounce is elastic if one of the two bounced less than `contact_duration` before. Sticking and
-//!   breaking are not concerned. The summary counts such impacts.
+//! - Inelastic collapse: a bounce is elastic if its pair bounced with one another four times before, each time less than
+//!   `contact_duration` after the last. First bounces of one moment, sticking and breaking are not concerned. The summary
+//!   has their count and the energy that they kept.
+//! - The clock must go on: spheres without room, whose gaps are rounding, end the run with an error.
 //! - Cells fly with the mean velocity of the spheres where the volume has no wall and no antipodal face.
 //!
 //! # Symbols
 //! | symbol | name in code       | unit | meaning                                                  |
 //! |--------|--------------------|------|----------------------------------------------------------|
-//! | t_c    | `contact_duration` | s    | default: 1e-6 of the time in which a mean radius is flown |
+//! | t_c    | `contact_duration` | s    | default: 1e-6 of the time in which a mean radius is flown; between walls at the mean speed, else at the mean relative to all |
 //!
 //! # Valid when
-//! Flight is straight (no forces) and impacts are instantaneous. The order of events is exact to rounding.
+//! Flight is straight (no forces) and impacts are instantaneous. The order of events is exact to rounding. Where places are
+//! rounded to more than a thousandth of a radius (4.5e12 radii from the origin, or as far flown) the run ends with an error.
 //!
 //! # Compared with others
 //! No step, so no error of stepping and no impact missed, unlike overlap searches such as REBOUND's `direct` and `tree`.
@@ -48,16 +51,17 @@ use super::queue::Queue;
 use super::search::{Candidate, Meeting, Seeker};
 use super::simulation::Clock;
 use super::spheres::Spheres;
+use super::standstill::Watch;
 use super::types::EventDriven;
 
 /// Events between two looks at the clock.
 const BATCH: u32 = 10_000;
 /// Spheres are sorted in memory after this many events for each.
 const EVENTS_PER_SORT: u64 = 50;
-/// Events at one moment, for each sphere, that count as a standstill.
-const STANDSTILL: u64 = 1_000;
 /// Part of the time in which a mean radius is flown that the default contact duration is.
 const CONTACT: f64 = 1e-6;
+/// Relative motion that is less than this part of all motion, by squares, is rounding.
+const ONE_WAY: f64 = 1e-24;
 
 /// What the driver has to remember.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -78,10 +82,9 @@ struct Filed {
     spheres: u64,
     /// Events since spheres were sorted.
     events: u64,
-    /// Events at the moment of the last one.
-    at_once: u64,
     /// The moment of the last one [s].
     moment: f64,
+    watch: Watch,
 }
 
 impl Filed {
@@ -109,7 +112,7 @@ pub struct Events {
 
 impl EventDriven {
     /// The contact duration [s], given or worked out from the spheres at the start.
-    pub(super) fn duration(&self, spheres: &Spheres) -> f64 {
+    pub(super) fn duration(&self, spheres: &Spheres, boundary: Boundary) -> f64 {
         if let Some(given) = self.contact_duration {
             return given.si();
         }
@@ -117,9 +120,13 @@ impl EventDriven {
         let n = order.len().max(1) as f64;
         let velocity = |at: u32| spheres.motion[at as usize].velocity;
         let mean = order.iter().fold(Vec3::ZERO, |sum, &at| sum + velocity(at)) / n;
-        let variance = order.iter().map(|&at| (velocity(at) - mean).norm_squared()).sum::<f64>() / n;
+        let square =
+            |from: Vec3| order.iter().map(|&at| (velocity(at) - from).norm_squared()).sum::<f64>() / n;
         let radius = order.iter().map(|&at| spheres.motion[at as usize].radius).sum::<f64>() / n;
-        if variance > 0.0 { CONTACT * radius / variance.sqrt() } else { 0.0 }
+        // Spheres that all fly one way meet nobody, but walls turn them round. What is left of equal velocities is rounding.
+        let all = square(Vec3::ZERO);
+        let against = if boundary == Boundary::Reflecting { all } else { square(mean) };
+        if against > ONE_WAY * all { CONTACT * radius / against.sqrt() } else { 0.0 }
     }
 }
 
@@ -135,11 +142,14 @@ fn drift(cloud: &Cloud) -> Vec3 {
 
 impl Events {
     /// Starts at time zero.
-    pub fn start(cloud: &mut Cloud) -> Self {
+    ///
+    /// # Errors
+    /// [`SimError`] where a sphere is too far out.
+    pub fn start(cloud: &mut Cloud) -> Result<Self, SimError> {
         let filed = Filed::default().renewed(&cloud.state.spheres);
         let mut events = Self::with(cloud, Vec::new(), filed);
-        events.file_all(cloud, 0.0);
-        events
+        events.file_all(cloud, 0.0)?;
+        Ok(events)
     }
 
     fn with(cloud: &Cloud, agendas: Vec<Agenda>, filed: Filed) -> Self {
@@ -187,7 +197,7 @@ impl Events {
             clock.time = time;
             clock.step += 1;
             self.deal_with(cloud, sphere, time)?;
-            self.keep_order(cloud, sphere, time)?;
+            self.keep_order(cloud, time)?;
         }
         let impacts = cloud.state.counts.impacts.max(1);
         clock.last_step = clock.time / impacts as f64;
@@ -195,22 +205,13 @@ impl Events {
     }
 
     /// Sorts spheres in memory, or makes a new grid, when it is due; and sees to it that time goes on.
-    fn keep_order(&mut self, cloud: &mut Cloud, sphere: u32, time: f64) -> Result<(), SimError> {
+    fn keep_order(&mut self, cloud: &mut Cloud, time: f64) -> Result<(), SimError> {
         let living = cloud.state.spheres.len() as u64;
         self.filed.events += 1;
-        self.filed.at_once = if time > self.filed.moment { 0 } else { self.filed.at_once + 1 };
         self.filed.moment = time;
-        if self.filed.at_once > STANDSTILL * (living + 100) {
-            let id = |at: u32| cloud.state.spheres.bulk.get(at as usize).map_or(NONE, |bulk| bulk.id);
-            let partner = self.agendas[sphere as usize].partner;
-            return Err(SimError::Standstill {
-                time,
-                events: self.filed.at_once,
-                grains: [id(sphere), id(partner)],
-            });
-        }
+        self.filed.watch.look(cloud, self.grid.frame.drift, time)?;
         if 2 * living < self.filed.spheres || living > 2 * self.filed.spheres {
-            self.file_anew(cloud, time);
+            self.file_anew(cloud, time)?;
         } else if self.filed.events > EVENTS_PER_SORT * living || self.grid.is_far(time) {
             let back = self.grid.take_back(&cloud.volume, time);
             if back != Vec3::ZERO {
@@ -219,8 +220,21 @@ impl Events {
             self.sort(cloud);
             self.link_all(cloud);
             self.queue_all(time);
+            self.check_places(cloud, time)?;
         }
         Ok(())
+    }
+
+    /// Whether spheres are where they can be told from one another, and cells can be counted.
+    fn check_places(&self, cloud: &Cloud, time: f64) -> Result<(), SimError> {
+        cloud.check_motions(time)?;
+        let spheres = &cloud.state.spheres;
+        let place = |at: u32| spheres.motion[at as usize].at(time);
+        let Some(at) = spheres.living().find(|&at| self.grid.is_beyond(place(at), time)) else {
+            return Ok(());
+        };
+        let (grain, place) = (spheres.bulk[at as usize].id, place(at).norm());
+        Err(SimError::OutOfCells { time, grain, place, cell: self.grid.narrowest_cell() })
     }
 
     fn deal_with(&mut self, cloud: &mut Cloud, sphere: u32, time: f64) -> Result<(), SimError> {
@@ -228,6 +242,7 @@ impl Events {
         if agenda.crossing < agenda.collision {
             if agenda.exit.is_wall {
                 cloud.bounce_off_wall(sphere, agenda.exit.axis as usize, time);
+                self.filed.watch.bounced(cloud, [sphere, NONE]);
                 return self.look_again(cloud, sphere, time);
             }
             return self.cross(cloud, sphere, time);
@@ -292,6 +307,7 @@ impl Events {
             pair.reverse();
             shift = Vec3::ZERO - shift;
         }
+        self.filed.watch.bounced(cloud, pair);
         for at in pair {
             self.agendas[at as usize].partner = NONE;
             self.agendas[at as usize].collision = f64::INFINITY;
@@ -347,9 +363,7 @@ impl Events {
     fn look_again(&mut self, cloud: &Cloud, sphere: u32, time: f64) -> Result<(), SimError> {
         let (spheres, at) = (&cloud.state.spheres, sphere as usize);
         let motion = &spheres.motion[at];
-        if !(motion.velocity.is_finite() && motion.position.is_finite()) {
-            return Err(cloud.not_finite(sphere, time));
-        }
+        cloud.check_motion(sphere, time)?;
         self.leave_partner(sphere);
         let agenda = &mut self.agendas[at];
         self.grid.note_velocities(agenda.level, [motion.velocity; 2]);
@@ -398,14 +412,14 @@ impl Events {
     }
 
     /// Makes a grid for the spheres as they are.
-    fn file_anew(&mut self, cloud: &mut Cloud, time: f64) {
+    fn file_anew(&mut self, cloud: &mut Cloud, time: f64) -> Result<(), SimError> {
         self.filed = self.filed.renewed(&cloud.state.spheres);
         self.grid = self.filed.grid(&cloud.volume);
-        self.file_all(cloud, time);
+        self.file_all(cloud, time)
     }
 
     /// Sorts the spheres in memory and lets all look for their next impacts.
-    fn file_all(&mut self, cloud: &mut Cloud, time: f64) {
+    fn file_all(&mut self, cloud: &mut Cloud, time: f64) -> Result<(), SimError> {
         let spheres = &mut cloud.state.spheres;
         self.agendas.clear();
         self.agendas.resize(spheres.places(), Agenda::EMPTY);
@@ -417,6 +431,7 @@ impl Events {
                 self.grid.seat(agenda, motion, time);
             }
         }
+        self.check_places(cloud, time)?;
         self.sort(cloud);
         self.grid.set_off(&cloud.volume, time, drift(cloud));
         self.link_all(cloud);
@@ -433,6 +448,7 @@ impl Events {
             }
         }
         self.queue_all(time);
+        Ok(())
     }
 
     /// Files all spheres under the cells that their agendas name.

@@ -14,6 +14,9 @@ use super::grid::Grid;
 /// Edges of the volume that cells may fly before they are taken back.
 const FAR: f64 = 64.0;
 
+/// Spheres may be so many cells away from an open volume.
+const FARTHEST_CELL: f64 = 1e9;
+
 /// Where the cells are. Where there is no wall they fly with the spheres, so that a wind drives nobody through them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Frame {
@@ -59,6 +62,17 @@ impl Grid {
         let flown = self.frame.flown(time).to_array();
         self.boundary == Boundary::Periodic
             && flown.into_iter().zip(self.edges.to_array()).any(|(way, edge)| way.abs() > FAR * edge)
+    }
+
+    /// Shortest width of the finest cells [m].
+    pub fn narrowest_cell(&self) -> f64 {
+        self.widths.x.min(self.widths.y).min(self.widths.z)
+    }
+
+    /// Whether a place at a time [s] is so far from an open volume that the numbers of cells there are about to end.
+    pub fn is_beyond(&self, place: Vec3, time: f64) -> bool {
+        let way = place - self.frame.flown(time) - self.frame.lower;
+        self.boundary == Boundary::Open && way.sum_of_sizes() > FARTHEST_CELL * self.narrowest_cell()
     }
 
     /// Takes the cells back by whole edges to where the volume is; gives what must be added to all positions [m].

@@ -31,7 +31,7 @@ pub struct Grid {
     /// Edges of the volume [m].
     pub edges: Vec3,
     /// Widths of the finest cells [m].
-    widths: Vec3,
+    pub(super) widths: Vec3,
     pub(super) boundary: Boundary,
     levels: Vec<Level>,
     /// The next sphere of the same cell.

@@ -7,6 +7,7 @@ pub mod books;
 mod cascade;
 mod cells;
 mod cloud;
+mod collapse;
 mod embedded;
 mod event_driven;
 mod events;
@@ -23,6 +24,7 @@ mod search;
 mod simulation;
 mod spans;
 mod spheres;
+mod standstill;
 mod time_stepped;
 mod types;
 mod walls;
@@ -31,6 +33,8 @@ mod walls;
 mod cases_tests;
 #[cfg(test)]
 mod corner_tests;
+#[cfg(test)]
+mod digits_tests;
 #[cfg(test)]
 mod oracle_tests;
 #[cfg(test)]
@@ -41,5 +45,5 @@ pub use embedded::{EmbeddedError, MicroGrains, MicroState, Microscale};
 pub use events::{Descent, EventKind, GrainEvent};
 pub use homogenised::Homogenised;
 pub use simulation::{Clock, Grown, Simulation, SimulationState, Snapshot};
-pub use spheres::{Bulk, Sphere, Spheres};
+pub use spheres::{Bulk, PLACE_TOLERANCE, Sphere, Spheres, rounding_of};
 pub use types::{Distance, EventDriven, Pairs, TimeStepped};

@@ -47,13 +47,14 @@ pub fn find_room(
     if !cloud.is_first(contact.spheres[0], contact.spheres[1]) {
         order.reverse();
     }
+    let draws = cloud.draws(encounter);
     let mut found: Vec<Piece> = Vec::new();
     for k in order {
         let body = &encounter.bodies[k];
         if outcome.pieces[k] < 2 {
             continue;
         }
-        let shares = cloud.laws.share_primaries(body, outcome.pieces[k], &mut || stream.uniform());
+        let shares = cloud.laws.share_primaries(body, outcome.pieces[k], draws.of(k));
         let center = cloud.state.spheres.motion[contact.spheres[k] as usize].position;
         let taken = taken_near(cloud, encounter, k, outcome, surroundings);
         let mut reach = body.radius;

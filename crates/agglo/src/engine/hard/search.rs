@@ -2,9 +2,10 @@
 //!
 //! # Equation
 //! With d the distance of the centres, u the relative velocity and s the sum of the radii, b = d·u and c = d² - s²,
-//! $$ t = \frac{c}{-b + \sqrt{b^2 - u^2 c}} \quad (b < 0,\; b^2 > u^2 c) $$          (E1)
-//! the smaller root of |d + u t| = s, written so that nothing cancels. Spheres that overlap and approach meet at once;
-//! those that overlap and part, or approach by no more than rounding, are let go.
+//! $$ t = \frac{c}{-b + \sqrt{u^2 s^2 - (d \times u)^2}} \quad (b < 0,\; u s > |d \times u|) $$          (E1)
+//! the smaller root of |d + u t| = s, written so that nothing cancels: the textbook's b² - u² c is the same number, but
+//! loses s² where the way is 1e8 times the radii. Spheres that overlap and approach meet at once; those that overlap and
+//! part, or approach by no more than rounding, are let go.
 
 #![allow(clippy::inline_always, reason = "together these are the innermost loop of the engine")]
 
@@ -56,7 +57,7 @@ pub fn time_to_meet(distance: Vec3, velocity: Vec3, reach: f64, limit: f64) -> f
     if gap > -2.0 * approach * limit * (1.0 + 1e-12) {
         return f64::INFINITY;
     }
-    let discriminant = approach * approach - velocity.norm_squared() * gap;
+    let discriminant = velocity.norm_squared() * (reach * reach) - distance.cross(velocity).norm_squared();
     if discriminant <= 0.0 {
         return f64::INFINITY;
     }

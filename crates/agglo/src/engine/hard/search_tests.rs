@@ -63,6 +63,22 @@ fn small_gaps_do_not_cancel() {
     assert_eq!(time_to_meet(distance, velocity * 0.25, 0.7, f64::INFINITY), 4.0 * forth);
 }
 
+/// Ways up to 1e12 times the radii, head-on and past the middle by 0.6 of the reach, along an axis and across it.
+#[test]
+fn small_spheres_far_apart() {
+    for way in [1e3, 1e6, 1e9, 1e12] {
+        let head_on = meet([way, 0.0, 0.0], [-2.0, 0.0, 0.0], 1.0);
+        assert!((head_on - 0.5 * (way - 1.0)).abs() <= 4e-16 * way, "{head_on}");
+        let aside = meet([way, 0.6, 0.0], [-2.0, 0.0, 0.0], 1.0);
+        assert!((aside - 0.5 * (way - 0.8)).abs() <= 4e-16 * way, "{aside}");
+        assert_eq!(meet([way, 1.001, 0.0], [-2.0, 0.0, 0.0], 1.0), f64::INFINITY);
+        // Along (3, 4, 12)/13: the point is rounded to 2e-16 of the way, and so is how far they pass one another.
+        let (along, at) = ([-6.0 / 13.0, -8.0 / 13.0, -24.0 / 13.0], way / 13.0);
+        let slanted = meet([3.0 * at, 4.0 * at, 12.0 * at], along, 1.0);
+        assert!((slanted - 0.5 * (way - 1.0)).abs() <= 1e-15 * way + (1e-15 * way).powi(2), "{slanted}");
+    }
+}
+
 #[test]
 fn what_is_rounding() {
     let x = Vec3::AXES[0];

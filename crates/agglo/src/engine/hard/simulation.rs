@@ -14,6 +14,7 @@ use crate::scenario::Scenario;
 
 use super::books::{self, Balance, Books, Counts};
 use super::cloud::{Cloud, CloudState};
+use super::collapse::Collapse;
 use super::event_driven::{Events, EventsState};
 use super::spheres::Spheres;
 use super::time_stepped::Steps;
@@ -88,7 +89,8 @@ impl Simulation {
     /// Starts with grains as placed. Without `volume` and `impact` in the scenario there is no such simulation.
     ///
     /// # Errors
-    /// [`SimError::NoImpact`] where the scenario says nothing of the volume or of impacts.
+    /// [`SimError::NoImpact`] where the scenario says nothing of the volume or of impacts;
+    /// [`SimError::OutOfDigits`] where a grain is too far out for its size.
     pub fn start(scenario: &Scenario, grains: &Particles) -> Result<Self, SimError> {
         Self::start_grown(scenario, grains, &[])
     }
@@ -111,6 +113,7 @@ impl Simulation {
             counts: Counts::default(),
             rates: SizeRates::new(spheres.bulk.iter().map(|bulk| bulk.primaries), volume),
             warnings: Warnings::default(),
+            collapse: Collapse::default(),
             spheres,
         };
         let grains_at_start = state.spheres.len() as u64;
@@ -120,8 +123,8 @@ impl Simulation {
         }
         let driver = match &scenario.engine {
             Engine::EventDriven(options) => {
-                cloud.contact_duration = options.duration(&cloud.state.spheres);
-                Driver::Events(Box::new(Events::start(&mut cloud)))
+                cloud.contact_duration = options.duration(&cloud.state.spheres, cloud.volume.boundary);
+                Driver::Events(Box::new(Events::start(&mut cloud)?))
             }
             Engine::TimeStepped(options) => Driver::Steps(Box::new(Steps::new(options))),
             Engine::Staggered(_) | Engine::Verlet(_) => return Err(SimError::NoImpact),
@@ -229,10 +232,15 @@ impl Simulation {
     pub fn snapshot(&self) -> Snapshot {
         let (spheres, time) = (&self.cloud.state.spheres, self.clock.time);
         let mut snapshot = Snapshot::default();
+        // A step may leave a grain of an antipodal volume outside.
+        let wraps = match self.driver {
+            Driver::Events(_) => self.cloud.volume.boundary.wraps(),
+            Driver::Steps(_) => self.cloud.volume.boundary == Boundary::Periodic,
+        };
         for at in spheres.by_id() {
             let mut row = spheres.row(at, time);
             row.temperature = self.cloud.cooled(at as usize, time).0;
-            if self.cloud.volume.boundary != Boundary::Open {
+            if wraps {
                 row.position = self.cloud.volume.wrap(row.position);
             }
             snapshot.grains.push(row);

@@ -3,6 +3,7 @@
 //! # Equation
 //! $$ \Delta t = f \min_{i,j} \frac{g_{ij}}{c_{ij}}, \qquad g_{ij} = |r_j - r_i| - b_i - b_j, \qquad
 //!    c_{ij} = -(v_j - v_i) \cdot \frac{r_j - r_i}{|r_j - r_i|} > 0 $$          ([B] 6.14)
+//! as printed (`distance = "centers"`): $|r_j - r_i|/|c_{ij}|$, of pairs that part too;
 //! held between `shortest_step` and `longest_step`; then $r_i \leftarrow r_i + v_i \Delta t$, then the faces, then impacts.
 //!
 //! # Source
@@ -14,7 +15,7 @@
 //! | f      | `fraction`                       | 1    | part of the shortest time of approach that a step takes    |
 //! | Δt     | `dt`, `Clock::last_step`         | s    | length of the step                                         |
 //! | g      | `distance` (`gap`)               | m    | way to go: the gap, or with `centers` the centre distance  |
-//! | c      | `closing` over the distance      | m/s  | speed of approach along the line of centres                |
+//! | c      | `closing` over the distance      | m/s  | speed of approach along the line of centres, below 0 for pairs that part |
 //! | b      | `radius`                         | m    | radius                                                     |
 //!
 //! What happens in a step, in this order:
@@ -22,7 +23,10 @@
 //!    it could be the first to touch: at the reach over the greatest relative speed. The reach ends at 4 mean distances
 //!    of spheres (and at the shortest edge of a periodic volume); then that time bounds the step in place of the pairs
 //!    beyond. So no pair is passed by unseen. Where walls reflect, a step also ends when the first sphere gets there.
-//! 2. Free flight, and the faces. A sphere bounces when its surface is at the wall. With `cooling.integration =
+//!    Where `shortest_step` would take a pair into one another by more than a tenth of its reach, the step is that much
+//!    shorter: small fast spheres would fly through one another.
+//! 2. Free flight, and the faces. A sphere bounces when its surface is at the wall. One that has left an antipodal volume
+//!    is mirrored in its middle, r -> -r: from e beyond a face to e before the opposite one ([B], section 7). With `cooling.integration =
 //!    "published"` all temperatures go one explicit step on ([B] 6.21); else cooling is exact and takes no steps.
 //! 3. Impacts: every pair that touches and approaches. The pair that has been touching for the longest time comes
 //!    first, by going back along the straight lines they flew on; of equals the one that comes first in space. After
@@ -65,7 +69,7 @@ use super::near::Near;
 use super::nearest::Nearest;
 use super::simulation::Clock;
 use super::spheres::{Sphere, Spheres};
-use super::types::{Pairs, TimeStepped};
+use super::types::{Distance, Pairs, TimeStepped};
 use super::walls;
 
 /// Steps between two looks at places that doubles do not resolve.
@@ -78,7 +82,12 @@ struct Speeds {
     greatest: f64,
     /// No two differ by more [m/s].
     apart: f64,
+    /// The smallest radius [m].
+    smallest: f64,
 }
+
+/// Where the shortest step is too long for small spheres, they come into one another by this part of their reach.
+const DEEPEST: f64 = 0.1;
 
 /// Drives hard spheres step by step.
 #[derive(Clone, Debug)]
@@ -116,6 +125,9 @@ impl Steps {
             Some(speeds) => speeds,
             None => *self.speeds.insert(Speeds::of(cloud, clock.time)?),
         };
+        if clock.step.is_multiple_of(LOOK_EVERY) {
+            cloud.check_motions(clock.time)?;
+        }
         let dt = self.length(cloud, speeds);
         // The clock goes on by a bit at least, and comes to the end exactly; what rounding has taken from it makes no step
         // of its own before the end.
@@ -149,7 +161,25 @@ impl Steps {
         if cloud.volume.boundary == Boundary::Reflecting {
             dt = dt.min(walls::time_left(&cloud.state.spheres, &cloud.volume));
         }
+        let sound = self.options.pairs == Pairs::All && self.options.distance == Distance::Gap;
+        let too_long = DEEPEST * 2.0 * speeds.smallest < speeds.apart * shortest;
+        if dt < shortest && sound && too_long {
+            return self.length_for_small(cloud, speeds, dt).min(longest);
+        }
         dt.max(shortest).min(longest)
+    }
+
+    /// Length [s] in place of `dt`, which is below the shortest step, where that would let small spheres through one another:
+    /// as long as none comes deep into another, and none turns round at a wall on the way.
+    fn length_for_small(&mut self, cloud: &Cloud, speeds: Speeds, dt: f64) -> f64 {
+        let (spheres, shortest) = (&cloud.state.spheres, self.options.shortest_step.si());
+        while self.near.slack() < speeds.apart * shortest && self.near.widen(spheres, &cloud.volume) {}
+        let times = self.near.contacts().map(|contact| Approach::of(spheres, &contact).time_to_sink(DEEPEST));
+        let mut allowed = times.fold(self.near.slack() / speeds.apart, f64::min);
+        if cloud.volume.boundary == Boundary::Reflecting {
+            allowed = allowed.min(walls::time_left(spheres, &cloud.volume));
+        }
+        allowed.max(dt).min(shortest)
     }
 
     /// Shortest time of approach of all pairs [s], or of what may come from beyond the reach; `enough` is as good as
@@ -184,9 +214,7 @@ impl Steps {
 
     /// Moves all spheres on to `time`, `dt` later, and deals with the faces.
     fn fly(&mut self, cloud: &mut Cloud, dt: f64, time: f64) {
-        let (wraps, reflects) =
-            (cloud.volume.boundary.wraps(), cloud.volume.boundary == Boundary::Reflecting);
-        let edges = cloud.volume.edges();
+        let (boundary, edges) = (cloud.volume.boundary, cloud.volume.edges());
         for at in 0..cloud.state.spheres.places() {
             if !cloud.state.spheres.bulk[at].lives() {
                 continue;
@@ -194,13 +222,16 @@ impl Steps {
             let motion = &mut cloud.state.spheres.motion[at];
             motion.position = motion.at(time);
             motion.time = time;
-            if wraps {
-                let inside = cloud.volume.wrap(motion.position);
-                if inside != motion.position {
-                    self.near.crossed(at as u32, crossings(motion.position - inside, edges));
-                    motion.position = inside;
-                }
-            } else if reflects {
+            let goes_on = match boundary {
+                Boundary::Periodic => cloud.volume.wrap(motion.position),
+                Boundary::Antipodal => cloud.volume.mirrored(motion.position, motion.velocity),
+                Boundary::Reflecting | Boundary::Open => motion.position,
+            };
+            if goes_on != motion.position {
+                self.near.crossed(at as u32, crossings(motion.position - goes_on, edges));
+                motion.position = goes_on;
+            }
+            if boundary == Boundary::Reflecting {
                 walls::reflect(cloud, at, dt, time);
             }
         }
@@ -268,11 +299,13 @@ impl Speeds {
         // Walls turn velocities round within a step; there only their size counts.
         let middle =
             if cloud.volume.boundary == Boundary::Reflecting { Vec3::ZERO } else { (low + high) * 0.5 };
+        let radius = |at: u32| spheres.motion[at as usize].radius;
+        let smallest = spheres.living().map(radius).fold(f64::INFINITY, f64::min);
         let farthest = |from: Vec3| {
             let squares = spheres.living().map(|at| (velocity(at) - from).norm_squared());
             squares.fold(0.0, f64::max).sqrt() * (1.0 + 1e-12)
         };
-        Ok(Self { greatest: farthest(Vec3::ZERO), apart: 2.0 * farthest(middle) })
+        Ok(Self { greatest: farthest(Vec3::ZERO), apart: 2.0 * farthest(middle), smallest })
     }
 }
 

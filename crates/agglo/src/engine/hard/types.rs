@@ -9,8 +9,8 @@ use crate::units::{Quantity, Time};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EventDriven {
-    /// An impact that bounces, with a partner that bounced less than this before, is elastic (Luding and McNamara 1998):
-    /// so inelastic collapse cannot bring the clock to a halt. Worked out from the start if left out.
+    /// A pair that bounces again and again, each time less than this after the last, then bounces elastically (after Luding and
+    /// McNamara 1998): so inelastic collapse cannot bring the clock to a halt. Worked out from the start if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact_duration: Option<Time>,
 }
@@ -22,7 +22,8 @@ pub struct TimeStepped {
     /// Part of the shortest time of approach that a step takes.
     #[serde(default = "default_fraction")]
     pub fraction: f64,
-    /// Shortest step.
+    /// Shortest step. With `gap` and `all`, steps are shorter only where spheres are so small that this one would take them
+    /// into one another by more than a tenth of their radii.
     #[serde(default = "default_shortest")]
     pub shortest_step: Time,
     /// Longest step.
@@ -65,7 +66,7 @@ pub enum Distance {
     /// The gap between the surfaces.
     #[default]
     Gap,
-    /// The distance of the centres, as [B] 6.14 prints.
+    /// The distance of the centres, of pairs that part too, as [B] 6.14 prints.
     Centers,
 }
 

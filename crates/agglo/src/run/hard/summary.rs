@@ -12,6 +12,15 @@ use crate::scenario::{Scenario, readable};
 use super::growth::Growth;
 use super::scales::Scales;
 
+/// Part of all impacts that bounces made elastic may be before it is said that they can matter.
+const GUARDED_SHARE: f64 = 0.01;
+/// Part of the energy that impacts took that such bounces may have kept.
+const KEPT_SHARE: f64 = 1e-3;
+/// Told where they can matter.
+const GUARD_MATTERS: &str = "bounces made elastic against inelastic collapse are more than 1 % of all impacts, or kept more \
+                             than 0.1 % of the energy that impacts took: the gas is too dense or loses too much for hard \
+                             spheres; see whether another engine.event_driven.contact_duration changes the answer";
+
 /// What a run of hard spheres came to; `summary.json` holds the same. Figures that cannot be had are null.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct HardSummary {
@@ -29,7 +38,7 @@ pub struct HardSummary {
     pub steps_are: String,
     /// Mean simulated time of a step, or between two events [s].
     pub step_mean_s: Option<f64>,
-    /// Bounces within this time of the last one were elastic [s].
+    /// Bounces of a pair that followed one another within this time again and again were elastic [s].
     pub contact_duration_s: f64,
     /// Grains at the end.
     pub grains: u64,
@@ -78,8 +87,11 @@ pub struct HardSummary {
     pub fragmentations: u64,
     /// Agglomerates that did not break since there was no room for the pieces.
     pub fragmentations_without_room: u64,
-    /// Bounces that were made elastic, since a partner had just bounced.
+    /// Bounces that were made elastic, since their pair had bounced again and again just before.
     pub impacts_guarded: u64,
+    /// Kinetic energy that these would have lost, each by itself [J].
+    #[serde(rename = "guarded_kept_J", default)]
+    pub guarded_kept: f64,
     /// Impacts of spheres that overlapped.
     pub impacts_overlapping: u64,
     /// Bounces off walls.
@@ -151,6 +163,7 @@ impl HardSummary {
         .with_growth(&growth, mean_radius_start_m)
         .with_scales(&scales)
         .with_counts(&simulation.cloud().state.counts)
+        .with_guard(simulation.cloud().state.books.flows.kept)
     }
 
     fn with_growth(self, growth: &Growth, mean_radius_start_m: f64) -> Self {
@@ -206,6 +219,32 @@ impl HardSummary {
         }
     }
 
+    /// What the guard against inelastic collapse kept [J]; and a warning where that can matter.
+    fn with_guard(mut self, kept: f64) -> Self {
+        self.guarded_kept = kept;
+        let lost = self.energy.normal + self.energy.tangential;
+        let can_matter = self.impacts_guarded as f64 > GUARDED_SHARE * self.impacts as f64
+            || kept > KEPT_SHARE * (lost + kept);
+        if self.impacts_guarded > 0 && can_matter {
+            self.warnings.insert(GUARD_MATTERS.to_owned(), self.impacts_guarded);
+        }
+        self
+    }
+
+    /// How much the guard against inelastic collapse did, where it did anything.
+    fn guard_row(&self) -> Option<(&'static str, String)> {
+        let share = 100.0 * self.impacts_guarded as f64 / self.impacts as f64;
+        let lost = self.energy.normal + self.energy.tangential;
+        let part = 100.0 * self.guarded_kept / (lost + self.guarded_kept);
+        let kept = readable(self.guarded_kept, "J");
+        let figures = format!(
+            "{} bounces of pairs that bounced again and again, {share:.2} % of the impacts; they kept {kept}, {part:.1e} % of what \
+             impacts took",
+            self.impacts_guarded
+        );
+        (self.impacts_guarded > 0).then_some(("made elastic", figures))
+    }
+
     /// The summary as rows of a table: what, how much.
     pub fn table(&self) -> Vec<(String, String)> {
         let mut rows = vec![
@@ -216,9 +255,12 @@ impl HardSummary {
             ("growth", self.growth_row()),
             ("largest grain", self.largest_row()),
             ("impacts", self.impacts_row()),
+        ];
+        rows.extend(self.guard_row());
+        rows.extend([
             ("temperature", self.temperature_row()),
             ("speed", format!("{} in the mean", readable(self.mean_speed_m_s, "m/s"))),
-        ];
+        ]);
         rows.extend(self.scale_rows());
         rows.extend(self.false_heat_row());
         rows.extend([
@@ -278,5 +320,31 @@ impl HardSummary {
             [self.temperature_mean, self.temperature_lowest, self.temperature_highest]
                 .map(|kelvin| readable(kelvin, "K"));
         format!("{mean} in the mean, {lowest} to {highest}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn summary(guarded: u64, kept: f64) -> HardSummary {
+        let energy = Balance { normal: 0.75, tangential: 0.25, ..Balance::default() };
+        HardSummary { impacts: 1000, impacts_guarded: guarded, energy, ..HardSummary::default() }
+            .with_guard(kept)
+    }
+
+    /// Up to 1 % of the impacts and 0.1 % of the energy it is told in a row, beyond that in a warning too.
+    #[test]
+    fn bounces_made_elastic_are_told() {
+        let row = |summary: &HardSummary| {
+            summary.table().into_iter().find(|(what, _)| what == "made elastic").map(|(_, figures)| figures)
+        };
+        assert_eq!(row(&summary(0, 0.0)), None);
+        let few = summary(9, 0.5e-3);
+        let figures = row(&few).unwrap();
+        assert!(figures.contains("9 bounces") && figures.contains("0.90 %"), "{figures}");
+        assert!(few.warnings.is_empty());
+        assert_eq!(summary(11, 0.5e-3).warnings[GUARD_MATTERS], 11);
+        assert_eq!(summary(9, 1.1e-3).warnings[GUARD_MATTERS], 9);
     }
 }

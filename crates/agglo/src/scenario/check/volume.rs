@@ -2,6 +2,7 @@
 
 use super::{Check, shown};
 use crate::domain::{Boundary, Region, Volume};
+use crate::engine::hard::{PLACE_TOLERANCE, rounding_of};
 use crate::math::Vec3;
 use crate::packing::{GrainList, Placement};
 use crate::scenario::figures::readable;
@@ -20,6 +21,7 @@ pub(super) fn check(check: &mut Check, scenario: &Scenario) {
         let key = format!("grains.{index}");
         if group.size.fault().is_none() {
             fits(check, &key, group, volume);
+            can_be_told(check, &key, group, volume);
             inside(check, &format!("{key}.placement"), group, volume);
         }
     }
@@ -34,6 +36,35 @@ fn fits(check: &mut Check, key: &str, group: &GrainGroup, volume: &Volume) {
         let (diameter, narrowest) = (shown(diameter, Length::DIMENSION), shown(narrowest, Length::DIMENSION));
         let message = format!("a grain of diameter {diameter} does not fit into [volume], {narrowest} wide");
         check.fail_with(&format!("{key}.size"), message, "enlarge the volume or take smaller grains");
+    }
+}
+
+/// Places must have digits enough for the smallest grain.
+fn can_be_told(check: &mut Check, key: &str, group: &GrainGroup, volume: &Volume) {
+    let corner = volume.lower().max(volume.lower() * -1.0).max(volume.upper()).max(volume.upper() * -1.0);
+    let (radius, mut farthest) = (group.size.smallest(), corner);
+    match &group.placement {
+        Placement::List(list) => {
+            for place in list.positions.iter().map(|position| vector(*position)) {
+                if place.sum_of_sizes() > farthest.sum_of_sizes() {
+                    farthest = place;
+                }
+            }
+        }
+        // Tables bring their own radii; the run looks at them when it starts.
+        Placement::Table(_) => return,
+        _ => {}
+    }
+    let rounding = rounding_of(farthest);
+    if rounding > PLACE_TOLERANCE * radius {
+        let (radius, rounding, place) =
+            (readable(radius, "m"), readable(rounding, "m"), readable(farthest.norm(), "m"));
+        let message = format!(
+            "a radius of {radius} is too small for places up to {place} from the origin: with 16 digits they are known to {rounding}"
+        );
+        let help = "put the origin amid the grains, or take a smaller volume or larger grains: a place must be known to a \
+                    thousandth of the radius";
+        check.fail_with(&format!("{key}.size"), message, help);
     }
 }
 
