@@ -2,6 +2,8 @@
 
 /// Molar gas constant [J/(mol K)].
 pub const GAS_CONSTANT: f64 = 8.314_462_618;
+/// Boltzmann constant [J/K].
+pub const BOLTZMANN: f64 = 1.380_649e-23;
 /// Stefan-Boltzmann constant [W/(m² K⁴)].
 pub const STEFAN_BOLTZMANN: f64 = 5.670_374_419e-8;
 /// Newtonian constant of gravitation [m³/(kg s²)].

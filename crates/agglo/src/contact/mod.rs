@@ -26,6 +26,8 @@ pub use friction::Friction;
 pub use normal::Normal;
 pub use touch::{Touch, arms};
 
+use crate::math::Pace;
+
 /// The laws of contact of a scenario: what repels, what dissipates, what resists sliding.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -38,6 +40,32 @@ pub struct ContactLaws {
     /// The resistance to sliding; none if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction: Option<Friction>,
+}
+
+impl ContactLaws {
+    /// How fast the laws are in a contact with this overlap: along the line of centres or across it.
+    pub fn pace(&self, pair: &PairConstants, touch: &Touch) -> Pace {
+        let damping = self.damping.as_ref().map_or(Pace::NONE, |law| law.pace(pair, touch, &self.normal));
+        let along = self.normal.pace(pair, touch) + damping;
+        let across = match &self.friction {
+            None => Pace::NONE,
+            Some(Friction::Regularised(law)) => law.pace(touch),
+            Some(Friction::Mindlin(law)) => {
+                let (stiffness, mass) = (self.normal.pace(pair, touch).square, touch.effective_mass);
+                law.pace(pair, touch, stiffness * mass, damping.rate * mass)
+            }
+        };
+        along.max(across)
+    }
+
+    /// The laws without those that can outgrow the elastic contact: how fast the rest is at the deepest overlap holds
+    /// for all others.
+    #[must_use]
+    pub fn bounded(&self) -> Self {
+        let damping = self.damping.clone().filter(|law| !law.outgrows_contact());
+        let friction = self.friction.clone().filter(|law| matches!(law, Friction::Mindlin(_)));
+        Self { normal: self.normal.clone(), damping, friction }
+    }
 }
 
 /// What two materials have in common in contact, worked out once per pair of materials.

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::arms;
 use super::bond::{Beam, BeamLoad, BeamPair, BeamState, Break};
 use super::closeness::are_close;
-use crate::math::{Vec3, parallel};
+use crate::math::{Pace, Vec3, parallel};
 use crate::neighbors::PairList;
 use crate::particles::{Motion, Particles};
 
@@ -222,6 +222,25 @@ impl Network {
             self.settle(grains.len());
         }
         events
+    }
+
+    /// How fast the fastest grain is on its bonds, each taken as often as its grain has bonds.
+    pub fn pace(&self, grains: &Particles) -> Pace {
+        let Some(law) = &self.law else { return Pace::NONE };
+        let count = |grain: u32| self.starts[grain as usize + 1] - self.starts[grain as usize];
+        let paces = self.bonds.iter().map(|bond| {
+            let places = bond.grains.map(|grain| grain as usize);
+            let sum = grains.radius[places[0]] + grains.radius[places[1]];
+            let pace = law.pace(
+                &bond.state,
+                places.map(|at| grains.mass[at]),
+                places.map(|at| grains.inertia(at)),
+                places.map(|at| grains.radius[at] / sum * bond.state.length),
+            );
+            let most = f64::from(count(bond.grains[0]).max(count(bond.grains[1])));
+            Pace { square: pace.square * most, rate: pace.rate * most }
+        });
+        paces.fold(Pace::NONE, Pace::max)
     }
 
     /// Energy [J] stored in all bonds.

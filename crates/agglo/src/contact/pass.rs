@@ -9,7 +9,7 @@ use std::ops::Range;
 use super::bond::{Bonds, StrainBond};
 use super::friction::{Friction, Sliding, TangentialSpring};
 use super::{ContactLaws, PairConstants, Touch, arms};
-use crate::math::{Vec3, parallel};
+use crate::math::{Pace, Vec3, parallel};
 use crate::neighbors::PairList;
 use crate::particles::{Motion, PairTable, Particles};
 
@@ -352,31 +352,55 @@ pub struct ContactEnergy {
     pub bond: f64,
 }
 
-/// Adds up the normal energies at the present positions; for records, not for steps.
-pub fn contact_energy(world: &ContactWorld<'_>) -> ContactEnergy {
+/// Goes through all touching pairs at the present positions and joins what `look` makes of each.
+fn over_contacts<R: Send + Sync + Copy>(
+    world: &ContactWorld<'_>,
+    nothing: R,
+    look: impl Fn(&Contact<'_>) -> R + Sync,
+    join: impl Fn(R, R) -> R + Sync,
+) -> R {
     let owners = world.now.position.len();
     let leaf = |range: Range<usize>, ()| {
-        let mut sum = ContactEnergy::default();
+        let mut found = nothing;
         for owner in range {
             for pair in world.list.owned(owner) {
                 let partner = world.list.partners()[pair] as usize;
                 let apart = world.now.position[partner] - world.now.position[owner];
                 let reach = world.grains.radius[owner] + world.grains.radius[partner];
                 if apart.norm_squared() < reach * reach {
-                    let contact = Contact::new(world, [owner, partner], apart, apart.norm());
-                    if let Some(laws) = world.laws {
-                        sum.normal += laws.normal.energy(contact.constants, &contact.touch);
-                    }
-                    if let Some(Bonds::StrainBond(bond)) = world.bonds {
-                        sum.bond += bond.energy(&contact.touch);
-                    }
+                    found = join(found, look(&Contact::new(world, [owner, partner], apart, apart.norm())));
                 }
             }
         }
-        sum
+        found
     };
-    parallel::over(0..owners, LEAF, (), &leaf, &|a, b| ContactEnergy {
+    parallel::over(0..owners, LEAF, (), &leaf, &join)
+}
+
+/// Adds up the normal energies at the present positions; for records, not for steps.
+pub fn contact_energy(world: &ContactWorld<'_>) -> ContactEnergy {
+    let energy = |contact: &Contact<'_>| ContactEnergy {
+        normal: world.laws.map_or(0.0, |laws| laws.normal.energy(contact.constants, &contact.touch)),
+        bond: match world.bonds {
+            Some(Bonds::StrainBond(bond)) => bond.energy(&contact.touch),
+            _ => 0.0,
+        },
+    };
+    let sum = |a: ContactEnergy, b: ContactEnergy| ContactEnergy {
         normal: a.normal + b.normal,
         bond: a.bond + b.bond,
-    })
+    };
+    over_contacts(world, ContactEnergy::default(), energy, sum)
+}
+
+/// How fast the fastest of all touching pairs is at the present positions.
+pub fn contact_pace(world: &ContactWorld<'_>) -> Pace {
+    let pace = |contact: &Contact<'_>| {
+        let laws = world.laws.map_or(Pace::NONE, |laws| laws.pace(contact.constants, &contact.touch));
+        match world.bonds {
+            Some(Bonds::StrainBond(bond)) => laws + bond.pace(&contact.touch),
+            _ => laws,
+        }
+    };
+    over_contacts(world, Pace::NONE, pace, Pace::max)
 }

@@ -75,6 +75,12 @@ impl Touch {
         self.radius_sum - self.overlap
     }
 
+    /// Mass [kg] that resists sliding at the contact of two solid spheres, which may roll: 1/m* + Σ R²/I = 7/(2 m*).
+    #[inline]
+    pub fn sliding_mass(&self) -> f64 {
+        2.0 / 7.0 * self.effective_mass
+    }
+
     /// Overlap over the sum of the radii [-] ([A] 14).
     #[inline]
     pub fn strain(&self) -> f64 {

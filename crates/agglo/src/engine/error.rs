@@ -67,6 +67,49 @@ pub enum SimError {
         /// The contact law.
         laws: String,
     },
+    /// The cut-off of the near field leaves out too much.
+    #[error(
+        "fields.near_field.cutoff leaves out {:.1} % of the forces (root mean square, where grains are at the start), more \
+         than fields.near_field.truncation = {limit}; leave cutoff away, so that all pairs count, make it longer, or allow \
+         the error", 100.0 * part
+    )]
+    Truncated {
+        /// What is left out over all.
+        part: f64,
+        /// What is allowed.
+        limit: f64,
+    },
+    /// The observer asked to stop before the clock started.
+    #[error("stopped while grains came to rest (start.relax); nothing is kept of that")]
+    StoppedAtRest,
+    /// A law asks for steps so short that the run would never end.
+    #[error(
+        "{at}: {law} has become so fast that it asks for steps of {wanted:.3e} s; do grains come closer than the law is \
+         meant for? A law of contact or a smallest distance keeps them apart"
+    )]
+    TooFast {
+        /// When.
+        at: Moment,
+        /// The law.
+        law: &'static str,
+        /// The step that it asks for [s].
+        wanted: f64,
+    },
+    /// Energy comes from nothing, or is lost, beyond what the ledger explains.
+    #[error(
+        "{at}: the ledger does not explain {part:.3} of all energy, more than limits.drift_error = {limit}, under {laws}; \
+         make the step smaller, or raise limits.drift_error"
+    )]
+    Unexplained {
+        /// When.
+        at: Moment,
+        /// What is not explained, over all energy that was there or came in.
+        part: f64,
+        /// What is allowed.
+        limit: f64,
+        /// The laws that act.
+        laws: String,
+    },
     /// The iteration of the staggered scheme does not converge.
     #[error(
         "{at}: the staggered iteration does not converge (error {error:.3e}), least of all at grain {grain}, under \
@@ -174,6 +217,19 @@ pub enum SimError {
         place: f64,
         /// Width of a cell [m].
         cell: f64,
+    },
+    /// The books of impacts do not add up.
+    #[error(
+        "t = {time:.6e} s: the books of impacts do not explain {part:.3} of all energy under {laws}; these figures are \
+         not to be believed: it is a fault of the program, please report it"
+    )]
+    ImpactUnexplained {
+        /// When [s].
+        time: f64,
+        /// What is not explained, over all energy that was there or came in.
+        part: f64,
+        /// The laws that act.
+        laws: String,
     },
     /// A sphere has grown wider than a periodic volume.
     #[error(

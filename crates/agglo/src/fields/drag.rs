@@ -1,36 +1,45 @@
-//! Drag of the medium and what goes beyond Stokes.
+//! What a medium does to a grain: drag, the push of a medium that accelerates, and resistance to spin.
 //!
 //! # Equation
 //! ```text
-//! F = 6 π η R φ (v_medium - v)                                                            [A] 30
-//! φ = 1 (Stokes)   or   φ = 1 + 0.15 Re^0.687 (Schiller and Naumann),   Re = 2 R ρ |v_medium - v|/η
-//! m_added = C_a ρ (4/3) π R³                                                              A10
+//! F = 6 π η R φ (u - v) + (1 + C_a) m_f Du/Dt                                              [A] 30, A10
+//! φ = 1 (Stokes)   or   φ = 1 + 0.15 Re^0.687 (Schiller and Naumann),   Re = 2 R ρ |u - v|/η
+//! M = 8 π η R³ (∇ × u/2 - w)
+//! m_f = ρ (4/3) π R³,   m_added = C_a m_f,   Du/Dt = ∂u/∂t + (u · ∇) u
 //! ```
 //!
 //! # Source
-//! [A] T. I. Zohdi, Comput. Mech. 57, 465 (2016), eq. 30; L. Schiller and A. Naumann, Z. VDI 77, 318 (1935).
+//! [A] T. I. Zohdi, Comput. Mech. 57, 465 (2016), eq. 30; L. Schiller and A. Naumann, Z. VDI 77, 318 (1935);
+//! M. R. Maxey and J. J. Riley, Phys. Fluids 26, 883 (1983); G. Kirchhoff (1876) for the moment.
 //!
 //! # Symbols
 //! | symbol   | name in code        | unit  | meaning                                             |
 //! |----------|---------------------|-------|-----------------------------------------------------|
 //! | η        | `medium.viscosity`  | Pa s  | dynamic viscosity; c_e of the paper                 |
 //! | ρ        | `medium.density`    | kg/m³ | density of the medium                               |
-//! | v_medium | `medium_velocity`   | m/s   | velocity of the medium where the grain is           |
+//! | u        | `medium_velocity`   | m/s   | velocity of the medium where the grain is           |
+//! | m_f      | `displaced_mass`    | kg    | mass of the medium that the grain displaces         |
 //! | Re       | `reynolds`          | -     | Reynolds number of the grain's diameter             |
 //! | C_a      | `added_mass`        | -     | 1/2 for a sphere in an ideal fluid                  |
+//! | w        | `spin`              | rad/s | angular velocity of the grain                       |
 //!
 //! # Valid when
-//! Stokes: Re ≪ 1 (2 % off at Re = 0.1, 15 % at 1). Schiller and Naumann: Re up to 1000, within 5 %. Grains do
-//! not feel one another's wakes: dilute suspensions. History force and lift are left out.
+//! Stokes: Re ≪ 1 (2 % off at Re = 0.1, 15 % at 1). Schiller and Naumann: Re up to 1000, within 5 %; the moment is
+//! that of slow spin with both. The flow hardly changes over a grain. Grains do not feel one another's wakes, nor do
+//! they shield one another: a dense agglomerate's inside bears less than this says. History force and lift are left
+//! out. m_f Du/Dt is the pressure of the flow alone: a medium at rest under gravity carries grains by
+//! `fields.gravity.buoyancy`, and the two do not overlap. A uniform, steady `medium_velocity` has no Du/Dt.
 //!
 //! # Compared with others
-//! Drag coefficient 24 φ/Re, as in the usual CFD-DEM codes.
+//! Drag coefficient 24 φ/Re, as in the usual CFD-DEM codes. Without m_f Du/Dt, which many leave out, a grain of the
+//! liquid's own density does not follow the liquid. Drag is solved for (trapezoidal rule): no step is too long for it
+//! to stay stable, and the automatic step resolves its decay.
 //!
 //! # Example
 //! ```
-//! use agglo::{acoustics::Medium, fields::{Drag, DragLaw}, math::Vec3};
+//! use agglo::{acoustics::Medium, fields::{Drag, DragLaw, FlowAt}, math::Vec3};
 //! let drag = Drag { law: DragLaw::Stokes, medium_velocity: None, added_mass: 0.5 };
-//! let force = drag.force(&Medium::default(), 1e-5, Vec3::new(0.01, 0.0, 0.0), Vec3::ZERO, 0.0);
+//! let force = drag.force(&Medium::default(), 1e-5, Vec3::new(0.01, 0.0, 0.0), &FlowAt::default());
 //! assert!((force.x / (-6.0 * std::f64::consts::PI * 1e-3 * 1e-5 * 0.01) - 1.0).abs() < 1e-14);
 //! ```
 
@@ -39,10 +48,9 @@ use std::f64::consts::PI;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::FieldVector;
-use super::expression::evaluate;
+use super::{FlowAt, FlowField};
 use crate::acoustics::Medium;
-use crate::math::Vec3;
+use crate::math::{Pace, Vec3};
 
 /// Drag on every grain; viscosity and density are the medium's.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -52,7 +60,7 @@ pub struct Drag {
     pub law: DragLaw,
     /// Velocity of the medium; at rest if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub medium_velocity: Option<FieldVector<0, 1, -1, 0, 0>>,
+    pub medium_velocity: Option<FlowField>,
     /// Part of the displaced mass that moves with a grain (1/2 for a sphere in an ideal fluid).
     #[serde(default)]
     pub added_mass: f64,
@@ -69,28 +77,20 @@ pub enum DragLaw {
 }
 
 impl Drag {
-    /// Velocity [m/s] of the medium relative to a grain with this velocity, position [m] and time [s].
-    #[inline]
-    pub fn slip(&self, velocity_of_grain: Vec3, position: Vec3, time: f64) -> Vec3 {
-        let medium =
-            self.medium_velocity.as_ref().map_or(Vec3::ZERO, |field| evaluate(field, position, time));
-        medium - velocity_of_grain
-    }
-
-    /// Force [N] on a grain of this radius [m] and velocity [m/s] at a point [m] and time [s].
+    /// Force [N] on a grain of this radius [m] and velocity [m/s] in a flow.
     ///
     /// It takes `-force . velocity` [W] from the grain (less than nothing where the medium drives it).
     #[inline]
-    pub fn force(
-        &self,
-        medium: &Medium,
-        radius: f64,
-        velocity_of_grain: Vec3,
-        position: Vec3,
-        time: f64,
-    ) -> Vec3 {
-        let slip = self.slip(velocity_of_grain, position, time);
-        slip * self.coefficient(medium, radius, slip)
+    pub fn force(&self, medium: &Medium, radius: f64, velocity: Vec3, flow: &FlowAt) -> Vec3 {
+        let slip = flow.velocity - velocity;
+        let pushed = (1.0 + self.added_mass) * displaced_mass(medium, radius);
+        slip * self.coefficient(medium, radius, slip) + flow.acceleration * pushed
+    }
+
+    /// Moment [N m] on a grain of this radius [m] and angular velocity [rad/s] in a flow.
+    #[inline]
+    pub fn moment(medium: &Medium, radius: f64, spin: Vec3, flow: &FlowAt) -> Vec3 {
+        (flow.vorticity * 0.5 - spin) * spin_coefficient(medium, radius)
     }
 
     /// Force over slip [N s/m] at a slip velocity [m/s].
@@ -105,24 +105,39 @@ impl Drag {
         }
     }
 
+    /// How fast a grain of this radius [m], inertial mass [kg] and moment of inertia [kg m²] comes to rest in the
+    /// medium, at a slip velocity [m/s]: by its spin, or by its motion and the change of the flow along its way.
+    pub fn pace(&self, medium: &Medium, radius: f64, inertia: [f64; 2], slip: Vec3, flow: &FlowAt) -> Pace {
+        // Schiller and Naumann's force grows like slip^1.687 at most.
+        let steeper = if self.law == DragLaw::Stokes { 1.0 } else { 1.687 };
+        let motion = Pace::of_dashpot(steeper * self.coefficient(medium, radius, slip), inertia[0]);
+        let carried = Pace { square: 0.0, rate: flow.gradient };
+        (motion + carried).max(Pace::of_dashpot(spin_coefficient(medium, radius), inertia[1]))
+    }
+
     /// Reynolds number [-] of a grain: above 1 Stokes' law, above 1000 either law is out of its range.
     #[inline]
-    pub fn reynolds(
-        &self,
-        medium: &Medium,
-        radius: f64,
-        velocity_of_grain: Vec3,
-        position: Vec3,
-        time: f64,
-    ) -> f64 {
-        reynolds(medium, radius, self.slip(velocity_of_grain, position, time).norm())
+    pub fn reynolds(medium: &Medium, radius: f64, velocity: Vec3, flow: &FlowAt) -> f64 {
+        reynolds(medium, radius, (flow.velocity - velocity).norm())
     }
 
     /// Mass [kg] of medium that moves with a grain of this radius [m].
     #[inline]
     pub fn added_mass(&self, medium: &Medium, radius: f64) -> f64 {
-        self.added_mass * medium.density.si() * 4.0 / 3.0 * PI * radius * radius * radius
+        self.added_mass * displaced_mass(medium, radius)
     }
+}
+
+/// Moment over angular velocity [N m s] of a sphere that spins in the medium.
+#[inline]
+pub fn spin_coefficient(medium: &Medium, radius: f64) -> f64 {
+    8.0 * PI * medium.viscosity.si() * radius * radius * radius
+}
+
+/// Mass [kg] of the medium that a grain of this radius [m] displaces.
+#[inline]
+fn displaced_mass(medium: &Medium, radius: f64) -> f64 {
+    medium.density.si() * 4.0 / 3.0 * PI * radius * radius * radius
 }
 
 /// Reynolds number; 0 in a medium without viscosity, which exerts no drag.
@@ -134,7 +149,9 @@ fn reynolds(medium: &Medium, radius: f64, speed: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fields::Expression;
+
+    const REST: FlowAt =
+        FlowAt { velocity: Vec3::ZERO, acceleration: Vec3::ZERO, vorticity: Vec3::ZERO, gradient: 0.0 };
 
     fn drag(law: DragLaw) -> Drag {
         Drag { law, medium_velocity: None, added_mass: 0.5 }
@@ -146,8 +163,7 @@ mod tests {
         let (medium, radius, excess) = (Medium::default(), 5e-6, 1500.0);
         let speed = 2.0 / 9.0 * excess * 9.81 * radius * radius / 1e-3;
         let weight = excess * 9.81 * 4.0 / 3.0 * PI * radius * radius * radius;
-        let force =
-            drag(DragLaw::Stokes).force(&medium, radius, Vec3::new(0.0, 0.0, -speed), Vec3::ZERO, 0.0);
+        let force = drag(DragLaw::Stokes).force(&medium, radius, Vec3::new(0.0, 0.0, -speed), &REST);
         assert!((force.z / weight - 1.0).abs() < 1e-14);
         assert_eq!((force.x, force.y), (0.0, 0.0));
     }
@@ -160,24 +176,40 @@ mod tests {
             let speed = number * 1e-3 / (2.0 * radius * 1000.0);
             let velocity = Vec3::new(0.0, speed, 0.0);
             let law = drag(DragLaw::SchillerNaumann);
-            let force = law.force(&medium, radius, velocity, Vec3::ZERO, 0.0);
+            let force = law.force(&medium, radius, velocity, &REST);
             let coefficient = -force.y / (0.5 * 1000.0 * speed * speed * PI * radius * radius);
-            assert!((law.reynolds(&medium, radius, velocity, Vec3::ZERO, 0.0) / number - 1.0).abs() < 1e-14);
+            assert!((Drag::reynolds(&medium, radius, velocity, &REST) / number - 1.0).abs() < 1e-14);
             assert!((coefficient / wanted - 1.0).abs() < 1e-5, "{number}: {coefficient}");
         }
-        assert_eq!(
-            drag(DragLaw::SchillerNaumann).force(&medium, radius, Vec3::ZERO, Vec3::ZERO, 0.0),
-            Vec3::ZERO
-        );
+        assert_eq!(drag(DragLaw::SchillerNaumann).force(&medium, radius, Vec3::ZERO, &REST), Vec3::ZERO);
     }
 
+    /// A grain that moves with the medium feels (1 + C_a) m_f Du/Dt, and spins up to half the vorticity.
     #[test]
-    fn a_moving_medium_drives_the_grain() {
-        let field = ["2*y", "0 m/s", "t"].map(|text| Expression::new(text).unwrap());
-        let law = Drag { medium_velocity: Some(field), ..drag(DragLaw::Stokes) };
-        let velocity = Vec3::new(1.0, 0.0, 3.0);
-        let at_rest = law.force(&Medium::default(), 1e-3, velocity, Vec3::new(0.0, 0.5, 0.0), 3.0);
-        assert_eq!(at_rest, Vec3::ZERO);
-        assert!((law.added_mass(&Medium::default(), 1e-3) / (2.0 / 3.0 * PI * 1e-6) - 1.0).abs() < 1e-14);
+    fn a_medium_that_accelerates_and_turns() {
+        let (medium, radius) = (Medium::default(), 1e-3);
+        let law = drag(DragLaw::Stokes);
+        let flow =
+            FlowAt { acceleration: Vec3::new(0.0, 3.0, 0.0), vorticity: Vec3::new(0.0, 0.0, 8.0), ..REST };
+        let moving = FlowAt { velocity: Vec3::new(1.0, 0.0, 3.0), ..flow };
+        let force = law.force(&medium, radius, moving.velocity, &moving);
+        let displaced = 4.0 / 3.0 * PI * 1e-6;
+        assert!((force - Vec3::new(0.0, 1.5 * 3.0 * displaced, 0.0)).norm() < 1e-14 * force.norm());
+        assert!((law.added_mass(&medium, radius) / (0.5 * displaced) - 1.0).abs() < 1e-14);
+        assert_eq!(Drag::moment(&medium, radius, Vec3::new(0.0, 0.0, 4.0), &flow), Vec3::ZERO);
+        let moment = Drag::moment(&medium, radius, Vec3::ZERO, &flow);
+        assert!((moment.z / (8.0 * PI * 1e-3 * 1e-9 * 4.0) - 1.0).abs() < 1e-14);
+    }
+
+    /// 15 η/(ρ R²) of spin is faster than (9/2) η/(ρ R²) of motion; the flow's gradient adds to that.
+    #[test]
+    fn the_pace_is_that_of_spin_in_a_still_liquid() {
+        let (medium, radius, mass) = (Medium::default(), 1e-5, 2500.0 * 4.0 / 3.0 * PI * 1e-15);
+        let inertia = [mass, 0.4 * mass * radius * radius];
+        let pace = drag(DragLaw::Stokes).pace(&medium, radius, inertia, Vec3::ZERO, &REST);
+        assert!((pace.rate / (15.0 * 1e-3 / (2500.0 * 1e-10)) - 1.0).abs() < 1e-14);
+        let sheared = FlowAt { gradient: 1e6, ..REST };
+        let pace = drag(DragLaw::Stokes).pace(&medium, radius, inertia, Vec3::ZERO, &sheared);
+        assert!((pace.rate / (4.5e-3 / 2500e-10 + 1e6) - 1.0).abs() < 1e-14);
     }
 }

@@ -17,7 +17,7 @@
 use std::borrow::Cow;
 use std::fmt;
 
-use exmex::{Express, FlatEx};
+use exmex::{Differentiate, Express, FlatEx};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 
@@ -32,10 +32,51 @@ pub struct Expression<const KG: i8, const M: i8, const S: i8, const K: i8, const
     value: Value,
 }
 
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 enum Value {
     Constant(f64),
     Formula { formula: Box<FlatEx<f64>>, arguments: Vec<usize> },
+}
+
+/// The derivative of an [`Expression`] along one axis.
+#[derive(Clone, Debug)]
+pub struct Slope(Derivative);
+
+#[derive(Clone, Debug)]
+enum Derivative {
+    Zero,
+    Formula(Value),
+    /// A function of the expression has none.
+    Unknown,
+}
+
+impl Slope {
+    /// Its value at a point [m] and time [s]; nothing where the expression has no derivative.
+    #[inline]
+    pub fn at(&self, point: Vec3, time: f64) -> Option<f64> {
+        match &self.0 {
+            Derivative::Zero => Some(0.0),
+            Derivative::Formula(value) => Some(value.at(point, time)),
+            Derivative::Unknown => None,
+        }
+    }
+}
+
+impl Value {
+    #[inline]
+    fn at(&self, point: Vec3, time: f64) -> f64 {
+        match self {
+            Self::Constant(value) => *value,
+            Self::Formula { formula, arguments } => {
+                let known = [point.x, point.y, point.z, time, std::f64::consts::PI];
+                let mut given = [0.0; 5];
+                for (slot, which) in given.iter_mut().zip(arguments) {
+                    *slot = known[*which];
+                }
+                formula.eval(&given[..arguments.len()]).unwrap_or(f64::NAN)
+            }
+        }
+    }
 }
 
 /// Three components of a field.
@@ -84,17 +125,21 @@ impl<const KG: i8, const M: i8, const S: i8, const K: i8, const A: i8> Expressio
     /// The value at a point [m] and time [s], in SI units.
     #[inline]
     pub fn at(&self, point: Vec3, time: f64) -> f64 {
-        match &self.value {
-            Value::Constant(value) => *value,
-            Value::Formula { formula, arguments } => {
-                let known = [point.x, point.y, point.z, time, std::f64::consts::PI];
-                let mut given = [0.0; 5];
-                for (slot, which) in given.iter_mut().zip(arguments) {
-                    *slot = known[*which];
-                }
-                formula.eval(&given[..arguments.len()]).unwrap_or(f64::NAN)
-            }
-        }
+        self.value.at(point, time)
+    }
+
+    /// The derivative along x, y, z or t, counted from 0.
+    pub fn slope(&self, axis: usize) -> Slope {
+        let Value::Formula { formula, arguments } = &self.value else { return Slope(Derivative::Zero) };
+        let Some(place) = arguments.iter().position(|which| *which == axis) else {
+            return Slope(Derivative::Zero);
+        };
+        let Ok(slope) = (**formula).clone().partial(place) else { return Slope(Derivative::Unknown) };
+        // The derivative has the formula's own names for its variables.
+        let same = |name: &String| formula.var_names().iter().position(|own| own == name);
+        let arguments =
+            slope.var_names().iter().filter_map(|name| same(name).map(|at| arguments[at])).collect();
+        Slope(Derivative::Formula(Value::Formula { formula: Box::new(slope), arguments }))
     }
 
     /// The value if it is the same everywhere and always.

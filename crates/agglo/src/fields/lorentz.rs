@@ -21,7 +21,8 @@
 //! out (that of resting ones is `coulomb` of the near field). The magnetic part does no work.
 //!
 //! # Compared with others
-//! `efield` and, for B, user code in LAMMPS. Explicit steps must resolve the cyclotron period 2 π m/(q B).
+//! `efield` and, for B, user code in LAMMPS. The rotation about B is solved for (trapezoidal rule), as J. P. Boris'
+//! pusher does: it keeps the speed whatever the step. The automatic step resolves the period 2 π m/(q B).
 //!
 //! # Example
 //! ```
@@ -37,7 +38,7 @@ use serde::{Deserialize, Serialize};
 
 use super::FieldVector;
 use super::expression::evaluate;
-use crate::math::Vec3;
+use crate::math::{Pace, Vec3};
 
 /// q (E + v x B).
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -63,6 +64,33 @@ impl Lorentz {
             field += velocity.cross(evaluate(flux_density, position, time));
         }
         field * charge
+    }
+
+    /// What the force on a charge [C] turns by: q B [kg/s] at a point [m] and time [s].
+    #[inline]
+    pub fn turning(&self, charge: f64, position: Vec3, time: f64) -> Vec3 {
+        match &self.magnetic_flux_density {
+            Some(flux_density) if charge != 0.0 => evaluate(flux_density, position, time) * charge,
+            _ => Vec3::ZERO,
+        }
+    }
+
+    /// How fast a charge [C] of a grain of this mass [kg] and radius [m] moves at a point [m] and time [s]: by the
+    /// frequency q B/m of rotation, and by the gradient of E.
+    pub fn pace(&self, charge: f64, mass: f64, radius: f64, position: Vec3, time: f64) -> Pace {
+        let turning = Pace::of_dashpot(self.turning(charge, position, time).norm(), mass);
+        let Some(field) =
+            self.electric_field.as_ref().filter(|field| field.iter().any(|e| e.constant().is_none()))
+        else {
+            return turning;
+        };
+        let step = 1e-2 * radius;
+        let square = Vec3::AXES.map(|axis| {
+            let (ahead, behind) = (position + axis * step, position - axis * step);
+            (evaluate(field, ahead, time) - evaluate(field, behind, time)).norm_squared()
+        });
+        let gradient = square.iter().sum::<f64>().sqrt() / (2.0 * step);
+        turning + Pace::of_spring(charge * gradient, mass)
     }
 }
 

@@ -36,7 +36,7 @@ use serde::{Deserialize, Serialize};
 
 use super::FieldVector;
 use super::expression::evaluate;
-use crate::math::Vec3;
+use crate::math::{Pace, Vec3};
 use crate::units::{Length, Magnetisability};
 
 /// Force up the gradient of B.B.
@@ -67,6 +67,15 @@ impl Magnetic {
             (ahead + behind).dot(ahead - behind) / (2.0 * step)
         });
         Vec3::from(gradient) * self.magnetisability.si()
+    }
+
+    /// How fast a grain of this mass [kg] and radius [m] moves by the gradient of the force at a point [m] and time [s].
+    pub fn pace(&self, mass: f64, radius: f64, position: Vec3, time: f64) -> Pace {
+        let square = Vec3::AXES.map(|axis| {
+            let (ahead, behind) = (position + axis * radius, position - axis * radius);
+            (self.force(radius, ahead, time) - self.force(radius, behind, time)).norm_squared()
+        });
+        Pace::of_spring(square.iter().sum::<f64>().sqrt() / (2.0 * radius), mass)
     }
 
     /// Potential energy -γ B·B [J] of a grain at a point [m] and time [s].

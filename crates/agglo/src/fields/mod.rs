@@ -2,6 +2,7 @@
 
 mod drag;
 mod expression;
+mod flow;
 mod gravity;
 mod lorentz;
 mod magnetic;
@@ -10,8 +11,9 @@ pub mod near_field;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use drag::{Drag, DragLaw};
+pub use drag::{Drag, DragLaw, spin_coefficient};
 pub use expression::{Expression, FieldVector, evaluate};
+pub use flow::{Flow, FlowAt, FlowField};
 pub use gravity::Gravity;
 pub use lorentz::Lorentz;
 pub use magnetic::Magnetic;

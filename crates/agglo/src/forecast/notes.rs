@@ -119,6 +119,7 @@ fn without_effect(notes: &mut Vec<String>, scenario: &Scenario) {
     }
     aims(notes, scenario);
     trains(notes, scenario);
+    cutoff(notes, scenario);
     let charged = scenario.grains.iter().any(|group| group.charge.si() != 0.0);
     let by_charge = match scenario.fields.near_field.as_ref().map(|field| &field.law) {
         Some(NearFieldLaw::Coulomb(_)) => true,
@@ -133,6 +134,29 @@ fn without_effect(notes: &mut Vec<String>, scenario: &Scenario) {
             notes.push(format!("no grain is made of {name}"));
         }
     }
+}
+
+/// What a cut-off of the near field costs.
+fn cutoff(notes: &mut Vec<String>, scenario: &Scenario) {
+    let Some(field) = &scenario.fields.near_field else { return };
+    if field.cutoff.is_none() {
+        return;
+    }
+    let limit = digits(100.0 * field.truncation);
+    let slow = match &field.law {
+        NearFieldLaw::Coulomb(_) => true,
+        NearFieldLaw::PowerPair(law) => law.attraction_exponent.min(law.repulsion_exponent) <= 3.0,
+        NearFieldLaw::VanDerWaals(_) => false,
+    };
+    let falls = if slow {
+        "the force falls off so slowly that sums over a cloud do not converge, and a cut-off can turn the sign of the energy; "
+    } else {
+        ""
+    };
+    notes.push(format!(
+        "fields.near_field.cutoff: {falls}the run measures what is left out of the forces at the start, and refuses more than \
+         truncation = {limit} %"
+    ));
 }
 
 /// Beams that miss all grains, reach them too late, or start where grains may be.

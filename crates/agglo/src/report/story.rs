@@ -1,6 +1,7 @@
 //! What happened, in plain words.
 
 use super::folder::Folder;
+use crate::engine::soft::Limits;
 use crate::run::{HardSummary, SoftSummary, Summary};
 use crate::scenario::readable;
 
@@ -37,8 +38,11 @@ pub fn unfinished(folder: &Folder, grains: Option<u64>) -> String {
 }
 
 fn soft(summary: &SoftSummary) -> String {
-    let mut words =
-        vec![format!("{} were followed for {}.", grains(summary.grains as u64), time(summary.time_s))];
+    let mut words = Vec::new();
+    if summary.energy.is_alarming() {
+        words.push(unexplained(summary.energy.unexplained_largest, summary.energy.unexplained_limit));
+    }
+    words.push(format!("{} were followed for {}.", grains(summary.grains as u64), time(summary.time_s)));
     let rays: u64 = summary.pulses.iter().map(|pulse| pulse.rays).sum();
     if rays > 0 {
         let [launched, absorbed]: [f64; 2] = [
@@ -76,7 +80,9 @@ fn soft(summary: &SoftSummary) -> String {
 }
 
 fn hard(summary: &HardSummary) -> String {
-    let mut words = vec![format!(
+    let (part, limit) = (summary.energy.unexplained(), Limits::default().drift_warning);
+    let mut words: Vec<String> = (part > limit).then(|| unexplained(part, limit)).into_iter().collect();
+    words.push(format!(
         "{} moved for {} and met {} times: {}, {} and {}.",
         grains(summary.grains_start),
         time(summary.time_s),
@@ -84,7 +90,7 @@ fn hard(summary: &HardSummary) -> String {
         counted(summary.bounces, "bounce"),
         counted(summary.merges, "merge"),
         counted(summary.fragmentations, "breakage"),
-    )];
+    ));
     words.push(format!(
         "{} are left, in the mean {:.3} times as large as at the start.",
         grains(summary.grains_end),
@@ -120,6 +126,14 @@ fn time(seconds: f64) -> String {
 
 fn percent(part: f64) -> String {
     format!("{:.1} %", 100.0 * part)
+}
+
+/// The first thing to know of a run whose energy does not add up.
+fn unexplained(part: f64, limit: f64) -> String {
+    format!(
+        "Not all energy is accounted for: up to {part:.1e} of all there was comes from nothing or is lost, above the limit of \
+         {limit:e}. Make the step smaller before you trust these figures."
+    )
 }
 
 fn drift(relative: f64) -> String {

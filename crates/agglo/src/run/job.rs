@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::engine::SimError;
+use crate::engine::soft::RestWatch;
 use crate::particles::Particles;
 use crate::record::RecordError;
 use crate::scenario::Scenario;
@@ -56,8 +57,8 @@ pub trait Job: Sized {
     /// Its tables.
     const TABLES: Layout;
 
-    /// Starts with grains as placed.
-    fn start(scenario: &Scenario, grains: Particles) -> Result<Self, SimError>;
+    /// Starts with grains as placed; `watch` is told how soft ones come to rest, if they are to.
+    fn start(scenario: &Scenario, grains: Particles, watch: &mut RestWatch<'_>) -> Result<Self, SimError>;
     /// Goes on from a saved state.
     fn resume(scenario: &Scenario, state: Self::State<'_>) -> Result<Self, SimError>;
     /// Adds its state to the rest of a checkpoint.

@@ -98,7 +98,7 @@ fn sit<J: Job>(
     sat_down: Instant,
     observer: &mut Observer<'_>,
 ) -> Result<Ending, RunError> {
-    let started = Session::<J>::start(scenario, grains, folder.clone(), sat_down);
+    let started = Session::<J>::start(scenario, grains, folder.clone(), sat_down, observer);
     started.inspect_err(|_| folder.abandon())?.carry_on(observer)
 }
 

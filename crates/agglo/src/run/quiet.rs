@@ -1,9 +1,12 @@
 //! A run without a folder: only what it came to.
 
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
+use crate::engine::SimError;
+use crate::engine::soft::Resting;
 use crate::particles::Particles;
 use crate::scenario::Scenario;
 
@@ -37,7 +40,13 @@ fn sit<J: Job>(
     stop: &AtomicBool,
 ) -> Result<Ending, RunError> {
     let end = scenario.time.end.si();
-    let mut job = J::start(scenario, grains).map_err(RunError::Start)?;
+    let mut watch = |_: &Resting| {
+        if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
+    let mut job = match J::start(scenario, grains, &mut watch) {
+        Err(SimError::StoppedAtRest) => return Ok(Ending::Interrupted(0.0)),
+        started => started.map_err(RunError::Start)?,
+    };
     while !job.is_finished() {
         if stop.load(Ordering::Relaxed) {
             return Ok(Ending::Interrupted(job.time()));
@@ -50,8 +59,6 @@ fn sit<J: Job>(
 
 #[cfg(test)]
 mod tests {
-    use std::ops::ControlFlow;
-
     use super::*;
     use crate::run::run;
     use crate::scenario::template;

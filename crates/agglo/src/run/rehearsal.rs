@@ -4,6 +4,7 @@
 //! depends on the machine; what happens on the way does not.
 
 use std::fs;
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -115,7 +116,7 @@ pub fn rehearse(scenario: &Scenario, grains: Particles, budget: Duration) -> Res
 
 fn sit<J: Job>(scenario: &Scenario, grains: Particles, budget: Duration) -> Result<Rehearsal, SimError> {
     let sat_down = Instant::now();
-    let mut job = J::start(scenario, grains)?;
+    let mut job = J::start(scenario, grains, &mut |_| ControlFlow::Continue(()))?;
     let mut record = Record::of(&mut job, scenario).ok();
     let start_s = sat_down.elapsed().as_secs_f64();
     let (mut quiet, mut flying) = (Paces::default(), Paces::default());

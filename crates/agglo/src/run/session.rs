@@ -3,10 +3,11 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
+use crate::engine::soft::Resting;
 use crate::particles::Particles;
 use crate::record::checkpoint::{self, Refused};
 use crate::record::{RecordError, atomic};
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, readable};
 
 use super::folder::Folder;
 use super::job::{AnySaved, Job, Saved};
@@ -29,6 +30,20 @@ pub fn load(folder: &Folder) -> Result<(AnySaved<'static>, Vec<Refused>), RunErr
     }
 }
 
+/// The progress of grains that come to rest before the clock starts.
+fn coming_to_rest(resting: &Resting, end: f64) -> Progress {
+    let [speed, limit] = [resting.speed, resting.limit].map(|speed| readable(speed, "m/s"));
+    let passed = readable(resting.time, "s");
+    Progress {
+        time: 0.0,
+        end,
+        step: resting.step,
+        steps_are: "steps",
+        now: format!("coming to rest for {passed}, fastest grain {speed} of {limit}"),
+        warnings: Vec::new(),
+    }
+}
+
 /// One sitting of a run.
 pub struct Session<J> {
     scenario: Scenario,
@@ -42,7 +57,8 @@ pub struct Session<J> {
 }
 
 impl<J: Job> Session<J> {
-    /// Starts a run in an empty folder; its wall time counts from `sat_down`.
+    /// Starts a run in an empty folder; its wall time counts from `sat_down`. The observer is told of grains that come to
+    /// rest first.
     ///
     /// # Errors
     /// [`RunError`] where the start fails or a file cannot be written.
@@ -51,8 +67,18 @@ impl<J: Job> Session<J> {
         grains: Particles,
         folder: Folder,
         sat_down: Instant,
+        observer: &mut Observer<'_>,
     ) -> Result<Self, RunError> {
-        let job = J::start(scenario, grains).map_err(RunError::Start)?;
+        let end = scenario.time.end.si();
+        let mut told = sat_down;
+        let mut watch = |resting: &Resting| {
+            if told.elapsed() < TELL_EVERY {
+                return ControlFlow::Continue(());
+            }
+            told = Instant::now();
+            observer(&coming_to_rest(resting, end))
+        };
+        let job = J::start(scenario, grains, &mut watch).map_err(RunError::Start)?;
         let head = format!(
             "# Resolved scenario of a run of agglo {}: every default is written out.\n",
             env!("CARGO_PKG_VERSION")

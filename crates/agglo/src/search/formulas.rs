@@ -201,9 +201,10 @@ impl Reader<'_> {
 /// Columns that had another name once: before, now.
 const RENAMED: [(&str, &str); 1] = [(PI, "growth_deficit")];
 
+/// Other languages' names of constants and functions say more than a name that looks alike.
 fn unknown(name: &str, what: &str, near: Option<&str>) -> String {
-    let near = near.map(|near| format!("did you mean \"{near}\"?"));
-    let advice = near.or_else(|| formula::advice(name).map(str::to_owned));
+    let near = || near.map(|near| format!("did you mean \"{near}\"?"));
+    let advice = formula::advice(name).map(str::to_owned).or_else(near);
     let advice = advice.map(|advice| format!("; {advice}")).unwrap_or_default();
     format!("\"{name}\" is {what}{advice}")
 }

@@ -68,6 +68,7 @@ added_mass = 0.5
 electric_field = ["-3*(10^12)*x", "-3*(10^12)*y", "-3*(10^12)*z"]
 [fields.near_field]
 cutoff = "100 um"
+truncation = 10.0
 law.coulomb.relative_permittivity = 80.0
 [acoustics]
 [acoustics.force.impulse]

@@ -1,8 +1,12 @@
 //! Rest before the clock starts.
 
+use std::ops::ControlFlow;
+
+use agglo::engine::SimError;
+use agglo::engine::soft::{Resting, Simulation};
 use agglo::math::Vec3;
 
-use crate::common::{kinetic, start, steps};
+use crate::common::{self, kinetic, start, steps};
 
 /// Two grains pressed together and cemented there: rest is where the cement's tension holds the contact's repulsion.
 const CEMENTED: &str = r#"
@@ -39,7 +43,7 @@ fn rest_lasts() {
     let mut simulation = start(CEMENTED, |_| {});
     let stores = simulation.stores();
     assert!(stores.elastic > 1e-6 && stores.bonds > 1e-7, "nothing holds: {stores:?}");
-    let apart = |simulation: &agglo::engine::soft::Simulation| {
+    let apart = |simulation: &Simulation| {
         let at = &simulation.system.grains.position;
         (at[1] - at[0]).norm()
     };
@@ -51,4 +55,21 @@ fn rest_lasts() {
     assert!((kinetic(&simulation) / drifting - 1.0).abs() < 1e-5);
     let mean = (simulation.system.grains.velocity[0] + simulation.system.grains.velocity[1]) * 0.5;
     assert!((mean - Vec3::new(0.0, 0.3, 0.0)).norm() < 1e-12);
+}
+
+/// Whoever waits is told at every step how far rest is, and may stop.
+#[test]
+fn the_way_to_rest_is_told() {
+    let scenario = common::scenario(CEMENTED);
+    let mut told: Vec<Resting> = Vec::new();
+    let mut watch = |resting: &Resting| {
+        told.push(*resting);
+        ControlFlow::Continue(())
+    };
+    Simulation::start_watched(&scenario, common::grains(&scenario, |_| {}), &mut watch).unwrap();
+    assert!(told.len() > 10 && told.windows(2).all(|pair| pair[1].step == pair[0].step + 1));
+    assert!(told.iter().all(|resting| resting.speed > resting.limit && resting.limit == 1e-6));
+    let mut stop = |_: &Resting| ControlFlow::Break(());
+    let stopped = Simulation::start_watched(&scenario, common::grains(&scenario, |_| {}), &mut stop);
+    assert_eq!(stopped.unwrap_err(), SimError::StoppedAtRest);
 }

@@ -5,6 +5,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod automatic_step;
 mod bonds;
 mod fields;
 mod impact;

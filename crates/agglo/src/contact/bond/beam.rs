@@ -58,7 +58,7 @@ use std::f64::consts::PI;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::math::Vec3;
+use crate::math::{Pace, Vec3};
 use crate::units::Pressure;
 
 /// Cement between grains that carries tension, shear, bending and twisting, and breaks.
@@ -282,18 +282,11 @@ impl Beam {
             + stored(state.twist * state.twist, modes.twist))
     }
 
-    /// Longest stable step [s] of an explicit scheme for this bond alone, from the masses [kg], moments of
-    /// inertia [kg m²] and arms [m] of its two grains; for grains with z bonds divide by √z.
+    /// How fast this bond alone is, from the masses [kg], moments of inertia [kg m²] and arms [m] of its two grains;
+    /// for grains with z bonds times z.
     ///
-    /// (2/ω)(√(1 + ζ²) - ζ), with ω² the largest of the stretching, the twisting and a bound (sum) on the
-    /// coupled shearing and bending mode. Infinite for a bond without stiffness.
-    pub fn critical_step(
-        &self,
-        state: &BeamState,
-        masses: [f64; 2],
-        inertias: [f64; 2],
-        arms: [f64; 2],
-    ) -> f64 {
+    /// ω² is the largest of the stretching, the twisting and a bound (sum) on the coupled shearing and bending mode.
+    pub fn pace(&self, state: &BeamState, masses: [f64; 2], inertias: [f64; 2], arms: [f64; 2]) -> Pace {
         let modes = self.modes(state);
         let per_mass = 1.0 / masses[0] + 1.0 / masses[1];
         let per_inertia = 1.0 / inertias[0] + 1.0 / inertias[1];
@@ -301,7 +294,7 @@ impl Beam {
         let across = modes.shear * (per_mass + levers) + modes.bending * per_inertia;
         let square = (modes.normal * per_mass).max(modes.twist * per_inertia).max(across);
         let ratio = self.damping_ratio * (1.0 + levers / per_mass).sqrt();
-        2.0 / square.sqrt() * ((1.0 + ratio * ratio).sqrt() - ratio)
+        Pace { square, rate: 2.0 * ratio * square.sqrt() }
     }
 }
 

@@ -43,8 +43,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::contact::Touch;
-use crate::contact::normal::strain_power::strain_power;
+use crate::contact::normal::strain_power::{StrainPower, strain_power};
+use crate::contact::{PairConstants, Touch};
+use crate::math::Pace;
 use crate::units::{AreaStiffness, Pressure};
 
 /// K_nb E^pb A towards the partner, and K_rb |v_t| A dt along the slip, while E >= E*.
@@ -92,6 +93,18 @@ impl StrainBond {
     #[inline]
     pub fn tangential(&self, touch: &Touch, slip_speed: f64, dt: f64) -> f64 {
         if self.acts(touch) { self.tangential_stiffness.si() * slip_speed * touch.area() * dt } else { 0.0 }
+    }
+
+    /// How fast the bond is at this overlap: its attraction, or its tangential part, which carries the step as that of
+    /// `regularised` does.
+    pub fn pace(&self, touch: &Touch) -> Pace {
+        if !self.acts(touch) {
+            return Pace::NONE;
+        }
+        let bonding = Touch { stiffness: self.stiffness.si(), ..*touch };
+        let along = StrainPower { exponent: self.exponent }.pace(&PairConstants::default(), &bonding);
+        let tangential = 4.0 * self.tangential_stiffness.si() * touch.area();
+        along.max(Pace::of_spring(tangential, touch.sliding_mass()))
     }
 }
 

@@ -10,6 +10,7 @@ pub use restitution::{Restitution, damping_ratio};
 pub use viscous_area::ViscousArea;
 
 use super::{Normal, PairConstants, Touch};
+use crate::math::Pace;
 
 /// The closed set of normal damping laws; each is a dashpot whose coefficient depends on the contact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -29,5 +30,18 @@ impl Damping {
             Self::ViscousArea(law) => law.coefficient(touch),
             Self::Restitution(law) => law.coefficient(pair, touch, normal),
         }
+    }
+
+    /// How fast the dashpot is at this overlap.
+    pub fn pace(&self, pair: &PairConstants, touch: &Touch, normal: &Normal) -> Pace {
+        match self {
+            Self::ViscousArea(law) => law.pace(touch),
+            Self::Restitution(law) => law.pace(pair, touch, normal),
+        }
+    }
+
+    /// Whether it can outgrow the elastic contact, so that only the overlap of the moment says how fast it is.
+    pub fn outgrows_contact(&self) -> bool {
+        matches!(self, Self::ViscousArea(_))
     }
 }

@@ -45,6 +45,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::contact::{Normal, PairConstants, Touch};
+use crate::math::Pace;
 
 /// Damping from a restitution coefficient.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -62,6 +63,11 @@ impl Restitution {
         let n = normal.exponent();
         let stiffness = normal.tangent_stiffness(pair, touch).max(0.0);
         2.0 * ratio * ((n + 1.0) / (2.0 * n) * stiffness * touch.effective_mass).sqrt()
+    }
+
+    /// How fast the dashpot is at this overlap; it grows with the elastic stiffness.
+    pub fn pace(&self, pair: &PairConstants, touch: &Touch, normal: &Normal) -> Pace {
+        Pace::of_dashpot(self.coefficient(pair, touch, normal), touch.effective_mass)
     }
 }
 

@@ -33,6 +33,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::contact::Touch;
+use crate::math::Pace;
 use crate::units::AreaDamping;
 
 /// F = c A times the speed of approach.
@@ -48,6 +49,12 @@ impl ViscousArea {
     #[inline]
     pub fn coefficient(&self, touch: &Touch) -> f64 {
         self.coefficient.si() * touch.area()
+    }
+
+    /// How fast the dashpot is at this overlap; it grows with the area, without a bound of its own.
+    #[inline]
+    pub fn pace(&self, touch: &Touch) -> Pace {
+        Pace::of_dashpot(self.coefficient(touch), touch.effective_mass)
     }
 }
 

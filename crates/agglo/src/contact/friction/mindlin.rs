@@ -50,8 +50,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::contact::PairConstants;
-use crate::math::Vec3;
+use crate::contact::{PairConstants, Touch};
+use crate::math::{Pace, Vec3};
 
 /// A tangential spring with Coulomb's limit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -154,6 +154,12 @@ impl Mindlin {
         let cap = in_motion * load;
         let force = trial * (cap / size.sqrt());
         (force, TangentialSpring { force: shortened(spring, cap), stiffness, sliding: true })
+    }
+
+    /// How fast the tangential spring and its dashpot are, from the normal stiffness [N/m] and dashpot [N s/m].
+    pub fn pace(&self, pair: &PairConstants, touch: &Touch, stiffness: f64, dashpot: f64) -> Pace {
+        let (ratio, mass) = (self.stiffness_ratio.unwrap_or(pair.tangential_ratio), touch.sliding_mass());
+        Pace::of_spring(ratio * stiffness, mass) + Pace::of_dashpot(self.dashpot * dashpot, mass)
     }
 
     /// Static and dynamic friction coefficient of a pair of materials; the second never above the first.

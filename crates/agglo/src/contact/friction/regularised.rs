@@ -42,7 +42,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::contact::PairConstants;
+use crate::contact::{PairConstants, Touch};
+use crate::math::Pace;
 use crate::units::AreaStiffness;
 
 /// Stick force K v A dt up to static friction, then dynamic friction.
@@ -69,6 +70,13 @@ impl Regularised {
             return stick;
         }
         pair.dynamic_friction.unwrap_or_else(|| self.dynamic_friction.min(at_rest)) * load
+    }
+
+    /// How fast the stick force is at this overlap. Its dashpot K A Δt becomes critical at the step Δt = 1/√(K A/m_t):
+    /// that of a spring of 4 K A.
+    #[inline]
+    pub fn pace(&self, touch: &Touch) -> Pace {
+        Pace::of_spring(4.0 * self.stiffness.si() * touch.area(), touch.sliding_mass())
     }
 }
 

@@ -37,6 +37,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::contact::{PairConstants, Touch};
+use crate::math::Pace;
+use crate::particles::Material;
 
 /// Hertz contact; its only constants are the materials' Young's moduli and Poisson's ratios.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -59,6 +61,24 @@ impl Hertz {
     #[inline]
     pub fn tangent_stiffness(&self, pair: &PairConstants, touch: &Touch) -> f64 {
         2.0 * pair.effective_modulus * (touch.effective_radius * touch.overlap).sqrt()
+    }
+
+    /// How fast the contact is at this overlap; it grows with it.
+    #[inline]
+    pub fn pace(&self, pair: &PairConstants, touch: &Touch) -> Pace {
+        Pace::of_spring(self.tangent_stiffness(pair, touch), touch.effective_mass)
+    }
+
+    /// How fast Rayleigh's wave crosses a grain of this radius [m], which a step must not outrun either: the time
+    /// π R √(ρ/G)/(0.1631 ν + 0.8766) of Y. Li, Y. Xu and C. Thornton, Powder Technol. 160, 219 (2005), as a critical
+    /// step. Nothing for a material without a Young's modulus.
+    pub fn wave_pace(material: &Material, radius: f64) -> Pace {
+        let Some(modulus) = material.youngs_modulus else { return Pace::NONE };
+        let poisson = material.poisson_ratio.unwrap_or(0.0);
+        let shear = modulus.si() / (2.0 * (1.0 + poisson));
+        let time = std::f64::consts::PI * radius * (material.density.si() / shear).sqrt()
+            / (0.1631 * poisson + 0.8766);
+        Pace { square: 4.0 / (time * time), rate: 0.0 }
     }
 
     /// The force grows like overlap^1.5.

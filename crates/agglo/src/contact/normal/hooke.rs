@@ -32,6 +32,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::contact::{PairConstants, Touch};
+use crate::math::Pace;
 use crate::units::Stiffness;
 
 /// A linear spring.
@@ -58,6 +59,12 @@ impl Hooke {
     #[inline]
     pub fn tangent_stiffness(&self, _: &PairConstants, _: &Touch) -> f64 {
         self.stiffness.si()
+    }
+
+    /// How fast the contact is, at any overlap.
+    #[inline]
+    pub fn pace(&self, _: &PairConstants, touch: &Touch) -> Pace {
+        Pace::of_spring(self.stiffness.si(), touch.effective_mass)
     }
 
     /// The force grows like overlap.

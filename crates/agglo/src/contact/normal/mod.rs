@@ -12,6 +12,7 @@ pub use hooke::Hooke;
 pub use strain_power::StrainPower;
 
 use super::{PairConstants, Touch};
+use crate::math::Pace;
 
 /// The closed set of elastic normal laws.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -51,6 +52,11 @@ impl Normal {
     #[inline]
     pub fn tangent_stiffness(&self, pair: &PairConstants, touch: &Touch) -> f64 {
         dispatch!(self, law => law.tangent_stiffness(pair, touch))
+    }
+
+    /// How fast a contact is that reaches this overlap.
+    pub fn pace(&self, pair: &PairConstants, touch: &Touch) -> Pace {
+        dispatch!(self, law => law.pace(pair, touch))
     }
 
     /// n where the force grows like overlap^n at small overlap.

@@ -38,6 +38,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::contact::{PairConstants, Touch};
+use crate::math::Pace;
 
 /// F = K E^p A; K is the materials' `contact_stiffness`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -75,6 +76,14 @@ impl StrainPower {
     pub fn tangent_stiffness(&self, _: &PairConstants, touch: &Touch) -> f64 {
         let growth = self.exponent * touch.area_over_overlap() + touch.area_slope();
         touch.stiffness * strain_power(touch.strain(), self.exponent) * growth
+    }
+
+    /// How fast the contact is at this overlap or on the way to it: that of unequal grains is stiffest before the
+    /// smaller one is swallowed.
+    pub fn pace(&self, pair: &PairConstants, touch: &Touch) -> Pace {
+        let at = |part: f64| self.tangent_stiffness(pair, &Touch { overlap: part * touch.overlap, ..*touch });
+        let stiffest = [1.0, 0.75, 0.5, 0.25].map(at).into_iter().fold(0.0, f64::max);
+        Pace::of_spring(stiffest, touch.effective_mass)
     }
 
     /// The force grows like overlap^(p+1), since the area grows like the overlap.

@@ -125,6 +125,11 @@ pub struct Balance {
 const ROUNDING: f64 = 1e-12;
 
 impl Balance {
+    /// The larger of the two drifts, without its sign.
+    pub fn unexplained(&self) -> f64 {
+        self.drift_relative.abs().max(self.kinetic_drift_relative.abs())
+    }
+
     /// Heat that impacts made out of nothing, over the motion that they took; below zero where heat was lost. Nothing
     /// where it is no more than rounding.
     pub fn false_heat(&self) -> Option<f64> {

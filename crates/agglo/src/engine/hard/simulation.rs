@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use serde::{Deserialize, Serialize};
 
 use crate::domain::Boundary;
+use crate::engine::soft::Limits;
 use crate::engine::{Engine, SimError, Warnings};
 use crate::impact::ImpactLaws;
 use crate::math::Vec3;
@@ -18,6 +19,8 @@ use super::collapse::Collapse;
 use super::event_driven::{Events, EventsState};
 use super::spheres::Spheres;
 use super::time_stepped::Steps;
+
+const UNEXPLAINED: &str = "energy that the books of impacts do not explain is above 0.001 of all energy";
 
 /// Where the simulation stands in time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -221,11 +224,29 @@ impl Simulation {
     /// # Errors
     /// [`SimError`] where the motion is not finite or the clock comes to a halt.
     pub fn advance(&mut self, until: f64) -> Result<(), SimError> {
-        let until = until.min(self.end);
+        let (until, before) = (until.min(self.end), self.clock.step);
         match &mut self.driver {
-            Driver::Events(events) => events.advance(&mut self.cloud, &mut self.clock, until),
-            Driver::Steps(steps) => steps.step(&mut self.cloud, &mut self.clock, self.end),
+            Driver::Events(events) => events.advance(&mut self.cloud, &mut self.clock, until)?,
+            Driver::Steps(steps) => steps.step(&mut self.cloud, &mut self.clock, self.end)?,
         }
+        // Seldom enough to cost nothing beside the events.
+        let every = (10 * self.grains() as u64).max(1000);
+        let is_due = self.clock.step / every != before / every;
+        if is_due || self.is_finished() { self.look_at_the_energy() } else { Ok(()) }
+    }
+
+    /// Energy that the books do not explain is a warning at the end, and soon an error where it is much.
+    fn look_at_the_energy(&mut self) -> Result<(), SimError> {
+        let limits = Limits::default();
+        let part = self.balance().unexplained();
+        if self.is_finished() && part > limits.drift_warning {
+            self.cloud.state.warnings.add(UNEXPLAINED);
+        }
+        if part > limits.drift_error && self.cloud.laws.standing_warnings().is_empty() {
+            let laws = self.cloud.laws.names().join(", ");
+            return Err(SimError::ImpactUnexplained { time: self.clock.time, part, laws });
+        }
+        Ok(())
     }
 
     /// The grains now. Taking it changes nothing.

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use crate::math::{Vec3, parallel};
 
+use super::loads::{LoadViews, Supplies};
 use super::system::{LEAF, System};
 
 /// What one update of the trial motion amounts to.
@@ -69,58 +70,99 @@ impl System {
         self.has_ray_loads.then(|| self.ray_load_scale(dt))
     }
 
-    /// Trial motion after `dt` [s] with the part `phi` of the loads taken at the end of the step:
+    /// Trial motion after `dt` [s] from `time` [s] with the part `phi` of the loads taken at the end of the step:
     /// v' = v + (dt/m)(phi F' + (1 - phi) F) and r' = r + dt (phi v' + (1 - phi) v) ([A] 31-33), for r with the
-    /// same loads as for v.
-    pub(super) fn move_trial(&mut self, dt: f64, phi: f64, ahead: Ahead) -> Change {
+    /// same loads as for v. Loads that answer to velocity are solved for and brought along.
+    pub(super) fn move_trial(&mut self, time: f64, dt: f64, phi: f64, ahead: Ahead) -> Change {
         let ray_scale = self.ray_scale(dt);
-        let Self { grains, trial, loads, ray_loads, inertial_mass, .. } = self;
-        let end = if ahead == Ahead::AsAtStart { &*loads } else { &trial.loads };
-        let (positions, velocities, spins) =
-            (&mut trial.position[..], &mut trial.velocity[..], &mut trial.spin[..]);
-        let leaf = |range: Range<usize>, (r, (v, w)): (&mut [Vec3], (&mut [Vec3], &mut [Vec3]))| {
-            let mut change = Change::default();
+        let Self { grains, trial, loads, ray_loads, inertial_mass, laws, .. } = self;
+        let from_start = ahead == Ahead::AsAtStart;
+        let at_time = if from_start { time } else { time + dt };
+        let has_response = laws.has_response();
+        let moving = (&mut trial.position[..], (&mut trial.velocity[..], &mut trial.spin[..]));
+        let views = (moving, trial.loads.views());
+        let leaf = |range: Range<usize>,
+                    ((r, (v, w)), mut end): ((&mut [Vec3], Turning<'_>), LoadViews<'_>)| {
+            let (mut change, mut correction) = (Change::default(), Supplies::default());
             for (slot, grain) in range.enumerate() {
-                let mut force = end.force[grain] * phi + loads.force[grain] * (1.0 - phi);
-                let mut moment = end.moment[grain] * phi + loads.moment[grain] * (1.0 - phi);
+                if from_start {
+                    (end.force[slot], end.moment[slot]) = (loads.force[grain], loads.moment[grain]);
+                }
+                let mut force = end.force[slot] * phi + loads.force[grain] * (1.0 - phi);
+                let mut moment = end.moment[slot] * phi + loads.moment[grain] * (1.0 - phi);
                 if let Some(scale) = ray_scale {
                     force += ray_loads.force[grain] * scale;
                     moment += ray_loads.moment[grain] * scale;
                 }
-                let kick = force * (dt / inertial_mass[grain]);
+                let (per_mass, per_inertia) = (dt / inertial_mass[grain], dt / grains.inertia(grain));
+                let (mut kick, mut twist) = (force * per_mass, moment * per_inertia);
+                if has_response {
+                    let (velocity, spin) = (grains.velocity[grain], grains.spin[grain]);
+                    // Where and how fast the loads at the end are taken.
+                    let (position, guess) = if from_start {
+                        (grains.position[grain], (velocity, spin))
+                    } else {
+                        (r[slot], (v[slot], w[slot]))
+                    };
+                    let response = laws.response(grains, grain, (position, guess.0), at_time);
+                    let parts = (phi * per_mass, phi * per_inertia);
+                    let solved = response.solved((velocity + kick, spin + twist), guess, parts);
+                    (kick, twist) = (solved.velocity - velocity, solved.spin - spin);
+                    solved.correct(slot, &mut end, position, &mut correction);
+                }
                 let moved = grains.velocity[grain] * dt + kick * (phi * dt);
                 let position = grains.position[grain] + moved;
                 change.note(grain, position - r[slot], moved, grains.radius[grain]);
                 r[slot] = position;
                 v[slot] = grains.velocity[grain] + kick;
-                w[slot] = grains.spin[grain] + moment * (dt / grains.inertia(grain));
+                w[slot] = grains.spin[grain] + twist;
             }
-            change
+            (change, correction)
         };
-        parallel::over(0..positions.len(), LEAF, (positions, (velocities, spins)), &leaf, &Change::join)
+        let join = |a: (Change, Supplies), b: (Change, Supplies)| (Change::join(a.0, b.0), a.1 + b.1);
+        let (change, correction) = parallel::over(0..grains.len(), LEAF, views, &leaf, &join);
+        trial.rates.supplies = trial.rates.supplies + correction;
+        change
     }
 
-    /// Corrects the trial velocities and spins with the loads at the trial motion, positions kept.
-    pub(super) fn correct_velocities(&mut self, dt: f64) {
+    /// Corrects the trial velocities and spins with the loads at the trial motion, which ends at `time` [s], positions
+    /// kept.
+    pub(super) fn correct_velocities(&mut self, time: f64, dt: f64) {
         let ray_scale = self.ray_scale(dt);
-        let Self { grains, trial, loads, ray_loads, inertial_mass, .. } = self;
-        let end = &trial.loads;
-        let views = (&mut trial.velocity[..], &mut trial.spin[..]);
-        let leaf = |range: Range<usize>, (v, w): (&mut [Vec3], &mut [Vec3])| {
+        let Self { grains, trial, loads, ray_loads, inertial_mass, laws, .. } = self;
+        let (has_response, position) = (laws.has_response(), &trial.position);
+        let views = ((&mut trial.velocity[..], &mut trial.spin[..]), trial.loads.views());
+        let leaf = |range: Range<usize>, ((v, w), mut end): (Turning<'_>, LoadViews<'_>)| {
+            let mut correction = Supplies::default();
             for (slot, grain) in range.enumerate() {
-                let mut force = (end.force[grain] + loads.force[grain]) * 0.5;
-                let mut moment = (end.moment[grain] + loads.moment[grain]) * 0.5;
+                let mut force = (end.force[slot] + loads.force[grain]) * 0.5;
+                let mut moment = (end.moment[slot] + loads.moment[grain]) * 0.5;
                 if let Some(scale) = ray_scale {
                     force += ray_loads.force[grain] * scale;
                     moment += ray_loads.moment[grain] * scale;
                 }
-                v[slot] = grains.velocity[grain] + force * (dt / inertial_mass[grain]);
-                w[slot] = grains.spin[grain] + moment * (dt / grains.inertia(grain));
+                let (per_mass, per_inertia) = (dt / inertial_mass[grain], dt / grains.inertia(grain));
+                let explicit =
+                    (grains.velocity[grain] + force * per_mass, grains.spin[grain] + moment * per_inertia);
+                if has_response {
+                    let guess = (v[slot], w[slot]);
+                    let response = laws.response(grains, grain, (position[grain], guess.0), time);
+                    let solved = response.solved(explicit, guess, (0.5 * per_mass, 0.5 * per_inertia));
+                    solved.correct(slot, &mut end, position[grain], &mut correction);
+                    (v[slot], w[slot]) = (solved.velocity, solved.spin);
+                } else {
+                    (v[slot], w[slot]) = explicit;
+                }
             }
+            correction
         };
-        parallel::over(0..grains.len(), LEAF, views, &leaf, &|(), ()| ());
+        let correction = parallel::over(0..grains.len(), LEAF, views, &leaf, &|a, b| a + b);
+        trial.rates.supplies = trial.rates.supplies + correction;
     }
 }
+
+/// Velocities and spins that are tried.
+type Turning<'a> = (&'a mut [Vec3], &'a mut [Vec3]);
 
 impl Change {
     #[inline]

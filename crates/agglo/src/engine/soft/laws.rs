@@ -2,13 +2,14 @@
 
 use crate::acoustics::Medium;
 use crate::contact::{Bonds, ContactLaws, Damping, Friction, Normal};
-use crate::fields::Fields;
 use crate::fields::near_field::{NearField, Source};
+use crate::fields::{Drag, Fields, Flow, FlowAt, Lorentz, spin_coefficient};
 use crate::math::Vec3;
-use crate::particles::{Motion, PairTable, Particles};
+use crate::particles::{Material, Motion, PairTable, Particles};
 use crate::scenario::Scenario;
 
 use super::loads::{Supplies, Supply};
+use super::response::Response;
 
 /// The laws of a scenario.
 #[derive(Clone, Debug)]
@@ -23,8 +24,19 @@ pub struct Laws {
     pub medium: Medium,
     /// Constants of pairs of materials.
     pub pairs: PairTable,
-    /// Densities of the materials [kg/m³], by number.
-    densities: Vec<f64>,
+    /// The materials, by number.
+    pub materials: Vec<Material>,
+    /// The flow of the medium, where it has one.
+    flow: Option<Flow>,
+}
+
+/// What the forces on one grain amount to.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SingleLoad {
+    /// Force [N].
+    pub force: Vec3,
+    /// Moment about the centre [N m].
+    pub moment: Vec3,
 }
 
 impl Laws {
@@ -36,8 +48,38 @@ impl Laws {
             fields: scenario.fields.clone(),
             medium: scenario.medium.clone(),
             pairs: PairTable::new(&scenario.materials, &scenario.mixtures),
-            densities: scenario.materials.values().map(|material| material.density.si()).collect(),
+            materials: scenario.materials.values().cloned().collect(),
+            flow: flow_of(scenario),
         }
+    }
+
+    /// The flow of the medium at a point [m] and time [s].
+    #[inline]
+    pub fn flow_at(&self, position: Vec3, time: f64) -> FlowAt {
+        self.flow.as_ref().map_or_else(FlowAt::default, |flow| flow.at(position, time))
+    }
+
+    /// What the forces on one grain answer to its velocity, at a velocity [m/s], a point [m] and time [s].
+    #[inline]
+    pub fn response(&self, grains: &Particles, at: usize, motion: (Vec3, Vec3), time: f64) -> Response {
+        let ((position, velocity), radius, fields) = (motion, grains.radius[at], &self.fields);
+        let (drag, spin) = fields.drag.as_ref().map_or((0.0, 0.0), |law| {
+            let slip = self.flow_velocity_at(position, time) - velocity;
+            (law.coefficient(&self.medium, radius, slip), spin_coefficient(&self.medium, radius))
+        });
+        let turning = |law: &Lorentz| law.turning(grains.charge[at], position, time);
+        Response { drag, spin, turning: fields.lorentz.as_ref().map_or(Vec3::ZERO, turning) }
+    }
+
+    /// Whether forces on single grains answer to their velocities.
+    pub fn has_response(&self) -> bool {
+        let turns = |law: &Lorentz| law.magnetic_flux_density.is_some();
+        self.fields.drag.is_some() || self.fields.lorentz.as_ref().is_some_and(turns)
+    }
+
+    #[inline]
+    fn flow_velocity_at(&self, position: Vec3, time: f64) -> Vec3 {
+        self.flow.as_ref().map_or(Vec3::ZERO, |flow| flow.velocity_at(position, time))
     }
 
     /// Mass that resists acceleration [kg]: the grain's and, if wanted, that of the fluid it moves.
@@ -47,7 +89,7 @@ impl Laws {
         grains.mass[at] + added
     }
 
-    /// Force [N] of gravity, drag and fields on one grain; what each supplies is added to `supplies`.
+    /// Force and moment of gravity, drag and fields on one grain; what each supplies is added to `supplies`.
     #[inline]
     pub fn on_single(
         &self,
@@ -56,25 +98,29 @@ impl Laws {
         at: usize,
         time: f64,
         supplies: &mut Supplies,
-    ) -> Vec3 {
+    ) -> SingleLoad {
         let (position, velocity, radius) = (motion.position[at], motion.velocity[at], grains.radius[at]);
-        let mut total = Vec3::ZERO;
+        let mut total = SingleLoad::default();
         let mut book = |channel: &mut Supply, force: Vec3| {
             *channel = *channel + Supply::of(force, position, velocity);
-            total += force;
+            total.force += force;
         };
         if let Some(gravity) = &self.fields.gravity {
-            let ratio = self.medium.density.si() / self.densities[grains.material[at] as usize];
+            let ratio = self.medium.density.si() / self.materials[grains.material[at] as usize].density.si();
             book(&mut supplies.gravity, gravity.acceleration_on(ratio) * grains.mass[at]);
-        }
-        if let Some(drag) = &self.fields.drag {
-            book(&mut supplies.drag, drag.force(&self.medium, radius, velocity, position, time));
         }
         if let Some(lorentz) = &self.fields.lorentz {
             book(&mut supplies.field, lorentz.force(grains.charge[at], velocity, position, time));
         }
         if let Some(magnetic) = &self.fields.magnetic {
             book(&mut supplies.field, magnetic.force(radius, position, time));
+        }
+        if let Some(drag) = &self.fields.drag {
+            let (flow, spin) = (self.flow_at(position, time), motion.spin[at]);
+            book(&mut supplies.drag, drag.force(&self.medium, radius, velocity, &flow));
+            total.moment = Drag::moment(&self.medium, radius, spin, &flow);
+            supplies.drag.power += total.moment.dot(spin);
+            supplies.drag.moment += total.moment;
         }
         total
     }
@@ -136,6 +182,12 @@ impl Laws {
         }
         warnings
     }
+}
+
+fn flow_of(scenario: &Scenario) -> Option<Flow> {
+    let field = scenario.fields.drag.as_ref()?.medium_velocity.as_ref()?;
+    let smallest = scenario.grains.iter().map(|group| group.size.smallest()).fold(f64::INFINITY, f64::min);
+    Some(Flow::new(field, smallest, scenario.time.end.si()))
 }
 
 /// What the near field sees of a grain.

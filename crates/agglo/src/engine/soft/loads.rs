@@ -103,6 +103,18 @@ pub struct Supplies {
     pub field: Supply,
 }
 
+impl Supplies {
+    /// Forces [N] and a moment [N m] by which the loads on a grain at a point [m] changed when its velocity was solved
+    /// for. What they supply is of second order in the step and left out.
+    #[inline]
+    pub fn note_correction(&mut self, position: Vec3, drag: Vec3, magnetic: Vec3, spun: Vec3) {
+        self.drag.force += drag;
+        self.drag.moment += position.cross(drag) + spun;
+        self.field.force += magnetic;
+        self.field.moment += position.cross(magnetic);
+    }
+}
+
 impl Add for Supplies {
     type Output = Self;
     fn add(self, other: Self) -> Self {

@@ -1,11 +1,29 @@
 //! Rest before the clock starts: contacts, bonds and fields act, motion is damped away.
 
+use std::ops::ControlFlow;
+
 use crate::engine::SimError;
 use crate::math::Vec3;
 use crate::particles::Particles;
 use crate::scenario::{Relaxation, Scenario};
 
 use super::simulation::Simulation;
+
+/// Where grains stand on their way to rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Resting {
+    /// Simulated time of the relaxation so far [s].
+    pub time: f64,
+    /// Steps of it.
+    pub step: u64,
+    /// Speed of the fastest grain [m/s], or the one it would reach.
+    pub speed: f64,
+    /// What counts as rest [m/s].
+    pub limit: f64,
+}
+
+/// Someone who is told how grains come to rest and may ask to stop.
+pub type RestWatch<'a> = dyn FnMut(&Resting) -> ControlFlow<()> + 'a;
 
 /// A simulation whose grains came to rest under the scenario's laws, without rays and drag, and then got the
 /// velocities that the scenario gives them. Contacts and bonds keep what they remember of the way there.
@@ -16,18 +34,21 @@ pub fn rested(
     scenario: &Scenario,
     relaxation: &Relaxation,
     grains: Particles,
+    watch: &mut RestWatch<'_>,
 ) -> Result<Simulation, SimError> {
     let mut quiet = scenario.clone();
     quiet.acoustics = None;
     quiet.fields.drag = None;
     quiet.time.end = relaxation.longest;
+    // What is damped away is in no ledger.
+    (quiet.limits.drift_warning, quiet.limits.drift_error) = (f64::INFINITY, f64::INFINITY);
     let motions: Vec<(Vec3, Vec3)> =
         grains.velocity.iter().copied().zip(grains.spin.iter().copied()).collect();
     let mut still = grains;
     still.velocity.fill(Vec3::ZERO);
     still.spin.fill(Vec3::ZERO);
     let mut simulation = Simulation::with(&quiet, still);
-    settle(&mut simulation, relaxation)?;
+    settle(&mut simulation, relaxation, watch)?;
     let grains = &mut simulation.system.grains;
     for at in 0..grains.len() {
         // Placement names grains by their order.
@@ -36,7 +57,11 @@ pub fn rested(
     Ok(simulation.restarted(scenario))
 }
 
-fn settle(simulation: &mut Simulation, relaxation: &Relaxation) -> Result<(), SimError> {
+fn settle(
+    simulation: &mut Simulation,
+    relaxation: &Relaxation,
+    watch: &mut RestWatch<'_>,
+) -> Result<(), SimError> {
     let (damping_time, limit) = (relaxation.damping_time.si(), relaxation.speed.si());
     loop {
         let speed = unrest(simulation, damping_time);
@@ -45,6 +70,10 @@ fn settle(simulation: &mut Simulation, relaxation: &Relaxation) -> Result<(), Si
         }
         if simulation.is_finished() {
             return Err(SimError::NoRest { time: simulation.clock().time, speed, limit });
+        }
+        let (time, step) = (simulation.clock().time, simulation.clock().step);
+        if watch(&Resting { time, step, speed, limit }).is_break() {
+            return Err(SimError::StoppedAtRest);
         }
         simulation.step()?;
         let kept = (-simulation.clock().last_step / damping_time).exp();

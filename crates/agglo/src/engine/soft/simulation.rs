@@ -1,6 +1,7 @@
 //! A simulation of soft spheres: one step after another, with rays, bonds, the ledger and the guards.
 
 use std::borrow::Cow;
+use std::ops::ControlFlow;
 
 use serde::{Deserialize, Serialize};
 
@@ -8,7 +9,7 @@ use crate::contact::network::{BondEvent, Network};
 use crate::contact::pass::Remembered;
 use crate::contact::{Bonds, network::Bond};
 use crate::domain::resolution;
-use crate::engine::{Moment, SimError, Warnings};
+use crate::engine::{Engine, Moment, SimError, Warnings};
 use crate::math::rounding_of_sum;
 use crate::measure::Ledger;
 use crate::particles::Particles;
@@ -18,13 +19,17 @@ use super::advance::Change;
 use super::laws::Laws;
 use super::loads::{Loads, Rates};
 use super::pulses::{PulseState, Pulses};
-use super::step_size;
+use super::relax::RestWatch;
+use super::step_size::{self, Fast, Paces};
 use super::system::System;
+use super::tempo::Tempo;
 use super::types::{Breach, Limits, Scheme};
-use super::{staggered, validity, verlet};
+use super::{staggered, truncation, validity, verlet};
 
 /// Steps between two sortings of the grains in space. Counted in steps, so that it is the same after a resume.
 const SORT_EVERY: u64 = 2000;
+/// An automatic step below this part of the run would never end it.
+const SHORTEST: f64 = 1e-13;
 
 /// Where the simulation stands in time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -58,6 +63,9 @@ pub struct SimulationState<'a> {
     pulses: PulseState,
     ledger: Ledger,
     warnings: Warnings,
+    tempo: Option<Tempo>,
+    paces: Paces,
+    truncation: Option<f64>,
 }
 
 /// A simulation.
@@ -74,8 +82,14 @@ pub struct Simulation {
     /// Bonds that broke or were made since they were last taken.
     pub events: Vec<BondEvent>,
     clock: Clock,
-    scheme: Scheme,
-    limits: Limits,
+    pub(super) scheme: Scheme,
+    pub(super) limits: Limits,
+    /// The automatic step; nothing where the step is given.
+    pub(super) tempo: Option<Tempo>,
+    /// How fast the laws were at the last look.
+    pub(super) paces: Paces,
+    /// What the cut-off of the near field left out of the forces at the start.
+    pub truncation: Option<f64>,
     end: f64,
 }
 
@@ -85,10 +99,25 @@ impl Simulation {
     /// # Errors
     /// [`SimError::NoRest`] where the scenario asks for rest and the grains do not come to it.
     pub fn start(scenario: &Scenario, grains: Particles) -> Result<Self, SimError> {
+        Self::start_watched(scenario, grains, &mut |_| ControlFlow::Continue(()))
+    }
+
+    /// The same; `watch` is told how grains come to rest, if they are to, and may ask to stop.
+    ///
+    /// # Errors
+    /// As [`Simulation::start`], [`SimError::Truncated`] where a cut-off leaves out too much, and
+    /// [`SimError::StoppedAtRest`].
+    pub fn start_watched(
+        scenario: &Scenario,
+        grains: Particles,
+        watch: &mut RestWatch<'_>,
+    ) -> Result<Self, SimError> {
+        let truncation = truncation::hold(scenario.fields.near_field.as_ref(), &grains)?;
         let mut simulation = match &scenario.start.relax {
-            Some(relaxation) => super::relax::rested(scenario, relaxation, grains)?,
+            Some(relaxation) => super::relax::rested(scenario, relaxation, grains, watch)?,
             None => Self::with(scenario, grains),
         };
+        simulation.truncation = truncation;
         simulation.open_books();
         Ok(simulation)
     }
@@ -111,6 +140,7 @@ impl Simulation {
     fn at_zero(scenario: &Scenario, mut system: System) -> Self {
         let pulses = Pulses::new(scenario, &system.grains);
         system.rays_are_impulses = pulses.are_impulses();
+        system.list_neighbors();
         let first = step_size::first(scenario, &system);
         let clock = Clock {
             time: 0.0,
@@ -123,6 +153,9 @@ impl Simulation {
         };
         system.evaluate_start(first);
         Self {
+            tempo: tempo_of(scenario),
+            truncation: None,
+            paces: Paces::new(&system, Some(scenario.limits.strain), 0.0),
             system,
             pulses,
             ledger: Ledger::default(),
@@ -146,6 +179,9 @@ impl Simulation {
         system.rates = state.rates;
         system.remember(&state.contacts);
         Self {
+            tempo: state.tempo,
+            truncation: state.truncation,
+            paces: state.paces,
             system,
             pulses,
             ledger: state.ledger,
@@ -171,6 +207,9 @@ impl Simulation {
             pulses: self.pulses.state(),
             ledger: self.ledger.clone(),
             warnings: self.warnings.clone(),
+            tempo: self.tempo,
+            truncation: self.truncation,
+            paces: self.paces,
         }
     }
 
@@ -200,11 +239,7 @@ impl Simulation {
         self.system.commit();
         self.advance_clock(&step, dt, lands_on);
         self.change_bonds();
-        if self.clock.step.is_multiple_of(validity::LOOK_EVERY) {
-            self.warn_of_drag();
-            self.warn_of_places();
-        }
-        Ok(())
+        self.look_when_due()
     }
 
     fn sort_grains_when_due(&mut self) {
@@ -248,10 +283,32 @@ impl Simulation {
                     phi: scheme.implicitness,
                 })
             }
-            Scheme::Verlet(_) => {
-                let change = verlet::step(&mut self.system, time, dt);
-                Ok(Step { dt, next: self.clock.next_step, change, phi: 0.5 })
+            Scheme::Verlet(_) => self.try_verlet(dt),
+        }
+    }
+
+    /// A step of `dt` [s], or a shorter one where an automatic step would lead to where it is much too long.
+    fn try_verlet(&mut self, dt: f64) -> Result<Step, SimError> {
+        let mut dt = dt;
+        loop {
+            let change = verlet::step(&mut self.system, self.clock.time, dt);
+            let Some(mut tempo) = self.tempo else {
+                return Ok(Step { dt, next: self.clock.next_step, change, phi: 0.5 });
+            };
+            let paces = self.paces.with_fast(Fast::at_trial(&self.system, self.limits.strain));
+            let critical = paces.total().critical_step();
+            if tempo.wanted(critical) < SHORTEST * self.end {
+                let (at, law) = (self.moment(dt), paces.fastest());
+                return Err(SimError::TooFast { at, law, wanted: tempo.wanted(critical) });
             }
+            if let Some(shorter) = tempo.shorter(dt, critical) {
+                dt = shorter;
+                self.clock.rejected += 1;
+                continue;
+            }
+            let next = tempo.next(self.clock.next_step, critical, self.clock.step + 1);
+            self.tempo = Some(tempo);
+            return Ok(Step { dt, next, change, phi: 0.5 });
         }
     }
 
@@ -315,8 +372,9 @@ impl Simulation {
             Some(event) if full => (event, 0.0),
             _ => (clock.time + step.dt, clock.lag + rounding_of_sum(clock.time, step.dt)),
         };
-        // A step cut short by a pulse says little about the next one.
-        clock.next_step = if full && lands_on.is_some() { step.next.max(clock.next_step) } else { step.next };
+        // A step of the staggered scheme that a pulse cut short says little about the next one.
+        let is_cut = full && lands_on.is_some() && matches!(self.scheme, Scheme::Staggered(_));
+        clock.next_step = if is_cut { step.next.max(clock.next_step) } else { step.next };
         clock.last_step = step.dt;
         clock.step += 1;
     }
@@ -326,21 +384,25 @@ impl Simulation {
         let broken = system.break_bonds(self.clock.time);
         self.ledger.flows.broken_bonds += broken.iter().map(|event| event.energy).sum::<f64>();
         self.events.extend(broken);
-        self.events.extend(system.bond_pressed(self.clock.time));
+        let made = system.bond_pressed(self.clock.time);
+        if !made.is_empty() {
+            self.paces.bonds = system.network.pace(&system.grains);
+        }
+        self.events.extend(made);
     }
 
     fn moment(&self, dt: f64) -> Moment {
         Moment { step: self.clock.step + 1, time: self.clock.time, dt }
     }
 
-    fn acting_laws(&self) -> String {
+    pub(super) fn acting_laws(&self) -> String {
         self.system.laws.names().join(", ")
     }
 
     pub(super) fn open_books(&mut self) {
         let stores = self.stores();
         let momentum = self.momentum();
-        self.ledger = Ledger::open(stores, momentum, self.momentum_size());
+        self.ledger = Ledger::open(stores, momentum, self.momentum_size(), self.system.grains.len());
         for warning in self.system.laws.standing_warnings() {
             self.warnings.add(warning);
         }
@@ -356,17 +418,11 @@ impl Simulation {
         self.warn_of_drag();
     }
 
-    fn warn_of_places(&mut self) {
+    pub(super) fn warn_of_places(&mut self) {
         let grains = &self.system.grains;
         let motions = grains.position.iter().zip(&grains.velocity).zip(&grains.radius);
         let motions = motions.map(|((&position, &velocity), &radius)| (position, velocity, radius));
         if let Some(warning) = resolution::warning(motions, self.clock.last_step, self.end) {
-            self.warnings.add(warning);
-        }
-    }
-
-    fn warn_of_drag(&mut self) {
-        if let Some(warning) = validity::of_drag(&self.system.laws, &self.system.grains, self.clock.time) {
             self.warnings.add(warning);
         }
     }
@@ -383,6 +439,15 @@ struct Step {
 fn beam_of(scenario: &Scenario) -> Option<&crate::contact::bond::Beam> {
     match &scenario.bonds {
         Some(Bonds::Beam(law)) => Some(law),
+        _ => None,
+    }
+}
+
+fn tempo_of(scenario: &Scenario) -> Option<Tempo> {
+    match &scenario.engine {
+        Engine::Verlet(scheme) if scheme.step.is_none() => {
+            Some(Tempo::new(scheme.safety, step_size::longest(scenario)))
+        }
         _ => None,
     }
 }

@@ -73,7 +73,7 @@ pub fn step(system: &mut System, scheme: &Staggered, time: f64, dt: f64) -> Resu
     let mut dt = dt;
     let mut rejected = 0;
     loop {
-        system.move_trial(dt, scheme.implicitness, Ahead::AsAtStart);
+        system.move_trial(time, dt, scheme.implicitness, Ahead::AsAtStart);
         let (iterations, change) = iterate(system, scheme, time, dt);
         let error = change.error();
         if error <= scheme.tolerance && change.not_finite.is_none() {
@@ -94,7 +94,7 @@ fn iterate(system: &mut System, scheme: &Staggered, time: f64, dt: f64) -> (u32,
     let mut iteration = 1;
     loop {
         system.evaluate(time + dt, dt);
-        let change = system.move_trial(dt, scheme.implicitness, Ahead::AsAtTrial);
+        let change = system.move_trial(time, dt, scheme.implicitness, Ahead::AsAtTrial);
         let settled = change.error() <= scheme.tolerance;
         if settled || iteration >= scheme.target_iterations || change.not_finite.is_some() {
             return (iteration, change);

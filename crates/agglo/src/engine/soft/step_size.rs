@@ -1,19 +1,36 @@
-//! How long the first step is: given, or worked out from the stiffest contact and bond.
+//! How long a step may be: every law that acts says how fast it is, in its own file; here they are asked and added up.
 //!
 //! # Equation
-//! $$ \Delta t = s \, \min\left( 2\sqrt{m/k_{max}}, \; \frac{\pi R \sqrt{\rho/G}}{0.1631 \nu + 0.8766} \right) $$          (S1)
-//! with k_max the stiffness that a grain can meet: that of the contact at the largest overlap that the limits allow,
-//! or of all its bonds together. The second term is Rayleigh's time, for Hertz contact.
+//! $$ \Delta t = s \, \Delta t_c, \qquad \Delta t_c = \frac{2}{\Gamma + \sqrt{\Gamma^2 + \omega^2}} $$          (S1)
+//! with the sums of Γ and ω² over the laws. A law gives what it can reach: a contact at the largest overlap that the
+//! limits allow (and Rayleigh's wave for Hertz), all bonds of a grain together, the near field at the closest
+//! approach, drag and fields where the grains are. Laws without such a bound (dashpots and friction by contact area,
+//! a near field without contact) are looked at in every step.
 //!
-//! # Source
-//! Rayleigh time: Y. Li, Y. Xu, C. Thornton, *Powder Technol.* 160, 219 (2005).
+//! # Symbols
+//! | symbol | name in code | unit | meaning |
+//! |--------|--------------|------|---------|
+//! | s      | `safety`     | -    | part of the critical step; 0.03 is 50 steps for a contact, and energy to 1e-3 |
+//!
+//! # Valid when
+//! Formulas that change in time are looked at again, but a field that oscillates faster than all of the laws is not
+//! foreseen.
 
-use crate::contact::{Bonds, Normal, Touch};
-use crate::particles::Material;
+use std::ops::Range;
+
+use serde::{Deserialize, Serialize};
+
+use crate::contact::pass::contact_pace;
+use crate::contact::{Bonds, ContactLaws, Damping, Friction, Normal, Touch, normal::Hertz};
+use crate::engine::Engine;
+use crate::math::{Pace, parallel};
 use crate::scenario::Scenario;
 
-use super::system::System;
-use crate::engine::Engine;
+use super::laws::source;
+use super::system::{LEAF, System};
+
+/// Deepest overlap strain that is reckoned with, whatever the limits allow.
+const DEEPEST: f64 = 0.5;
 
 /// The first step [s] of a scenario.
 pub fn first(scenario: &Scenario, system: &System) -> f64 {
@@ -21,69 +38,203 @@ pub fn first(scenario: &Scenario, system: &System) -> f64 {
         Engine::Staggered(scheme) => scheme.initial_step.si().min(scheme.largest_step.si()),
         Engine::Verlet(scheme) => match scheme.step {
             Some(step) => step.si(),
-            None => (scheme.safety * critical(scenario, system)).min(scenario.time.end.si() / 100.0),
+            None => (scheme.safety * critical(scenario, system)).min(longest(scenario)),
         },
         // Hard spheres have no forces that bound a step.
         Engine::EventDriven(_) | Engine::TimeStepped(_) => scenario.time.end.si(),
     }
 }
 
-/// The critical step [s] of explicit integration; infinite where nothing is stiff.
+/// Longest automatic step [s]: a hundredth of the run.
+pub fn longest(scenario: &Scenario) -> f64 {
+    scenario.time.end.si() / 100.0
+}
+
+/// The critical step [s] of explicit integration from the start on; infinite where nothing is fast.
 pub fn critical(scenario: &Scenario, system: &System) -> f64 {
-    rayleigh(scenario, system).min(contact(scenario, system)).min(bonds(scenario, system))
+    let allowed = Some(scenario.limits.strain);
+    Paces::new(system, allowed, 0.0).total().critical_step()
 }
 
-/// Rayleigh's time [s] of a grain of this radius [m]; nothing for a material without a Young's modulus.
-pub fn rayleigh_time(material: &Material, radius: f64) -> Option<f64> {
-    let poisson = material.poisson_ratio.unwrap_or(0.0);
-    let shear = material.youngs_modulus?.si() / (2.0 * (1.0 + poisson));
-    let time = std::f64::consts::PI * radius * (material.density.si() / shear).sqrt();
-    Some(time / (0.1631 * poisson + 0.8766))
+/// How fast the laws are, one by one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Paces {
+    /// Contact laws and the bond that acts in contact.
+    pub contact: Pace,
+    /// Bonds between grains.
+    pub bonds: Pace,
+    /// Drag and the flow of the medium.
+    pub drag: Pace,
+    /// Electric and magnetic force on charges.
+    pub lorentz: Pace,
+    /// Magnetic force.
+    pub magnetic: Pace,
+    /// The near field.
+    pub near_field: Pace,
 }
 
-fn rayleigh(scenario: &Scenario, system: &System) -> f64 {
-    let is_hertz = matches!(scenario.contact.as_ref().map(|laws| &laws.normal), Some(Normal::Hertz(_)));
-    let materials: Vec<_> = scenario.materials.values().collect();
-    let grains = &system.grains;
-    let times = (0..grains.len()).filter_map(|at| {
-        let material = materials[grains.material[at] as usize];
-        rayleigh_time(material, grains.radius[at])
-    });
-    if is_hertz { times.fold(f64::INFINITY, f64::min) } else { f64::INFINITY }
-}
-
-/// From the stiffness of a contact of like grains at the largest overlap that the limits allow.
-fn contact(scenario: &Scenario, system: &System) -> f64 {
-    let Some(laws) = &scenario.contact else { return f64::INFINITY };
-    let grains = &system.grains;
-    let times = (0..grains.len()).map(|at| {
-        let (radius, mass, stiffness) = (grains.radius[at], grains.mass[at], grains.contact_stiffness[at]);
-        let distance = 2.0 * radius * (1.0 - scenario.limits.strain.min(0.5));
-        let touch = Touch::new([radius; 2], [mass; 2], [stiffness; 2], distance);
-        let pair = system.laws.pairs.of(grains.material[at], grains.material[at]);
-        2.0 * (touch.effective_mass / laws.normal.tangent_stiffness(pair, &touch)).sqrt()
-    });
-    times.fold(f64::INFINITY, f64::min)
-}
-
-fn bonds(scenario: &Scenario, system: &System) -> f64 {
-    let Some(Bonds::Beam(law)) = &scenario.bonds else { return f64::INFINITY };
-    let grains = &system.grains;
-    let bonds = system.network.bonds();
-    let mut counts = vec![0_u32; grains.len()];
-    for bond in bonds {
-        bond.grains.iter().for_each(|grain| counts[*grain as usize] += 1);
+impl Paces {
+    /// At a time [s]; contacts reach the strain that is `allowed`, or only what they have reached already.
+    pub fn new(system: &System, allowed: Option<f64>, time: f64) -> Self {
+        let extremes = extremes(system);
+        let reached = system.trial.contact.worst_strain;
+        let strain = allowed.map_or(reached, |strain| strain.max(reached)).min(DEEPEST);
+        let contact = contact(system, &extremes, strain, allowed.is_some());
+        Self {
+            contact: contact.max(system.with_contacts(contact_pace)),
+            bonds: system.network.pace(&system.grains),
+            near_field: near_field(system, &extremes, strain).max(system.near_pace_now()),
+            ..singles(system, time)
+        }
     }
-    let times = bonds.iter().map(|bond| {
-        let places = bond.grains.map(|grain| grain as usize);
-        let arms = places.map(|at| grains.radius[at] / (grains.radius[places[0]] + grains.radius[places[1]]));
-        let step = law.critical_step(
-            &bond.state,
-            places.map(|at| grains.mass[at]),
-            places.map(|at| grains.inertia(at)),
-            arms.map(|arm| arm * bond.state.length),
-        );
-        step / f64::from(counts[places[0]].max(counts[places[1]])).sqrt()
-    });
-    times.fold(f64::INFINITY, f64::min)
+
+    /// With what laws without a bound make of the trial motion.
+    #[must_use]
+    pub fn with_fast(self, fast: Fast) -> Self {
+        let Fast { contact, near_field } = fast;
+        Self { contact: self.contact.max(contact), near_field: self.near_field.max(near_field), ..self }
+    }
+
+    /// All together.
+    pub fn total(&self) -> Pace {
+        self.named().into_iter().fold(Pace::NONE, |sum, (_, pace)| sum + pace)
+    }
+
+    /// The scenario's word for the law that is fastest.
+    pub fn fastest(&self) -> &'static str {
+        let critical = |pace: &Pace| pace.critical_step();
+        let fastest = self.named().into_iter().min_by(|a, b| critical(&a.1).total_cmp(&critical(&b.1)));
+        fastest.map_or("", |(name, _)| name)
+    }
+
+    fn named(&self) -> [(&'static str, Pace); 6] {
+        [
+            ("contact", self.contact),
+            ("bonds", self.bonds),
+            ("fields.drag", self.drag),
+            ("fields.lorentz", self.lorentz),
+            ("fields.magnetic", self.magnetic),
+            ("fields.near_field", self.near_field),
+        ]
+    }
+}
+
+/// Paces that only the motion of the moment tells.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Fast {
+    contact: Pace,
+    near_field: Pace,
+}
+
+impl Fast {
+    /// At the trial motion; the strain is what the limits allow.
+    pub fn at_trial(system: &System, strain: f64) -> Self {
+        let laws = &system.laws;
+        let by_area = laws.contact.as_ref().is_some_and(is_by_area)
+            || matches!(laws.bonds, Some(Bonds::StrainBond(_)))
+            || system.trial.contact.worst_strain > strain;
+        Self {
+            contact: if by_area { system.with_trial_contacts(contact_pace) } else { Pace::NONE },
+            near_field: system.near_pace_at_trial(),
+        }
+    }
+}
+
+/// Whether a law of contact grows with the area of contact, without a bound of its own.
+fn is_by_area(laws: &ContactLaws) -> bool {
+    matches!(laws.damping, Some(Damping::ViscousArea(_)))
+        || matches!(laws.friction, Some(Friction::Regularised(_)))
+}
+
+/// Places of the grains that make a partner's contact fastest: the smallest and largest of each material, and the
+/// most charged.
+fn extremes(system: &System) -> Vec<usize> {
+    let grains = &system.grains;
+    let radius = |at: &usize| grains.radius[*at];
+    let mut places = Vec::new();
+    for material in 0..system.laws.materials.len() {
+        let of_material = || (0..grains.len()).filter(move |at| grains.material[*at] as usize == material);
+        places.extend(of_material().min_by(|a, b| radius(a).total_cmp(&radius(b))));
+        places.extend(of_material().max_by(|a, b| radius(a).total_cmp(&radius(b))));
+    }
+    let charge = |at: &usize| grains.charge[*at].abs();
+    places.extend((0..grains.len()).max_by(|a, b| charge(a).total_cmp(&charge(b))));
+    places
+}
+
+/// Contacts at a strain, of each grain with each of `partners`.
+fn contact(system: &System, partners: &[usize], strain: f64, with_waves: bool) -> Pace {
+    let Some(laws) = system.laws.contact.as_ref().map(ContactLaws::bounded) else { return Pace::NONE };
+    let has_waves = with_waves && matches!(laws.normal, Normal::Hertz(_));
+    let grains = &system.grains;
+    over_grains(system, |at| {
+        let wave =
+            || Hertz::wave_pace(&system.laws.materials[grains.material[at] as usize], grains.radius[at]);
+        let alone = if has_waves { wave() } else { Pace::NONE };
+        let with = |&partner: &usize| {
+            let ends = [at, partner];
+            let radii = ends.map(|k| grains.radius[k]);
+            let touch = Touch::new(
+                radii,
+                ends.map(|k| grains.mass[k]),
+                ends.map(|k| grains.contact_stiffness[k]),
+                (radii[0] + radii[1]) * (1.0 - strain),
+            );
+            laws.pace(system.laws.pairs.of(grains.material[at], grains.material[partner]), &touch)
+        };
+        partners.iter().map(with).fold(alone, Pace::max)
+    })
+}
+
+/// The near field where grains are as close as contact lets them, or its cap.
+fn near_field(system: &System, partners: &[usize], strain: f64) -> Pace {
+    let Some(law) = &system.laws.fields.near_field else { return Pace::NONE };
+    if system.laws.contact.is_none() && !law.law.is_capped() {
+        return Pace::NONE;
+    }
+    let grains = &system.grains;
+    over_grains(system, |at| {
+        let with = |&partner: &usize| {
+            let distance = (grains.radius[at] + grains.radius[partner]) * (1.0 - strain);
+            law.pace(&source(grains, at), &source(grains, partner), distance)
+        };
+        partners.iter().map(with).fold(Pace::NONE, Pace::max)
+    })
+}
+
+/// Forces on single grains, where and how fast these are.
+fn singles(system: &System, time: f64) -> Paces {
+    let (laws, grains) = (&system.laws, &system.grains);
+    let fields = &laws.fields;
+    let mass = |at: usize| system.inertial_mass[at];
+    let drag = |at: usize| {
+        fields.drag.as_ref().map_or(Pace::NONE, |law| {
+            let flow = laws.flow_at(grains.position[at], time);
+            let slip = flow.velocity - grains.velocity[at];
+            law.pace(&laws.medium, grains.radius[at], [mass(at), grains.inertia(at)], slip, &flow)
+        })
+    };
+    let lorentz = |at: usize| {
+        let place = grains.position[at];
+        fields
+            .lorentz
+            .as_ref()
+            .map_or(Pace::NONE, |law| law.pace(grains.charge[at], mass(at), grains.radius[at], place, time))
+    };
+    let magnetic = |at: usize| {
+        let place = grains.position[at];
+        fields.magnetic.as_ref().map_or(Pace::NONE, |law| law.pace(mass(at), grains.radius[at], place, time))
+    };
+    Paces {
+        drag: over_grains(system, drag),
+        lorentz: over_grains(system, lorentz),
+        magnetic: over_grains(system, magnetic),
+        ..Paces::default()
+    }
+}
+
+/// The fastest of all grains.
+pub(super) fn over_grains(system: &System, pace: impl Fn(usize) -> Pace + Sync) -> Pace {
+    let leaf = |range: Range<usize>, ()| range.map(&pace).fold(Pace::NONE, Pace::max);
+    parallel::over(0..system.grains.len(), LEAF, (), &leaf, &Pace::max)
 }

@@ -4,13 +4,14 @@ use std::ops::Range;
 
 use crate::contact::network::{BondEvent, Network};
 use crate::contact::pass::{ContactRates, ContactWorld, Contacts, Remembered};
-use crate::math::{Vec3, parallel};
+use crate::math::{Pace, Vec3, parallel};
 use crate::neighbors::{PairList, morton_order};
 use crate::particles::{Motion, Particles};
 
-use super::laws::{Laws, near_force};
+use super::laws::{Laws, near_force, source};
 use super::loads::{LoadViews, Loads, Rates, Supplies};
 use super::skin::Skin;
+use super::step_size::over_grains;
 
 /// Grains per leaf of the parallel loops.
 pub(super) const LEAF: usize = 1024;
@@ -154,11 +155,17 @@ impl System {
     /// Evaluates the loads at the committed motion, before the first step; `dt` [s] is the length of that. No time
     /// has passed for springs of contacts and bonds, which begin without load.
     pub fn evaluate_start(&mut self, dt: f64) {
+        self.list_neighbors();
+        self.evaluate_after(0.0, 0.0, dt);
+        self.commit();
+    }
+
+    /// Lists the neighbors at the committed motion, so that pairs can be looked at before the first step.
+    pub fn list_neighbors(&mut self) {
         self.trial.position.clone_from(&self.grains.position);
         self.trial.velocity.clone_from(&self.grains.velocity);
         self.trial.spin.clone_from(&self.grains.spin);
-        self.evaluate_after(0.0, 0.0, dt);
-        self.commit();
+        self.bring_lists_up_to_date();
     }
 
     /// Factor from the loads of rays to forces in a step of `dt` [s].
@@ -169,7 +176,16 @@ impl System {
 
     /// Shows what the contact laws see at the committed motion.
     pub fn with_contacts<R>(&self, look: impl FnOnce(&ContactWorld<'_>) -> R) -> R {
-        let motion = self.motion();
+        self.with_contacts_at(self.motion(), look)
+    }
+
+    /// The same at the trial motion.
+    pub fn with_trial_contacts<R>(&self, look: impl FnOnce(&ContactWorld<'_>) -> R) -> R {
+        let Trial { position, velocity, spin, .. } = &self.trial;
+        self.with_contacts_at(Motion { position, velocity, spin }, look)
+    }
+
+    fn with_contacts_at<R>(&self, motion: Motion<'_>, look: impl FnOnce(&ContactWorld<'_>) -> R) -> R {
         let laws = &self.laws;
         look(&ContactWorld {
             grains: &self.grains,
@@ -206,6 +222,34 @@ impl System {
     /// Pairs within the near field's cut-off and a little more; nothing where all pairs count.
     pub fn near_list(&self) -> Option<&PairList> {
         self.laws.fields.near_field.as_ref().and_then(|law| law.cutoff).map(|_| &self.near)
+    }
+
+    /// How fast the fastest pair of the near field is where grains are.
+    pub fn near_pace_now(&self) -> Pace {
+        self.near_pace(&self.grains.position)
+    }
+
+    /// The same at the trial motion, where neither a contact nor the law's own cap keeps grains apart; else nothing.
+    pub fn near_pace_at_trial(&self) -> Pace {
+        let is_capped = self.laws.fields.near_field.as_ref().is_none_or(|law| law.law.is_capped());
+        if is_capped || self.laws.contact.is_some() {
+            return Pace::NONE;
+        }
+        self.near_pace(&self.trial.position)
+    }
+
+    fn near_pace(&self, positions: &[Vec3]) -> Pace {
+        let Some(law) = &self.laws.fields.near_field else { return Pace::NONE };
+        let pace = |a: usize, b: usize| {
+            let distance = (positions[b] - positions[a]).norm();
+            law.pace(&source(&self.grains, a), &source(&self.grains, b), distance)
+        };
+        over_grains(self, |a| match self.near_list() {
+            Some(list) => {
+                list.owned(a).map(|pair| pace(a, list.partners()[pair] as usize)).fold(Pace::NONE, Pace::max)
+            }
+            None => (a + 1..self.grains.len()).map(|b| pace(a, b)).fold(Pace::NONE, Pace::max),
+        })
     }
 
     /// Energy [J] of the tangential springs of contacts.
@@ -307,7 +351,9 @@ impl Gather<'_> {
                 }
             }
             if has_single {
-                force += self.laws.on_single(self.grains, &self.now, grain, self.time, &mut supplies);
+                let single = self.laws.on_single(self.grains, &self.now, grain, self.time, &mut supplies);
+                force += single.force;
+                moment += single.moment;
             }
             views.force[slot] = force;
             views.moment[slot] = moment;

@@ -57,7 +57,7 @@ fn half() -> f64 {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Verlet {
-    /// The step; worked out from the contact and bond stiffness if left out.
+    /// The step; worked out from all laws that act, and looked at again in every step, if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub step: Option<Time>,
     /// Part of the critical step that the automatic step takes.
@@ -66,7 +66,7 @@ pub struct Verlet {
 }
 
 fn default_safety() -> f64 {
-    0.1
+    0.03
 }
 
 /// Bounds beyond which the physics is not to be believed.
@@ -82,15 +82,33 @@ pub struct Limits {
     /// What happens beyond.
     #[serde(default)]
     pub on_breach: Breach,
+    /// Energy that the ledger does not explain, over all that was there or came in, from which on the run warns.
+    #[serde(default = "default_drift_warning")]
+    pub drift_warning: f64,
+    /// The same from which on the run ends with an error; a run with a published law that does not converge only warns.
+    #[serde(default = "default_drift_error")]
+    pub drift_error: f64,
 }
 
 fn default_strain() -> f64 {
     0.1
 }
+fn default_drift_warning() -> f64 {
+    1e-3
+}
+fn default_drift_error() -> f64 {
+    0.1
+}
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { displacement: half(), strain: default_strain(), on_breach: Breach::default() }
+        Self {
+            displacement: half(),
+            strain: default_strain(),
+            on_breach: Breach::default(),
+            drift_warning: default_drift_warning(),
+            drift_error: default_drift_error(),
+        }
     }
 }
 

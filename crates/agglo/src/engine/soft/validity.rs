@@ -3,13 +3,11 @@
 use crate::acoustics::{Beam, Medium};
 use crate::contact::Bonds;
 use crate::contact::network::Network;
-use crate::fields::DragLaw;
+use crate::fields::{Drag, DragLaw};
 use crate::particles::Particles;
 
 use super::laws::Laws;
 
-/// Steps between two looks. Counted in steps, so that a resumed run looks at the same moments.
-pub const LOOK_EVERY: u64 = 100;
 /// Below this wave number times radius sound goes around a grain.
 const SMALLEST_KA: f64 = 10.0;
 /// Above this Reynolds number Stokes' law is more than 15 % off.
@@ -32,8 +30,8 @@ pub fn of_drag(laws: &Laws, grains: &Particles, time: f64) -> Option<&'static st
         ),
     };
     let is_above = |at: usize| {
-        let (radius, velocity, position) = (grains.radius[at], grains.velocity[at], grains.position[at]);
-        drag.reynolds(&laws.medium, radius, velocity, position, time) > limit
+        let flow = laws.flow_at(grains.position[at], time);
+        Drag::reynolds(&laws.medium, grains.radius[at], grains.velocity[at], &flow) > limit
     };
     (0..grains.len()).any(is_above).then_some(warning)
 }

@@ -24,8 +24,8 @@ use super::system::System;
 
 /// Makes the trial the motion after `dt` [s] from `time` [s].
 pub fn step(system: &mut System, time: f64, dt: f64) -> Change {
-    let change = system.move_trial(dt, 0.5, Ahead::AsAtStart);
+    let change = system.move_trial(time, dt, 0.5, Ahead::AsAtStart);
     system.evaluate(time + dt, dt);
-    system.correct_velocities(dt);
+    system.correct_velocities(time + dt, dt);
     change
 }

@@ -58,6 +58,12 @@ impl Coulomb {
         self.energy(a, b, distance) / distance
     }
 
+    /// Size of the gradient of the force [N/m] at a distance [m]: along the line of centres, where it is largest.
+    #[inline]
+    pub fn gradient(&self, a: &Source, b: &Source, distance: f64) -> f64 {
+        2.0 * self.force(a, b, distance).abs() / distance
+    }
+
     /// Energy [J], zero at infinity.
     #[inline]
     pub fn energy(&self, a: &Source, b: &Source, distance: f64) -> f64 {

@@ -17,6 +17,7 @@ pub use coulomb::Coulomb;
 pub use power_pair::{PowerPair, Scaling};
 pub use van_der_waals::VanDerWaals;
 
+use crate::math::Pace;
 use crate::units::Length;
 
 /// The near field: a law, and how far it is followed.
@@ -28,6 +29,13 @@ pub struct NearField {
     /// Distance of centres beyond which it is left out; all pairs if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cutoff: Option<Length>,
+    /// Largest error of the forces (root mean square, over that of all pairs) that the cut-off may cause at the start.
+    #[serde(default = "default_truncation")]
+    pub truncation: f64,
+}
+
+fn default_truncation() -> f64 {
+    0.05
 }
 
 /// The closed set of near-field laws.
@@ -75,6 +83,20 @@ impl NearFieldLaw {
         }
     }
 
+    /// Size of the gradient of the force [N/m], or a bound on it, at a distance of centres [m].
+    pub fn gradient(&self, a: &Source, b: &Source, distance: f64) -> f64 {
+        match self {
+            Self::PowerPair(law) => law.gradient(a, b, distance),
+            Self::Coulomb(law) => law.gradient(a, b, distance),
+            Self::VanDerWaals(law) => law.gradient(a, b, distance),
+        }
+    }
+
+    /// Whether the gradient has a bound however close grains come.
+    pub fn is_capped(&self) -> bool {
+        matches!(self, Self::VanDerWaals(_))
+    }
+
     /// The power b with which the force falls off at least as fast as d^-b beyond any distance.
     fn slowest_decay(&self) -> f64 {
         match self {
@@ -99,6 +121,15 @@ impl NearField {
     #[inline]
     pub fn force(&self, a: &Source, b: &Source, distance: f64) -> f64 {
         if self.is_beyond(distance) { 0.0 } else { self.law.force(a, b, distance) }
+    }
+
+    /// How fast two grains are at a distance of centres [m], by the gradient of the force; at closest approach where
+    /// that is to come.
+    pub fn pace(&self, a: &Source, b: &Source, distance: f64) -> Pace {
+        if self.is_beyond(distance) {
+            return Pace::NONE;
+        }
+        Pace::of_spring(self.law.gradient(a, b, distance), a.mass * b.mass / (a.mass + b.mass))
     }
 
     /// Energy [J] whose slope the force is: zero at infinity, or from the cut-off on where there is one.
@@ -168,7 +199,7 @@ mod tests {
     fn force_is_minus_the_slope_of_energy_with_and_without_cutoff() {
         for law in every_law() {
             for cutoff in [None, Some(Quantity(0.08))] {
-                let near = NearField { law: law.clone(), cutoff };
+                let near = NearField { law: law.clone(), cutoff, truncation: 0.05 };
                 for distance in [0.006, 0.01, 0.05] {
                     let energy = |d| -near.energy(&A, &B, d);
                     assert_slope(distance, energy, |d| near.force(&A, &B, d));
@@ -178,10 +209,35 @@ mod tests {
         }
     }
 
+    /// Against a central difference of the force; a bound where two terms of a power pair differ in sign.
+    #[test]
+    fn the_gradient_is_the_slope_of_the_force() {
+        for law in every_law() {
+            for distance in [0.006_000_1, 0.01, 0.05] {
+                let h = 1e-4 * (distance - 0.005);
+                let slope = (law.force(&A, &B, distance + h) - law.force(&A, &B, distance - h)) / (2.0 * h);
+                let across = law.force(&A, &B, distance) / distance;
+                let gradient = law.gradient(&A, &B, distance);
+                assert!(gradient >= (1.0 - 1e-6) * slope.abs().max(across.abs()), "{law:?} {distance}");
+                if !matches!(law, NearFieldLaw::PowerPair(_)) {
+                    assert!((gradient / slope.abs() - 1.0).abs() < 1e-6, "{law:?} {distance}");
+                }
+            }
+        }
+        let (hamaker, smallest_gap) = (Quantity(1e-19), Quantity(4e-10));
+        let capped = VanDerWaals { hamaker, smallest_gap };
+        let grain = Source { radius: 1e-6, ..Source::default() };
+        // A R*/(3 g³) at the smallest gap, to O(g/R).
+        let by_hand = 1e-19 * 0.5e-6 / (3.0 * 4e-10_f64.powi(3));
+        for distance in [2e-6, 2e-6 + 4e-10] {
+            assert!((capped.gradient(&grain, &grain, distance) / by_hand - 1.0).abs() < 1e-3);
+        }
+    }
+
     #[test]
     fn beyond_the_cutoff_there_is_nothing() {
         for law in every_law() {
-            let near = NearField { law, cutoff: Some(Quantity(0.02)) };
+            let near = NearField { law, cutoff: Some(Quantity(0.02)), truncation: 0.05 };
             assert_eq!([near.force(&A, &B, 0.021), near.energy(&A, &B, 0.021)], [0.0, 0.0]);
             assert_eq!(near.energy(&A, &B, 0.02), 0.0);
             let largest = near.truncation_error(&A, &B);
@@ -203,15 +259,15 @@ mod tests {
             repulsion_exponent: 9.0,
         };
         let cutoff = Some(Quantity(0.5));
-        let near = NearField { law: NearFieldLaw::PowerPair(power), cutoff };
+        let near = NearField { law: NearFieldLaw::PowerPair(power), cutoff, truncation: 0.05 };
         let by_hand = std::f64::consts::PI * 100.0 * 2.0 * 10.0 / 3.0 / 0.5_f64.powi(3);
         assert!((near.truncation_error_in_cloud(&A, &B, 100.0) / by_hand - 1.0).abs() < 1e-14);
-        let coulomb =
-            NearField { law: NearFieldLaw::Coulomb(Coulomb { relative_permittivity: 1.0 }), cutoff };
+        let law = NearFieldLaw::Coulomb(Coulomb { relative_permittivity: 1.0 });
+        let coulomb = NearField { law, cutoff, truncation: 0.05 };
         assert_eq!(coulomb.truncation_error_in_cloud(&A, &B, 1.0), f64::INFINITY);
         let (hamaker, smallest_gap) = (Quantity(1e-19), Quantity(1e-7));
         let law = NearFieldLaw::VanDerWaals(VanDerWaals { hamaker, smallest_gap });
-        let near = NearField { law, cutoff: Some(Quantity(0.006)) };
+        let near = NearField { law, cutoff: Some(Quantity(0.006)), truncation: 0.05 };
         let (mut sum, shells) = (0.0, 200_000);
         for k in 0..shells {
             let d = 0.006 + (f64::from(k) + 0.5) * 1e-6;

@@ -116,6 +116,16 @@ impl PowerPair {
         self.scale(a, b) * (repulsion - attraction)
     }
 
+    /// Bound on the gradient of the force [N/m] at a distance [m], along the line of centres and across it.
+    pub fn gradient(&self, a: &Source, b: &Source, distance: f64) -> f64 {
+        let term = |size: f64, exponent: f64| {
+            size.abs() * exponent.abs().max(1.0) * inverse_power(distance, exponent + 1.0)
+        };
+        self.scale(a, b).abs()
+            * (term(self.repulsion, self.repulsion_exponent)
+                + term(self.attraction, self.attraction_exponent))
+    }
+
     /// Energy [J], zero at infinity where both powers are above 1.
     pub fn energy(&self, a: &Source, b: &Source, distance: f64) -> f64 {
         let repulsion = self.repulsion * tail(distance, self.repulsion_exponent);

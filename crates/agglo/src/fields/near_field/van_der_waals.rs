@@ -71,6 +71,15 @@ impl VanDerWaals {
         -32.0 / 3.0 * self.hamaker.si() * product * (radii + gap) * ratio * ratio
     }
 
+    /// Size of the gradient of the force [N/m] at a distance [m]; at the smallest gap for all that are closer.
+    pub fn gradient(&self, a: &Source, b: &Source, distance: f64) -> f64 {
+        let radii = a.radius + b.radius;
+        let gap = (distance - radii).max(self.smallest_gap.si());
+        let (_, outer, inner) = products(a, b, gap);
+        let reach = radii + gap;
+        self.force(a, b, reach).abs() * (4.0 * reach * (1.0 / outer + 1.0 / inner) - 1.0 / reach)
+    }
+
     /// Energy [J], zero at infinity; smooth at the cap.
     pub fn energy(&self, a: &Source, b: &Source, distance: f64) -> f64 {
         let gap = distance - a.radius - b.radius;

@@ -11,6 +11,7 @@ pub use summary::HardSummary;
 use serde::{Deserialize, Serialize};
 
 use crate::engine::hard::{Clock, Simulation, SimulationState};
+use crate::engine::soft::RestWatch;
 use crate::engine::{Engine, SimError};
 use crate::measure::{BreakageRow, DaughterRow, KernelRow};
 use crate::particles::Particles;
@@ -59,7 +60,7 @@ impl Job for Hard {
 
     const TABLES: Layout = rows::TABLES;
 
-    fn start(scenario: &Scenario, grains: Particles) -> Result<Self, SimError> {
+    fn start(scenario: &Scenario, grains: Particles, _: &mut RestWatch<'_>) -> Result<Self, SimError> {
         let simulation = Simulation::start(scenario, &grains)?;
         let mean_radius_at_start = Growth::of(&simulation.snapshot()).mean_radius;
         let memory = Memory { mean_radius_at_start, last_row: LastRow::of(&simulation) };

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::engine::hard::Simulation;
 use crate::engine::hard::books::{Balance, Counts};
+use crate::engine::soft::Limits;
 use crate::run::summary::{time_row, wall_row, warnings_row};
 use crate::scenario::{Scenario, readable};
 
@@ -263,6 +264,7 @@ impl HardSummary {
         ]);
         rows.extend(self.scale_rows());
         rows.extend(self.false_heat_row());
+        rows.extend(self.unexplained_row());
         rows.extend([
             ("energy drift", format!("{:.3e} of all energy", self.energy.drift_relative)),
             ("momentum drift", format!("{:.3e} of all momentum", self.momentum_drift_relative)),
@@ -284,6 +286,15 @@ impl HardSummary {
         });
         let reynolds = self.reynolds_number.map(|reynolds| ("Reynolds number", format!("{reynolds:.2e}")));
         [gravity, biot, reynolds].into_iter().flatten()
+    }
+
+    /// What is not to be overlooked.
+    fn unexplained_row(&self) -> Option<(&'static str, String)> {
+        let part = self.energy.unexplained();
+        let is_alarming = part > Limits::default().drift_warning;
+        is_alarming.then(|| {
+            ("unexplained energy", format!("{part:.3e} of all energy: these figures are not to be believed"))
+        })
     }
 
     /// What the drift of energy does not show: the ledger takes it as a flow of its own.

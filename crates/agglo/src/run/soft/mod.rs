@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::contact::bond::Break;
 use crate::contact::network::BondEvent;
 use crate::engine::SimError;
-use crate::engine::soft::{Clock, Simulation, SimulationState};
+use crate::engine::soft::{Clock, RestWatch, Simulation, SimulationState};
 use crate::particles::Particles;
 use crate::record::{Cell, RecordError};
 use crate::scenario::Scenario;
@@ -58,8 +58,8 @@ impl Job for Soft {
 
     const TABLES: Layout = rows::TABLES;
 
-    fn start(scenario: &Scenario, grains: Particles) -> Result<Self, SimError> {
-        let simulation = Simulation::start(scenario, grains)?;
+    fn start(scenario: &Scenario, grains: Particles, watch: &mut RestWatch<'_>) -> Result<Self, SimError> {
+        let simulation = Simulation::start_watched(scenario, grains, watch)?;
         let start = Together::of(&simulation, scenario.measures.cluster_gap).clusters();
         Ok(Self::with(scenario, simulation, start))
     }

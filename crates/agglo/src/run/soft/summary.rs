@@ -56,6 +56,9 @@ pub struct SoftSummary {
     pub bonds_broken_fraction: Option<f64>,
     /// The ledger of energy.
     pub energy: EnergyFigures,
+    /// Part of the forces that the near field's cut-off left out at the start (root mean square); null without one.
+    #[serde(default)]
+    pub near_field_truncation: Option<f64>,
     /// Momentum that impulses do not explain, over the grains' momenta.
     pub momentum_drift_relative: f64,
     /// Warnings, with how often each came up.
@@ -143,6 +146,19 @@ pub struct EnergyFigures {
     /// The channels and the drift.
     #[serde(flatten)]
     pub balance: Balance,
+    /// Largest part of all energy that was not explained at any look.
+    #[serde(default)]
+    pub unexplained_largest: f64,
+    /// The part from which on the run warns, `limits.drift_warning`.
+    #[serde(default)]
+    pub unexplained_limit: f64,
+}
+
+impl EnergyFigures {
+    /// Whether so much is not explained that the run warned.
+    pub fn is_alarming(&self) -> bool {
+        self.unexplained_largest > self.unexplained_limit
+    }
 }
 
 impl SoftSummary {
@@ -177,7 +193,12 @@ impl SoftSummary {
             bonds_start,
             bonds_end,
             bonds_broken_fraction: (bonds_start > 0).then(|| 1.0 - bonds_end as f64 / bonds_start as f64),
-            energy: EnergyFigures { balance: simulation.balance() },
+            energy: EnergyFigures {
+                balance: simulation.balance(),
+                unexplained_largest: simulation.ledger.worst,
+                unexplained_limit: simulation.drift_warning(),
+            },
+            near_field_truncation: simulation.truncation,
             momentum_drift_relative: simulation.momentum_drift_relative(),
             warnings: simulation.warnings.counts().clone(),
         }
@@ -217,7 +238,19 @@ impl SoftSummary {
         row("clusters", largest(&self.clusters));
         let [degree, since] = [self.dispersion_degree, self.dispersion_degree_relative];
         row("dispersion degree", format!("{degree:.4}; {since:.4} relative to the start"));
+        if let Some(part) = self.near_field_truncation {
+            row("near-field cut-off", format!("left out {:.2} % of the forces at the start", 100.0 * part));
+        }
         row("energy drift", format!("{:.3e} of all energy", self.energy.balance.drift_relative));
+        if self.energy.is_alarming() {
+            row(
+                "unexplained energy",
+                format!(
+                    "up to {:.3e} of all energy, above limits.drift_warning = {:e}: make the step smaller",
+                    self.energy.unexplained_largest, self.energy.unexplained_limit
+                ),
+            );
+        }
         row("momentum drift", format!("{:.3e} of all momentum", self.momentum_drift_relative));
         row("warnings", warnings_row(&self.warnings));
         rows

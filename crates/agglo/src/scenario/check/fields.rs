@@ -49,6 +49,7 @@ fn near_field(check: &mut Check, scenario: &Scenario, law: &NearField) {
             check.fail_with("fields.near_field.cutoff", message, "it counts from centre to centre");
         }
     }
+    check.above_zero("fields.near_field.truncation", law.truncation);
     match &law.law {
         NearFieldLaw::PowerPair(_) => {}
         NearFieldLaw::Coulomb(law) => {

@@ -18,6 +18,8 @@ pub(super) fn check(check: &mut Check, scenario: &Scenario) {
     engine(check, &scenario.engine);
     check.above_zero("limits.displacement", scenario.limits.displacement);
     check.above_zero("limits.strain", scenario.limits.strain);
+    check.above_zero("limits.drift_warning", scenario.limits.drift_warning);
+    check.above_zero("limits.drift_error", scenario.limits.drift_error);
     check.zero_or_more("measures.cluster_gap", scenario.measures.cluster_gap);
     if let Some(relax) = &scenario.start.relax {
         check.positive("start.relax.speed", relax.speed);

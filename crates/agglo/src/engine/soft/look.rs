@@ -1,0 +1,90 @@
+//! What the simulation looks at now and then: whether its laws hold, its step is short enough, and its energy is
+//! accounted for.
+
+use crate::engine::{Moment, SimError};
+
+use super::simulation::Simulation;
+use super::step_size::Paces;
+use super::types::Scheme;
+use super::validity;
+
+/// Steps between two looks at most. Counted in steps, so that a resumed run looks at the same moments.
+const LOOK_EVERY: usize = 100;
+
+const UNEXPLAINED: &str =
+    "energy that the ledger does not explain is above limits.drift_warning: make the step smaller";
+
+impl Simulation {
+    /// Steps between two looks: fewer where grains are few and a look costs little.
+    fn look_every(&self) -> u64 {
+        self.system.grains.len().clamp(1, LOOK_EVERY) as u64
+    }
+
+    /// Looks, if it is time to.
+    ///
+    /// # Errors
+    /// [`SimError::Unexplained`] where more energy is unexplained than limits allow.
+    pub(super) fn look_when_due(&mut self) -> Result<(), SimError> {
+        let is_due = self.clock().step.is_multiple_of(self.look_every()) || self.is_finished();
+        if is_due { self.look() } else { Ok(()) }
+    }
+
+    /// # Errors
+    /// As [`Simulation::look_when_due`].
+    pub(super) fn look(&mut self) -> Result<(), SimError> {
+        self.warn_of_drag();
+        self.warn_of_places();
+        self.look_at_the_step();
+        self.look_at_the_energy()
+    }
+
+    pub(super) fn warn_of_drag(&mut self) {
+        if let Some(warning) = validity::of_drag(&self.system.laws, &self.system.grains, self.clock().time) {
+            self.warnings.add(warning);
+        }
+    }
+
+    /// Looks again at how fast the laws are; where the step is given, warns if it is too long for them.
+    fn look_at_the_step(&mut self) {
+        let time = self.clock().time;
+        if self.tempo.is_some() {
+            self.paces = Paces::new(&self.system, Some(self.limits.strain), time);
+            return;
+        }
+        let reached = Paces::new(&self.system, None, time);
+        if self.clock().last_step > reached.total().critical_step() {
+            let (name, advice) = match self.scheme {
+                Scheme::Verlet(_) => ("engine.verlet.step", "leave it out, or make it shorter"),
+                Scheme::Staggered(_) => ("engine.staggered", "make largest_step shorter"),
+            };
+            let law = reached.fastest();
+            self.warnings
+                .add(&format!("{name}: a step was longer than the critical step of {law}; {advice}"));
+        }
+    }
+
+    fn look_at_the_energy(&mut self) -> Result<(), SimError> {
+        let stores = self.stores();
+        let part = self.ledger.note(stores);
+        if part.is_nan() || part > self.limits.drift_warning {
+            self.warnings.add(UNEXPLAINED);
+        }
+        if part > self.limits.drift_error && !self.is_published() {
+            let clock = self.clock();
+            let at = Moment { step: clock.step, time: clock.time, dt: clock.last_step };
+            let limit = self.limits.drift_error;
+            return Err(SimError::Unexplained { at, part, limit, laws: self.acting_laws() });
+        }
+        Ok(())
+    }
+
+    /// Unexplained part of the energy from which on the run warns.
+    pub fn drift_warning(&self) -> f64 {
+        self.limits.drift_warning
+    }
+
+    /// Whether a law acts that does not converge: its energy is not to be explained.
+    fn is_published(&self) -> bool {
+        !self.system.laws.standing_warnings().is_empty() || !self.pulses.standing_warnings().is_empty()
+    }
+}
