@@ -62,13 +62,15 @@ fn every_file_is_there() {
     }
 }
 
-/// Turns are multiples of the interval; the engine that goes from impact to impact stops there to the last bit.
+/// Turns are multiples of the interval; the engine that goes from impact to impact stops there. Where a frame is due at the same
+/// time but for rounding, one stop serves both: 4 eps.
 #[test]
 fn rows_of_the_event_driven_engine_are_at_their_exact_times() {
     let times = Table::read(reference(EVENTS), "series/grains.csv").numbers("time_s");
     assert_eq!(times.len(), 201);
     for (turn, time) in times[..200].iter().enumerate() {
-        assert_eq!(*time, if turn == 0 { 0.0 } else { turn as f64 * 5e-6 });
+        let due = turn as f64 * 5e-6;
+        assert!((time - due).abs() <= 4.0 * f64::EPSILON * due, "{time} {due}");
     }
 }
 
@@ -179,7 +181,7 @@ fn growth_in_the_summary_is_that_of_the_tables() {
             ("mean_radius_m", "mean_radius_m"),
             ("radius_ratio", "radius_ratio"),
             ("n_f", "n_f"),
-            ("pi", "pi"),
+            ("growth_deficit", "growth_deficit"),
             ("largest_radius_m", "largest_radius_m"),
             ("mean_temperature_K", "temperature_mean_K"),
             ("highest_temperature_K", "temperature_highest_K"),
@@ -191,7 +193,9 @@ fn growth_in_the_summary_is_that_of_the_tables() {
         // Equal grains of 0.4 mm at the start: b* = n^(1/3) 0.4 mm.
         assert_eq!(number(&all, "mean_radius_start_m"), 4e-4);
         let united = number(&all, "grains_start").cbrt() * 4e-4;
-        assert!((number(&all, "pi") - (1.0 - number(&all, "mean_radius_m") / united)).abs() < 1e-12);
+        assert!(
+            (number(&all, "growth_deficit") - (1.0 - number(&all, "mean_radius_m") / united)).abs() < 1e-12
+        );
         let ratio = number(&all, "radius_ratio");
         assert!((number(&all, "n_f") / ratio.powi(3) - 1.0).abs() < 1e-14);
         assert!(number(&all, "largest_radius_ratio") > ratio && ratio > 1.0);

@@ -93,7 +93,7 @@ fn assert_genealogy(run: &Path) {
 /// Figures against one another and against the last row of the tables.
 fn assert_figures(run: &Path, grains: f64) {
     let all = summary(run);
-    let [ratio, n_f, pi] = ["radius_ratio", "n_f", "pi"].map(|key| number(&all, key));
+    let [ratio, n_f, pi] = ["radius_ratio", "n_f", "growth_deficit"].map(|key| number(&all, key));
     assert!((n_f / ratio.powi(3) - 1.0).abs() < 1e-14);
     let [mean, start] = ["mean_radius_m", "mean_radius_start_m"].map(|key| number(&all, key));
     assert!((ratio - mean / start).abs() < 2e-15 * ratio);
@@ -110,7 +110,7 @@ fn assert_figures(run: &Path, grains: f64) {
     for (table, column, key) in [
         ("series/grains.csv", "grains", "grains_end"),
         ("series/grains.csv", "radius_ratio", "radius_ratio"),
-        ("series/grains.csv", "pi", "pi"),
+        ("series/grains.csv", "growth_deficit", "growth_deficit"),
         ("series/impacts.csv", "impacts", "impacts"),
         ("series/impacts.csv", "fragmentations", "fragmentations"),
         ("series/impacts.csv", "merges", "merges"),

@@ -105,15 +105,20 @@ fn flights(scenario: &Scenario, pushes: &[Push]) -> f64 {
 /// Bytes of a run's folder: what was written, and as much more as is due until the end.
 pub(super) fn of_files(plan: &mut Plan, scenario: &Scenario, tried: &Rehearsal, pushes: &[Push]) {
     let Some(weights) = tried.weights.filter(|_| tried.trouble.is_none()) else { return };
-    let Output { series, frames, .. } = scenario.resolved().output;
+    let Output { series, frames, pulses, .. } = scenario.resolved().output;
     let left = scenario.time.end.si() - tried.time;
-    let due = |interval: Option<Time>| interval.map_or(0.0, |interval| left / interval.si());
-    let flying_part =
-        if left > 0.0 { (flights(scenario, pushes) - tried.flying.all.time).max(0.0) / left } else { 0.0 };
-    let quiet = weights.frame.or(weights.flying_frame).unwrap_or(0.0);
-    let flying = weights.flying_frame.unwrap_or(quiet);
-    let frame = quiet + flying_part.min(1.0) * (flying - quiet);
+    let flying_left = (flights(scenario, pushes) - tried.flying.all.time).clamp(0.0, left);
+    let due = |interval: Option<Time>, time: f64| interval.map_or(0.0, |interval| time / interval.si());
+    // While rays fly the denser of two intervals holds.
+    let dense = pulses.unwrap_or_default();
+    let flying =
+        |often: Option<Time>, always: Option<Time>| due(often, flying_left).max(due(always, flying_left));
+    let quiet_left = left - flying_left;
+    let rows = due(series, quiet_left) + flying(dense.series, series);
+    let frame = weights.frame.or(weights.flying_frame).unwrap_or(0.0);
+    let frames = due(frames, quiet_left) * frame
+        + flying(dense.frames, frames) * weights.flying_frame.unwrap_or(frame);
     let kept = CHECKPOINTS_KEPT * weights.checkpoint;
     let report = BYTES_PER_REPORT + BYTES_PER_SHOWN_GRAIN * counts::shown_grains(plan, scenario);
-    plan.disk = Some(weights.so_far + due(series) * weights.row + due(frames) * frame + kept + report);
+    plan.disk = Some(weights.so_far + rows * weights.row + frames + kept + report);
 }

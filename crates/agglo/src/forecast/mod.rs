@@ -16,9 +16,10 @@ use std::fmt;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use crate::engine::SimError;
 use crate::packing::{PackingError, place_groups};
 use crate::particles::Particles;
-use crate::run::{Rehearsal, rehearse};
+use crate::run::{Rehearsal, RunError, rehearse};
 use crate::scenario::Scenario;
 use crate::scenario::figures::{digits, readable};
 use gas::Gas;
@@ -121,19 +122,15 @@ impl Plan {
             self.notes.push(format!("steps and time are not known: {reason}"));
             return None;
         }
-        let mut tried = scenario.clone();
-        if tried.start.relax.take().is_some() {
-            self.notes.push(
-                "start.relax: how long it takes is not known; time and steps are without it".to_owned(),
-            );
+        let mut tried = rehearse(scenario, grains.clone(), budget);
+        if matches!(tried, Err(RunError::Start(SimError::StoppedAtRest))) {
+            let what = "start.relax takes long: how long is not known; steps and time are without it";
+            self.notes.push(what.to_owned());
+            let mut hasty = scenario.clone();
+            hasty.start.relax = None;
+            tried = rehearse(&hasty, grains, budget);
         }
-        match rehearse(&tried, grains, budget) {
-            Ok(rehearsal) => Some(rehearsal),
-            Err(error) => {
-                self.notes.push(format!("a run would fail at its start: {error}"));
-                None
-            }
-        }
+        tried.map_err(|error| self.notes.push(format!("a run would fail at its start: {error}"))).ok()
     }
 
     fn rows(&self) -> Vec<(String, String)> {

@@ -259,3 +259,13 @@ fn beams_that_cannot_do_what_they_say_are_noted() {
     };
     assert!(!among(&beside("0.3201 mm")) && among(&beside("0.3199 mm")));
 }
+
+/// Grains that take longer to come to rest than a forecast waits are tried without it, and the plan says so.
+#[test]
+fn rest_that_takes_long_is_left_out() {
+    let scenario = Scenario::from_toml(include_str!("../../tests/scenario/good/every_choice.toml")).unwrap();
+    assert!(scenario.start.relax.is_some());
+    let no_patience = Effort { budget: Duration::ZERO, ..Effort::default() };
+    let plan = Plan::with(&scenario, Path::new("tests/scenario/good"), no_patience).unwrap();
+    assert!(plan.notes.iter().any(|note| note.contains("start.relax takes long")), "{plan}");
+}

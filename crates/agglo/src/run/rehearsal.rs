@@ -9,6 +9,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use crate::engine::SimError;
+use crate::engine::soft::Resting;
 use crate::particles::Particles;
 use crate::record::{RecordError, checkpoint};
 use crate::scenario::Scenario;
@@ -22,6 +23,9 @@ use super::{RunError, Summary, on_a_worker};
 
 /// Events of hard spheres are handed on at least so often in the simulated time.
 const LOOKS: f64 = 2000.0;
+
+/// Grains may take so many times the budget to come to rest.
+const PATIENCE: u32 = 2;
 
 /// Simulated time, steps and time on the clock that belong together.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -107,7 +111,7 @@ pub struct Rehearsal {
 /// Tries the start of a run and as many steps as fit into `budget`, one at least.
 ///
 /// # Errors
-/// [`RunError::Start`] where the start fails.
+/// [`RunError::Start`] where the start fails, or where grains take longer than twice the budget to come to rest.
 pub fn rehearse(scenario: &Scenario, grains: Particles, budget: Duration) -> Result<Rehearsal, RunError> {
     let scenario = scenario.resolved();
     let go = if scenario.engine.is_hard() { sit::<Hard> } else { sit::<Soft> };
@@ -116,7 +120,14 @@ pub fn rehearse(scenario: &Scenario, grains: Particles, budget: Duration) -> Res
 
 fn sit<J: Job>(scenario: &Scenario, grains: Particles, budget: Duration) -> Result<Rehearsal, SimError> {
     let sat_down = Instant::now();
-    let mut job = J::start(scenario, grains, &mut |_| ControlFlow::Continue(()))?;
+    let mut watch = |_: &Resting| {
+        if sat_down.elapsed() < PATIENCE * budget {
+            ControlFlow::Continue(())
+        } else {
+            ControlFlow::Break(())
+        }
+    };
+    let mut job = J::start(scenario, grains, &mut watch)?;
     let mut record = Record::of(&mut job, scenario).ok();
     let start_s = sat_down.elapsed().as_secs_f64();
     let (mut quiet, mut flying) = (Paces::default(), Paces::default());
