@@ -63,7 +63,8 @@ pub(super) fn of_soft(plan: &mut Plan, scenario: &Scenario, tried: &Rehearsal, p
 
 /// Rates without and with rays in flight. Where only one kind was tried, the other is told from the scheme.
 fn rates(scenario: &Scenario, tried: &Rehearsal, pushes: &[Push]) -> Option<[Rate; 2]> {
-    let found = [Rate::of(&tried.quiet), Rate::of(&tried.flying)];
+    let quiet = Rate::of(&tried.quiet).or_else(|| tried.calm.as_ref().and_then(Rate::of));
+    let found = [quiet, Rate::of(&tried.flying)];
     match found {
         [Some(quiet), Some(flying)] => Some([quiet, flying]),
         [None, Some(flying)] => Some([flying.at(without_rays(scenario).unwrap_or(flying.steps)), flying]),
@@ -120,5 +121,7 @@ pub(super) fn of_files(plan: &mut Plan, scenario: &Scenario, tried: &Rehearsal, 
         + flying(dense.frames, frames) * weights.flying_frame.unwrap_or(frame);
     let kept = CHECKPOINTS_KEPT * weights.checkpoint;
     let report = BYTES_PER_REPORT + BYTES_PER_SHOWN_GRAIN * counts::shown_grains(plan, scenario);
-    plan.disk = Some(weights.so_far + rows * weights.row + frames + kept + report);
+    let more = rows * weights.row + frames;
+    plan.disk = Some(weights.so_far + more + kept + report);
+    plan.seconds = plan.seconds.map(|seconds| seconds + tried.writing_s * (1.0 + more / weights.so_far));
 }

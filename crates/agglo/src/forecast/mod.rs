@@ -122,15 +122,23 @@ impl Plan {
             self.notes.push(format!("steps and time are not known: {reason}"));
             return None;
         }
-        let mut tried = rehearse(scenario, grains.clone(), budget);
+        let again = grains.clone();
+        let mut tried = rehearse(scenario, grains, budget);
         if matches!(tried, Err(RunError::Start(SimError::StoppedAtRest))) {
             let what = "start.relax takes long: how long is not known; steps and time are without it";
             self.notes.push(what.to_owned());
             let mut hasty = scenario.clone();
             hasty.start.relax = None;
-            tried = rehearse(&hasty, grains, budget);
+            tried = rehearse(&hasty, again.clone(), budget);
         }
-        tried.map_err(|error| self.notes.push(format!("a run would fail at its start: {error}"))).ok()
+        let mut tried =
+            tried.map_err(|error| self.notes.push(format!("a run would fail at its start: {error}"))).ok()?;
+        if !tried.is_finished && tried.quiet.all.steps == 0.0 {
+            let mut calm = scenario.clone();
+            (calm.acoustics, calm.start.relax) = (None, None);
+            tried.calm = rehearse(&calm, again, budget / 2).ok().map(|calm| calm.quiet);
+        }
+        Some(tried)
     }
 
     fn rows(&self) -> Vec<(String, String)> {

@@ -98,8 +98,12 @@ pub struct Rehearsal {
     pub quiet: Paces,
     /// Steps with rays in flight.
     pub flying: Paces,
+    /// Steps without rays of the same grains in a quiet medium, where they were tried because rays flew all the time.
+    pub calm: Option<Paces>,
     /// Time on the clock [s] of the start.
     pub start_s: f64,
+    /// Time on the clock [s] of writing the record.
+    pub writing_s: f64,
     /// What the record weighs; nothing where it cannot be written.
     pub weights: Option<Weights>,
     /// What the run had come to.
@@ -128,8 +132,9 @@ fn sit<J: Job>(scenario: &Scenario, grains: Particles, budget: Duration) -> Resu
         }
     };
     let mut job = J::start(scenario, grains, &mut watch)?;
-    let mut record = Record::of(&mut job, scenario).ok();
     let start_s = sat_down.elapsed().as_secs_f64();
+    let mut record = Record::of(&mut job, scenario).ok();
+    let mut writing_s = sat_down.elapsed().as_secs_f64() - start_s;
     let (mut quiet, mut flying) = (Paces::default(), Paces::default());
     let look = scenario.time.end.si() / LOOKS;
     let began = Instant::now();
@@ -138,23 +143,23 @@ fn sit<J: Job>(scenario: &Scenario, grains: Particles, budget: Duration) -> Resu
         let (time, steps, before) = (job.time(), job.step(), Instant::now());
         let due = record.as_ref().map_or(f64::INFINITY, |record| record.recorder.next_due());
         trouble = job.advance(due.min(time + look)).err().map(|error| error.to_string());
+        let wall_s = before.elapsed().as_secs_f64();
         record = record.and_then(|record| record.go_on(&mut job).ok());
         if record.is_none() {
             job.forget_events();
         }
+        writing_s += before.elapsed().as_secs_f64() - wall_s;
         let paces = if job.is_ray_flight() { &mut flying } else { &mut quiet };
-        paces.add(Pace {
-            time: job.time() - time,
-            steps: (job.step() - steps) as f64,
-            wall_s: before.elapsed().as_secs_f64(),
-        });
+        paces.add(Pace { time: job.time() - time, steps: (job.step() - steps) as f64, wall_s });
     }
     Ok(Rehearsal {
         time: job.time(),
         is_finished: job.is_finished(),
         quiet,
         flying,
+        calm: None,
         start_s,
+        writing_s,
         weights: record.and_then(|record| record.weigh(&mut job).ok()),
         summary: job.summary(scenario, 0.0),
         trouble,

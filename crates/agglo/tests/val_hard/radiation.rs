@@ -39,11 +39,12 @@ fn a_gas_cools_by_radiation_from_impact_to_impact() {
         impact: &(support::ELASTIC.to_owned() + COOLING),
         ..Gas::default()
     };
-    let mut simulation = gas.start();
     let hot = |at: usize| 300.0 + 3.0 * at as f64;
-    for bulk in &mut simulation.cloud_mut().state.spheres.bulk {
-        bulk.temperature = hot(bulk.id as usize);
-    }
+    let mut simulation = support::start(&gas.text(), |grains| {
+        for (temperature, &id) in grains.temperature.iter_mut().zip(&grains.id) {
+            *temperature = hot(id as usize);
+        }
+    });
     let end = 0.05;
     support::run_until(&mut simulation, end);
     assert!(support::impacts(&simulation) > 20_000);

@@ -55,7 +55,8 @@ impl Gas<'_> {
         (f64::from(self.count) * ball(self.radius) / self.solid_fraction).cbrt()
     }
 
-    fn text(&self) -> String {
+    /// Its scenario.
+    pub fn text(&self) -> String {
         let Self { count, seed, radius, engine, material, impact, .. } = self;
         let edge = self.edge();
         format!(

@@ -77,6 +77,7 @@ pub struct Books {
     pub flows: Flows,
     /// What rounding left out of the sums over impacts so far.
     left_out: ImpactEnergy,
+    unkept_left_out: f64,
 }
 
 /// The ledger drawn up at one moment.
@@ -154,6 +155,7 @@ impl Books {
             mass_at_start: order.iter().map(|&at| spheres.bulk[at as usize].mass).sum(),
             flows: Flows::default(),
             left_out: ImpactEnergy::default(),
+            unkept_left_out: 0.0,
         }
     }
 
@@ -189,6 +191,11 @@ impl Books {
     /// What walls do not explain of a momentum [kg m/s] now.
     pub fn momentum_drift(&self, momentum: Vec3) -> Vec3 {
         momentum - self.momentum_at_start - self.flows.walls
+    }
+
+    /// Adds heat [J] that grains without a heat capacity cannot keep.
+    pub fn add_unkept(&mut self, heat: f64) {
+        compensated(&mut self.flows.unkept, &mut self.unkept_left_out, heat);
     }
 
     /// Adds the energies of an impact. The sums are compensated (W. Kahan, Commun. ACM 8, 40 (1965)): in a gas that has cooled,

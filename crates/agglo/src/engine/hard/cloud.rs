@@ -235,7 +235,7 @@ impl Cloud {
         books.add(&outcome.energy);
         if bodies.iter().any(|body| body.heat_capacity == 0.0) {
             let kept = |k: usize| bodies[k].heat_capacity * (outcome.temperatures[k] - bodies[k].temperature);
-            books.flows.unkept += outcome.energy.heat - (kept(0) + kept(1));
+            books.add_unkept(outcome.energy.heat - (kept(0) + kept(1)));
         }
     }
 
