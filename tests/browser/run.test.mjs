@@ -133,22 +133,29 @@ test("turns, zooms and moves by mouse and keys", async () => {
   assert.equal(outline, "solid", "the focus is seen");
 });
 
-test("a click shows the figures of the grain that is there", async () => {
-  await replay("replay.reset(); replay.show(8)");
-  await page.locator("#replay canvas").scrollIntoViewIfNeeded();
-  const grains = frame(join(folder, "frames", "grains_000008.vtp"));
-  // Of all grains the one that reaches nearest to the eye hides nothing of its middle from us.
+// Shows a frame; gives its grains, the grain that reaches nearest to the eye, which hides nothing of its middle from us, and where
+// that is on the page.
+async function nearestGrain(number) {
+  await replay(`replay.reset(); replay.show(${number})`);
+  const canvas = page.locator("#replay canvas");
+  await canvas.scrollIntoViewIfNeeded();
+  const grains = frame(join(folder, "frames", `grains_${String(number).padStart(6, "0")}.vtp`));
   const eye = await replay("replay.camera.eye()");
   const center = (grain) => grains.Points.slice(3 * grain, 3 * grain + 3);
   const away = (grain) => Math.hypot(...center(grain).map((part, k) => part - eye[k])) - grains.radius_m[grain];
   const nearest = grains.id.map((_, grain) => grain).reduce((a, b) => (away(a) < away(b) ? a : b));
-  const canvas = page.locator("#replay canvas");
   const box = await canvas.boundingBox();
   const [view, projection] = await replay(
     `[Array.from(replay.camera.view()), Array.from(replay.camera.projection(${box.width / box.height}))]`);
   const times = (matrix, vector) => [0, 1, 2, 3].map((row) => vector.reduce((sum, part, k) => sum + matrix[4 * k + row] * part, 0));
   const clip = times(projection, times(view, [...center(nearest), 1]));
   const at = [box.x + (box.width * (1 + clip[0] / clip[3])) / 2, box.y + (box.height * (1 - clip[1] / clip[3])) / 2];
+  return { grains, nearest, at, box };
+}
+
+test("a click shows the figures of the grain that is there", async () => {
+  const canvas = page.locator("#replay canvas");
+  const { grains, nearest, at, box } = await nearestGrain(8);
   const before = await pixels(page);
   await page.mouse.click(...at);
   const figures = await part("chosen").evaluate((list) =>
@@ -253,8 +260,7 @@ test("a phone shows it without scrolling sideways, also in the dark", async () =
     const [content, window] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
     assert.ok(content <= window, `${content} > ${window}`);
     assert.ok(colors(await pixels(page)) > 300);
-    const canvas = await page.locator("#replay canvas").boundingBox();
-    await page.touchscreen.tap(canvas.x + canvas.width / 2, canvas.y + canvas.height / 2);
+    await page.touchscreen.tap(...(await nearestGrain(0)).at);
     await part("chosen").waitFor({ state: "visible" });
     const back = await page.evaluate(() => getComputedStyle(document.body).backgroundColor);
     const light = Number(/\d+/.exec(back)[0]);
