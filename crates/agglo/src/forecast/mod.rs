@@ -1,8 +1,8 @@
 //! What a checked scenario will ask of the machine, and how far its models are to be believed.
 //!
 //! The grains are placed as a run places them. One pulse of each beam is sent through them while they are held still
-//! ([`push`]), and the first second of the run is tried ([`crate::run`]): what comes of that is carried on to the end
-//! ([`cost`]). Impacts of hard spheres follow from means ([`mean_field`]). What cannot be known so is said to be unknown.
+//! (`push`), and the first second of the run is tried (`crate::run`): what comes of that is carried on to the end
+//! (`cost`). Impacts of hard spheres follow from means (`mean_field`). What cannot be known so is said to be unknown.
 
 mod cost;
 mod counts;
