@@ -15,6 +15,7 @@ const CHECKPOINTS_KEPT: f64 = 2.0;
 /// Bytes of a report without its frames: charts, words and what draws them; and of each grain in each frame that it shows.
 const BYTES_PER_REPORT: f64 = 2e6;
 const BYTES_PER_SHOWN_GRAIN: f64 = 14.0;
+const BYTES_PER_SHOWN_RAY: f64 = 14.0;
 
 /// Why the first steps are not tried, if they are not.
 pub(super) fn too_much_to_try(scenario: &Scenario, grains: usize) -> Option<String> {
@@ -97,8 +98,8 @@ fn with_rays(pushes: &[Push], scenario: &Scenario) -> Option<f64> {
     pushes.first().filter(|_| is_stepped).map(|push| 1.0 / push.duration)
 }
 
-/// Time [s] in which rays fly.
-fn flights(scenario: &Scenario, pushes: &[Push]) -> f64 {
+/// Time [s] in which rays fly. Later pulses are taken to fly as long as the first.
+pub(super) fn flights(scenario: &Scenario, pushes: &[Push]) -> f64 {
     let all: f64 = pushes.iter().map(|push| push.pulses * push.flight_s).sum();
     all.min(scenario.time.end.si())
 }
@@ -120,7 +121,8 @@ pub(super) fn of_files(plan: &mut Plan, scenario: &Scenario, tried: &Rehearsal, 
     let frames = due(frames, quiet_left) * frame
         + flying(dense.frames, frames) * weights.flying_frame.unwrap_or(frame);
     let kept = CHECKPOINTS_KEPT * weights.checkpoint;
-    let report = BYTES_PER_REPORT + BYTES_PER_SHOWN_GRAIN * counts::shown_grains(plan, scenario);
+    let [grains, rays] = counts::shown(plan, scenario, flights(scenario, pushes));
+    let report = BYTES_PER_REPORT + BYTES_PER_SHOWN_GRAIN * grains + BYTES_PER_SHOWN_RAY * rays;
     let more = rows * weights.row + frames;
     plan.disk = Some(weights.so_far + more + kept + report);
     plan.seconds = plan.seconds.map(|seconds| seconds + tried.writing_s * (1.0 + more / weights.so_far));

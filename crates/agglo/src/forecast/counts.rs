@@ -8,14 +8,19 @@ use super::Plan;
 use crate::domain::{Region, Volume};
 use crate::packing::{Lattice, LatticeKind, Placement, SATURATION};
 use crate::scenario::{GrainGroup, Scenario};
+use crate::units::Time;
 
 /// The program itself, with what writes its tables.
 const BYTES_OF_PROGRAM: f64 = 14e6;
 /// What makes a report, and what it keeps of each grain in each frame that it shows.
 const BYTES_OF_REPORT: f64 = 10e6;
 const BYTES_PER_SHOWN_GRAIN: f64 = 190.0;
+/// What it keeps of each ray in each frame: place, direction and power.
+const BYTES_PER_SHOWN_RAY: f64 = 56.0;
 /// A report shows no more grains than this, all frames together: the rest is thinned out.
 const MOST_SHOWN: f64 = 1.3e6;
+/// Of the rays of a pulse, those that are in flight in the mean of its time.
+const PART_IN_FLIGHT: f64 = 0.5;
 const BYTES_PER_GRAIN: f64 = 400.0;
 const BYTES_PER_CONTACT: f64 = 200.0;
 const BYTES_PER_RAY: f64 = 120.0;
@@ -40,20 +45,32 @@ pub(super) fn grains(plan: &mut Plan, scenario: &Scenario, base: &Path) -> Vec<u
     counts
 }
 
-/// Memory of the run, its report included.
-pub(super) fn memory(plan: &mut Plan, scenario: &Scenario) {
+/// Memory of the run, its report included; `flights` is how long rays fly in all [s].
+pub(super) fn memory(plan: &mut Plan, scenario: &Scenario, flights: f64) {
     let contacts = if scenario.engine.is_hard() { 0.0 } else { CONTACTS_PER_GRAIN };
     let grains = plan.grains as f64 * (BYTES_PER_GRAIN + contacts * BYTES_PER_CONTACT);
-    let shown = shown_grains(plan, scenario);
-    let report = BYTES_OF_REPORT + shown * BYTES_PER_SHOWN_GRAIN;
+    let [shown_grains, shown_rays] = shown(plan, scenario, flights);
+    let report = BYTES_OF_REPORT + shown_grains * BYTES_PER_SHOWN_GRAIN + shown_rays * BYTES_PER_SHOWN_RAY;
     plan.memory = BYTES_OF_PROGRAM + grains + plan.rays_per_pulse as f64 * BYTES_PER_RAY + report;
 }
 
-/// Grains in the frames that a report shows, all frames together.
-pub(super) fn shown_grains(plan: &Plan, scenario: &Scenario) -> f64 {
-    let frames = scenario.resolved().output.frames;
-    let count = frames.map_or(0.0, |interval| scenario.time.end.si() / interval.si() + 1.0);
-    (count * plan.grains as f64).min(MOST_SHOWN)
+/// Grains and rays in the frames that a report shows, all frames together.
+pub(super) fn shown(plan: &Plan, scenario: &Scenario, flights: f64) -> [f64; 2] {
+    let [quiet, flying] = frames(scenario, flights);
+    let grains = (quiet + flying) * plan.grains as f64;
+    let rays = flying * PART_IN_FLIGHT * plan.rays_per_pulse as f64;
+    // The page leaves out frames, and with them rays, in the same part.
+    let part = (MOST_SHOWN / grains.max(1.0)).min(1.0);
+    [part * grains, part * rays]
+}
+
+/// Frames without and with rays in flight: while rays fly the denser of two intervals holds.
+fn frames(scenario: &Scenario, flights: f64) -> [f64; 2] {
+    let output = scenario.resolved().output;
+    let due = |interval: Option<Time>, time: f64| interval.map_or(0.0, |interval| time / interval.si());
+    let flying = due(output.frames, flights).max(due(output.pulses.unwrap_or_default().frames, flights));
+    let first = if output.frames.is_some() { 1.0 } else { 0.0 };
+    [first + due(output.frames, scenario.time.end.si() - flights), flying]
 }
 
 pub(super) fn pulses(plan: &mut Plan, scenario: &Scenario) {

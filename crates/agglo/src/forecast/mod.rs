@@ -111,7 +111,7 @@ impl Plan {
             cost::of_files(&mut plan, scenario, tried, &pushes);
         }
         plan.seconds = plan.seconds.map(|seconds| seconds + placed_s);
-        counts::memory(&mut plan, scenario);
+        counts::memory(&mut plan, scenario, cost::flights(scenario, &pushes));
         notes::collect(&mut plan, scenario, &pushes, smallest);
         Ok(plan)
     }

@@ -153,6 +153,10 @@ pub(super) fn describe(plan: &mut Plan, pushes: &[Push]) {
             digits(100.0 * push.absorbed)
         );
         row("  its first pulse".to_owned(), what);
+        if push.pulses > 1.0 {
+            let told = "taken to fly as long: longer where the grains have spread by then";
+            row("  later pulses".to_owned(), told.to_owned());
+        }
         let [mean, fastest, common] =
             [push.mean_speed, push.fastest, push.common_speed].map(|speed| readable(speed, "m/s"));
         row(
