@@ -1,0 +1,188 @@
+"""Pages of hard spheres, large and damaged runs, searches."""
+
+import json
+import statistics
+
+import pytest
+from page import table
+
+
+@pytest.fixture
+def opened_clean(opened):
+    """As `opened`, for pages without trouble."""
+
+    def open_page(folder, **options):
+        page = opened(folder, **options)
+        assert page.trouble == []
+        return page
+
+    return open_page
+
+
+def test_hard_spheres_temperature_growth_and_sizes(opened_clean, finished, scenario):
+    folder = finished("run", scenario("reacting-set-1"), 'time.end="2 ms"')
+    page = opened_clean(folder)
+    assert page.part("color").input_value() == "size", "they grow, and are not colored by size"
+    first = page.picture()
+    page.part("scrub").fill("20")
+    assert first.differs_from(page.picture()) > 0.02
+    sizes = table(folder / "series" / "sizes.csv")
+    chart = page.evaluate(
+        """() => { const { x, z } = document.getElementById("chart-sizes").data[0];
+                   return { x: [...x], z: z.map((row) => [...row]) }; }"""
+    )
+    classes = sorted(set(sizes["lower_primaries"]))
+    rows = zip(sizes["time_s"], sizes["lower_primaries"], sizes["mass_fraction"], strict=True)
+    for time, lower, fraction in rows:
+        found = chart["z"][classes.index(lower)][chart["x"].index(time)]
+        assert found == fraction, f"mass fraction from {lower} primaries on at {time} s: expected {fraction}, found {found}"
+
+
+def test_twenty_thousand_grains_open_draw_and_play(opened_clean, finished, scenario):
+    folder = finished(
+        "run",
+        scenario("reacting-agglomeration"),
+        "grains.0.size.length_ratio.ratio=0.4",
+        "grains.0.size.length_ratio.count=20000",
+        "grains.0.placement.fill.count=20000",
+        'time.end="0.05 ms"',
+        'output.frames="0.01 ms"',
+    )
+    assert (folder / "report.html").stat().st_size < 25e6
+    page = opened_clean(folder)
+    # Where grains grow the page opens with what came of it.
+    page.part("scrub").fill("0")
+    assert "20000 grains" in page.part("count").text_content()
+    first = page.picture()
+    assert first.colors > 30
+    page.part("scrub").fill("4")
+    assert first.differs_from(page.picture()) > 0.05, "it does not move"
+    # What the page itself does for a frame; the drawing is the graphics card's, which tests do not have.
+    times = page.evaluate(
+        """() => Array.from({ length: 9 }, (_, k) => {
+             const start = performance.now();
+             window.agglo.replay.show(k % window.agglo.replay.frames.count);
+             return performance.now() - start;
+           })"""
+    )
+    # 30 frames a second leave 33 ms; three times that for a busy machine.
+    assert statistics.median(times) < 100, f"a frame of 20,000 grains takes {statistics.median(times)} ms to be ready"
+
+
+def test_a_damaged_folder_shows_what_is_there_and_says_what_is_not(opened_clean, agglo, finished, scenario):
+    folder = finished("run", scenario("reacting-set-1"), 'time.end="1 ms"')
+    for name in ("series/energy.csv", "frames/grains_000003.vtp"):
+        content = (folder / name).read_bytes()
+        (folder / name).write_bytes(content[: len(content) // 2])
+    (folder / "summary.json").unlink()
+    (folder / "series/grains.csv").write_text("time_s,grains\n0,<img src=x onerror=alert(1)>\n0.5,7\n")
+    agglo("report", folder)
+    page = opened_clean(folder)
+    notes = page.tab.locator("#notes").text_content()
+    for wanted in ("series/energy.csv is cut", "grains_000003.vtp", "summary.json is missing", "series/grains.csv is cut"):
+        assert wanted in notes
+    # All grains are alike in the first frame, and so are their colors.
+    page.evaluate("window.agglo.replay.show(window.agglo.replay.frames.count - 1)")
+    assert page.picture().colors > 100
+    lines = (folder / "series/energy.csv").read_text().rstrip("\n").split("\n")
+    # Without the header and the row that was cut.
+    assert len(page.lines("energy")[0]["y"]) == len(lines) - 2
+
+
+SEARCH = """
+version = 1
+title = "Growth against heat"
+seed = 5
+columns = ["radius_ratio"]
+settings = ['time.end="0.5 ms"']
+[base]
+template = "reacting"
+[[parameters]]
+name = "v"
+key = "grains.0.velocity_spread.uniform.bounds.0"
+range.log = { lower = "20 m/s", upper = "200 m/s" }
+[[parameters]]
+name = "hardness"
+key = "materials.grain.hardness"
+range.linear = { lower = "0.1 MPa", upper = "1 MPa" }
+[ensemble.until.fixed]
+starts = 2
+"""
+
+
+@pytest.fixture
+def searched(finished, tmp_path):
+    """A search or study with these objectives and method, in a folder of its own."""
+
+    def run(verb, rest):
+        file = tmp_path / "search.toml"
+        file.write_text(SEARCH + rest)
+        return finished(verb, file)
+
+    return run
+
+
+def test_a_search_cost_against_generation_candidates_parallel_coordinates_tables(opened_clean, searched):
+    folder = searched(
+        "search",
+        """
+[[objectives]]
+minimise = "growth_deficit"
+[method.published_genetic]
+population = 8
+parents = 4
+offspring = 2
+generations = 4
+[confirm]
+candidates = 2
+starts = 2
+""",
+    )
+    page = opened_clean(folder)
+    best, mean = page.lines("cost")[:2]
+    generations = table(folder / "generations.csv")
+    assert best["y"] == generations["best_cost"]
+    assert best["error"] == generations["best_cost_standard_error"]
+    assert mean["name"] == "mean of the best 4 so far"
+    evaluations = table(folder / "evaluations.csv")
+    costs = zip(evaluations["cost"], evaluations["generation"], strict=True)
+    first = sorted(cost for cost, generation in costs if generation == 0)[:4]
+    assert mean["y"][0] == pytest.approx(sum(first) / 4, rel=1e-12)
+    labels = "document.getElementById('chart-parallel').data[0].dimensions.map(({ label }) => label)"
+    assert page.evaluate(labels) == ["v_m_s", "hardness_Pa", "growth_deficit"]
+    assert page.tab.locator("table").first.locator("tr").count() == 3, "not two best and a header"
+    page.tab.locator("a", has_text="The run of the best candidate").click()
+    page.tab.wait_for_selector("#replay[data-ready]")
+    phone = opened_clean(folder, width=390, height=844)
+    assert phone.evaluate("document.documentElement.scrollWidth <= innerWidth")
+
+
+def test_two_costs_a_front(opened_clean, searched):
+    folder = searched(
+        "search",
+        """
+[[objectives]]
+minimise = "growth_deficit"
+[[objectives]]
+minimise = "temperature_mean_K"
+[method.genetic]
+population = 8
+generations = 3
+[confirm]
+candidates = 1
+starts = 2
+""",
+    )
+    page = opened_clean(folder)
+    front = json.loads((folder / "summary.json").read_text())["front"]
+    wanted = sorted(entry["costs"] for entry in front)
+    line = page.lines("front")[1]
+    assert line["x"]
+    assert [list(point) for point in zip(line["x"], line["y"], strict=True)] == wanted
+
+
+def test_a_study_of_sensitivity_what_moves_what(opened_clean, searched):
+    folder = searched("study", '\n[[objectives]]\nminimise = "growth_deficit"\n[plan.morris]\ntrajectories = 3\n')
+    page = opened_clean(folder)
+    sizes = table(folder / "sensitivity.csv")["mean_size"]
+    assert page.lines("sensitivity-0")[0]["y"] == sizes[:2]
