@@ -68,6 +68,9 @@ pub struct Flows {
 
 impl Flows {
     /// Adds the flow of a step of `dt` [s] with rates at both ends, `phi` being the weight of its end.
+    ///
+    /// Drag is solved for and may change much within a step. It is booked as its mean force on the mean velocity, as the
+    /// step works with it: the mean of the powers less phi (1 - phi) ΔF · Δv.
     pub fn add_step(&mut self, before: &Rates, after: &Rates, phi: f64, dt: f64) {
         let (early, late) = ((1.0 - phi) * dt, phi * dt);
         let sum = |a: f64, b: f64| early * a + late * b;
@@ -76,6 +79,7 @@ impl Flows {
         self.bond_damping += sum(before.bond_damping, after.bond_damping);
         let (old, new, own) = (&before.supplies, &after.supplies, &mut self.supplies);
         own.drag = own.drag.plus(old.drag, early).plus(new.drag, late);
+        own.drag.power += early * phi * after.bend;
         own.gravity = own.gravity.plus(old.gravity, early).plus(new.gravity, late);
         own.field = own.field.plus(old.field, early).plus(new.field, late);
     }

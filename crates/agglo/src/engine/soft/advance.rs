@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::math::{Vec3, parallel};
 
-use super::loads::{LoadViews, Supplies};
+use super::loads::{Correction, LoadViews};
 use super::system::{LEAF, System};
 
 /// What one update of the trial motion amounts to.
@@ -83,7 +83,7 @@ impl System {
         let views = (moving, trial.loads.views());
         let leaf = |range: Range<usize>,
                     ((r, (v, w)), mut end): ((&mut [Vec3], Turning<'_>), LoadViews<'_>)| {
-            let (mut change, mut correction) = (Change::default(), Supplies::default());
+            let (mut change, mut correction) = (Change::default(), Correction::default());
             for (slot, grain) in range.enumerate() {
                 if from_start {
                     (end.force[slot], end.moment[slot]) = (loads.force[grain], loads.moment[grain]);
@@ -109,6 +109,8 @@ impl System {
                     let solved = response.solved((velocity + kick, spin + twist), guess, parts);
                     (kick, twist) = (solved.velocity - velocity, solved.spin - spin);
                     solved.correct(slot, &mut end, position, &mut correction);
+                    let flow = laws.flow_change([(grains.position[grain], time), (position, at_time)]);
+                    correction.bend += response.bend((kick, twist), flow);
                 }
                 let moved = grains.velocity[grain] * dt + kick * (phi * dt);
                 let position = grains.position[grain] + moved;
@@ -119,9 +121,9 @@ impl System {
             }
             (change, correction)
         };
-        let join = |a: (Change, Supplies), b: (Change, Supplies)| (Change::join(a.0, b.0), a.1 + b.1);
+        let join = |a: (Change, Correction), b: (Change, Correction)| (Change::join(a.0, b.0), a.1 + b.1);
         let (change, correction) = parallel::over(0..grains.len(), LEAF, views, &leaf, &join);
-        trial.rates.supplies = trial.rates.supplies + correction;
+        trial.rates.correct(correction);
         change
     }
 
@@ -133,7 +135,7 @@ impl System {
         let (has_response, position) = (laws.has_response(), &trial.position);
         let views = ((&mut trial.velocity[..], &mut trial.spin[..]), trial.loads.views());
         let leaf = |range: Range<usize>, ((v, w), mut end): (Turning<'_>, LoadViews<'_>)| {
-            let mut correction = Supplies::default();
+            let mut correction = Correction::default();
             for (slot, grain) in range.enumerate() {
                 let mut force = (end.force[slot] + loads.force[grain]) * 0.5;
                 let mut moment = (end.moment[slot] + loads.moment[grain]) * 0.5;
@@ -149,6 +151,10 @@ impl System {
                     let response = laws.response(grains, grain, (position[grain], guess.0), time);
                     let solved = response.solved(explicit, guess, (0.5 * per_mass, 0.5 * per_inertia));
                     solved.correct(slot, &mut end, position[grain], &mut correction);
+                    let flow =
+                        laws.flow_change([(grains.position[grain], time - dt), (position[grain], time)]);
+                    let change = (solved.velocity - grains.velocity[grain], solved.spin - grains.spin[grain]);
+                    correction.bend += response.bend(change, flow);
                     (v[slot], w[slot]) = (solved.velocity, solved.spin);
                 } else {
                     (v[slot], w[slot]) = explicit;
@@ -157,7 +163,7 @@ impl System {
             correction
         };
         let correction = parallel::over(0..grains.len(), LEAF, views, &leaf, &|a, b| a + b);
-        trial.rates.supplies = trial.rates.supplies + correction;
+        trial.rates.correct(correction);
     }
 }
 

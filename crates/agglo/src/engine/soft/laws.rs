@@ -77,6 +77,13 @@ impl Laws {
         self.fields.drag.is_some() || self.fields.lorentz.as_ref().is_some_and(turns)
     }
 
+    /// How much the medium's velocity [m/s] changes from one place [m] and time [s] to another.
+    #[inline]
+    pub fn flow_change(&self, ends: [(Vec3, f64); 2]) -> Vec3 {
+        let at = |end: usize| self.flow_velocity_at(ends[end].0, ends[end].1);
+        if self.flow.is_some() { at(1) - at(0) } else { Vec3::ZERO }
+    }
+
     #[inline]
     fn flow_velocity_at(&self, position: Vec3, time: f64) -> Vec3 {
         self.flow.as_ref().map_or(Vec3::ZERO, |flow| flow.velocity_at(position, time))

@@ -126,6 +126,22 @@ impl Add for Supplies {
     }
 }
 
+/// What solving for velocities changes in the books of a step.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Correction {
+    /// Changes of the supplies at the end of the step.
+    pub supplies: Supplies,
+    /// Change of drag over that of velocity, both within the step [W]: -ΔF · Δv - ΔM · Δw.
+    pub bend: f64,
+}
+
+impl Add for Correction {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self { supplies: self.supplies + other.supplies, bend: self.bend + other.bend }
+    }
+}
+
 /// All rates at one moment.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rates {
@@ -137,11 +153,18 @@ pub struct Rates {
     pub bond_damping: f64,
     /// Single-grain forces.
     pub supplies: Supplies,
+    /// By how much drag changed within the step that led here, over how velocities did: -ΔF · Δv - ΔM · Δw [W].
+    pub bend: f64,
 }
 
 impl Rates {
     /// Puts the parts together.
     pub fn new(contact: &ContactRates, bond_damping: f64, supplies: Supplies) -> Self {
-        Self { damping: contact.damping, tangential: contact.tangential, bond_damping, supplies }
+        Self { damping: contact.damping, tangential: contact.tangential, bond_damping, supplies, bend: 0.0 }
+    }
+    /// Brings in what solving for velocities changed in the step that leads here.
+    pub fn correct(&mut self, correction: Correction) {
+        self.supplies = self.supplies + correction.supplies;
+        self.bend = correction.bend;
     }
 }

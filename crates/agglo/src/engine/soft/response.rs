@@ -22,7 +22,7 @@
 
 use crate::math::Vec3;
 
-use super::loads::{LoadViews, Supplies};
+use super::loads::{Correction, LoadViews};
 
 /// Slopes of the forces on one grain over its velocity and spin.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -49,6 +49,13 @@ impl Response {
             magnetic: change.cross(self.turning),
             moment: turn * -self.spin,
         }
+    }
+
+    /// How much the drag changes over how the motion does [W], -ΔF · Δv - ΔM · Δw, where velocity [m/s] and spin [rad/s]
+    /// change by `change` within a step and the flow's velocity by `flow` [m/s].
+    #[inline]
+    pub fn bend(&self, change: (Vec3, Vec3), flow: Vec3) -> f64 {
+        self.drag * (change.0 - flow).dot(change.0) + self.spin * change.1.norm_squared()
     }
 
     /// u [m/s] for which (1 + h c) u - h u × b is `rest` [m/s].
@@ -79,10 +86,10 @@ pub struct Solved {
 impl Solved {
     /// Brings the loads of the grain in this slot and at this position [m] along.
     #[inline]
-    pub fn correct(&self, slot: usize, loads: &mut LoadViews<'_>, position: Vec3, supplies: &mut Supplies) {
+    pub fn correct(&self, slot: usize, loads: &mut LoadViews<'_>, position: Vec3, books: &mut Correction) {
         loads.force[slot] += self.drag + self.magnetic;
         loads.moment[slot] += self.moment;
-        supplies.note_correction(position, self.drag, self.magnetic, self.moment);
+        books.supplies.note_correction(position, self.drag, self.magnetic, self.moment);
     }
 }
 
