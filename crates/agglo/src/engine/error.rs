@@ -183,10 +183,10 @@ pub enum SimError {
         /// What to do.
         help: &'static str,
     },
-    /// A sphere is so far out, or so fast, that its place cannot be told to a thousandth of its radius.
+    /// A sphere is so far out, or so fast, that its place cannot be told to 1e-5 of its radius.
     #[error(
         "t = {time:.6e} s: the place of grain {grain}, {place:.3e} m from the origin at {speed:.3e} m/s, is known to \
-         {rounding:.1e} m only, since numbers have 16 digits; that is more than a thousandth of its radius ({radius:.3e} m). \
+         {rounding:.1e} m only, since numbers have 16 digits; that is more than 1e-5 of its radius ({radius:.3e} m). \
          Put the grains nearer to the origin, or end the run sooner"
     )]
     OutOfDigits {

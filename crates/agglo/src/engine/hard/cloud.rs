@@ -3,7 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::domain::{Boundary, Volume};
+use crate::domain::{Boundary, Volume, resolution};
 use crate::engine::{SimError, Warnings};
 use crate::impact::sticking::merged;
 use crate::impact::{Body, Draws, ImpactLaws, Outcome};
@@ -14,7 +14,7 @@ use super::books::{Books, Counts};
 use super::collapse::Collapse;
 use super::events::{Descent, EventKind, GrainEvent};
 use super::pieces;
-use super::spheres::{PLACE_TOLERANCE, Spheres};
+use super::spheres::Spheres;
 
 /// Two spheres that meet.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -356,15 +356,14 @@ impl Cloud {
         }
     }
 
-    /// Whether a sphere has a motion, and is where doubles can tell its place to a thousandth of its radius.
+    /// Whether a sphere has a motion, and is where doubles can tell its place well enough for its radius.
     ///
     /// # Errors
     /// [`SimError`] where not.
     #[inline]
     pub(super) fn check_motion(&self, at: u32, time: f64) -> Result<(), SimError> {
         let motion = &self.state.spheres.motion[at as usize];
-        // What is not a number is not below either.
-        if motion.rounding(time) <= PLACE_TOLERANCE * motion.radius {
+        if resolution::is_fine(motion.rounding(time), motion.radius) {
             return Ok(());
         }
         if !(motion.velocity.norm_squared().is_finite() && motion.position.is_finite()) {

@@ -28,7 +28,7 @@
 //!
 //! # Valid when
 //! Flight is straight (no forces) and impacts are instantaneous. The order of events is exact to rounding. Where places are
-//! rounded to more than a thousandth of a radius (4.5e12 radii from the origin, or as far flown) the run ends with an error.
+//! rounded to more than 1e-5 of a radius (4.5e10 radii from the origin, or as far flown) the run ends with an error.
 //!
 //! # Compared with others
 //! No step, so no error of stepping and no impact missed, unlike overlap searches such as REBOUND's `direct` and `tree`.

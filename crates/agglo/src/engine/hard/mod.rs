@@ -45,5 +45,5 @@ pub use embedded::{EmbeddedError, MicroGrains, MicroState, Microscale};
 pub use events::{Descent, EventKind, GrainEvent};
 pub use homogenised::Homogenised;
 pub use simulation::{Clock, Grown, Simulation, SimulationState, Snapshot};
-pub use spheres::{Bulk, PLACE_TOLERANCE, Sphere, Spheres, rounding_of};
+pub use spheres::{Bulk, Sphere, Spheres};
 pub use types::{Distance, EventDriven, Pairs, TimeStepped};

@@ -5,17 +5,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::domain::resolution;
 use crate::math::Vec3;
 use crate::particles::{Particles, Row};
-
-/// A place must be known to this part of the radius: from there on impacts would be missed, and their normals wrong.
-pub const PLACE_TOLERANCE: f64 = 1e-3;
-
-/// What a place is rounded to [m], all coordinates together.
-#[inline]
-pub fn rounding_of(place: Vec3) -> f64 {
-    f64::EPSILON * place.sum_of_sizes()
-}
 
 /// The motion of a sphere: where it was at its own time, and how fast it flies since.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -41,7 +33,7 @@ impl Sphere {
     /// What its place at a time [s] is rounded to [m]: coordinates and the clock have 53 binary digits.
     #[inline]
     pub fn rounding(&self, time: f64) -> f64 {
-        rounding_of(self.at(time)) + f64::EPSILON * self.velocity.norm() * time
+        resolution::spacing(self.at(time)) + f64::EPSILON * self.velocity.norm() * time
     }
 }
 

@@ -1,8 +1,7 @@
 //! Rules of the control volume and of what lies in it.
 
 use super::{Check, shown};
-use crate::domain::{Boundary, Region, Volume};
-use crate::engine::hard::{PLACE_TOLERANCE, rounding_of};
+use crate::domain::{Boundary, Region, Volume, resolution};
 use crate::math::Vec3;
 use crate::packing::{GrainList, Placement};
 use crate::scenario::figures::readable;
@@ -46,7 +45,7 @@ fn can_be_told(check: &mut Check, key: &str, group: &GrainGroup, volume: &Volume
     match &group.placement {
         Placement::List(list) => {
             for place in list.positions.iter().map(|position| vector(*position)) {
-                if place.sum_of_sizes() > farthest.sum_of_sizes() {
+                if resolution::spacing(place) > resolution::spacing(farthest) {
                     farthest = place;
                 }
             }
@@ -55,15 +54,15 @@ fn can_be_told(check: &mut Check, key: &str, group: &GrainGroup, volume: &Volume
         Placement::Table(_) => return,
         _ => {}
     }
-    let rounding = rounding_of(farthest);
-    if rounding > PLACE_TOLERANCE * radius {
+    let rounding = resolution::spacing(farthest);
+    if !resolution::is_fine(rounding, radius) {
         let (radius, rounding, place) =
             (readable(radius, "m"), readable(rounding, "m"), readable(farthest.norm(), "m"));
         let message = format!(
             "a radius of {radius} is too small for places up to {place} from the origin: with 16 digits they are known to {rounding}"
         );
-        let help = "put the origin amid the grains, or take a smaller volume or larger grains: a place must be known to a \
-                    thousandth of the radius";
+        let help = "put the origin amid the grains, or take a smaller volume or larger grains: a place must be known to 1e-5 \
+                    of the radius";
         check.fail_with(&format!("{key}.size"), message, help);
     }
 }
