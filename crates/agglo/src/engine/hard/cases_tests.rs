@@ -7,6 +7,8 @@ use crate::units::Quantity;
 
 /// With the guard against collapse as it is by default.
 const GUARDED: &str = "[engine.event_driven]";
+/// Steps that are short for the crowds here.
+const STEPPED: &str = "[engine.time_stepped]\nshortest_step = \"100 ns\"";
 
 fn speeds(simulation: &Simulation) -> Vec<Vec3> {
     simulation.snapshot().grains.velocity
@@ -186,6 +188,8 @@ fn first_bounces_of_one_moment_lose_energy() {
         cases.push((super::test_clouds::crowd(60, 2e-3, 2.0, 8e3, seed), soft.to_owned(), "periodic"));
     }
     let mut over_others = 0;
+    // Impacts and merges of the clouds, from event to event and step by step.
+    let mut totals = [[0; 2]; 2];
     for (grains, impact, boundary) in cases {
         let after = [EVENTS, GUARDED].map(|engine| {
             let mut scenario = scenario(engine, boundary, &impact);
@@ -198,8 +202,25 @@ fn first_bounces_of_one_moment_lose_energy() {
         });
         assert_eq!(after[1].1.guarded, 0);
         assert_eq!(after[0], after[1]);
+        if boundary == "periodic" {
+            let mut scenario = scenario(STEPPED, boundary, &impact);
+            scenario.materials.get_mut("stone").unwrap().hardness = Some(Quantity(2e5));
+            let mut stepped = start(&scenario, &grains);
+            advance_to(&mut stepped, 2e-3);
+            let counts = &stepped.cloud().state.counts;
+            for (total, counts) in totals.iter_mut().zip([&after[1].1, counts]) {
+                total[0] += counts.impacts;
+                total[1] += counts.merges;
+            }
+        }
     }
     assert!(over_others > 400, "{over_others}");
+    // The engine of steps has no guard, and its chaos is another one. Sums over 20 clouds: 1508 impacts and 1171 merges from event
+    // to event, 1526 and 1170 step by step. Impacts scatter by 39, merges by 34.
+    let [events, steps] = totals.map(|[impacts, merges]| [impacts as f64, merges as f64]);
+    assert!((steps[0] / events[0] - 1.0).abs() < 0.03, "{events:?} {steps:?}");
+    assert!((steps[1] - events[1]).abs() < 3.0 * (steps[1] + events[1]).sqrt(), "{events:?} {steps:?}");
+    assert!(events[1] > 40.0);
 }
 
 /// Agglomerates that break in a crowd, at walls and across faces: pieces are clear of one another and of everybody else,
