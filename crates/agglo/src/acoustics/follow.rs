@@ -39,6 +39,7 @@
 //! assert!((ball.exit_distance(Vec3::new(-3.0, 0.0, 0.0), Vec3::AXES[0]) - 5.0).abs() < 1e-8);
 //! ```
 
+use crate::domain::extent;
 use crate::math::Vec3;
 
 /// By how much of the speed of sound the fastest grain may become faster while a ray is near.
@@ -58,12 +59,7 @@ impl Followed {
     /// The ball about grains at `positions` [n, 3] [m] with `radii` [n] [m]; `mach` is the speed of the fastest over that of
     /// sound.
     pub fn of(positions: &[Vec3], radii: &[f64], mach: f64) -> Self {
-        let (mut lower, mut upper) = (Vec3::ZERO, Vec3::ZERO);
-        for (grain, (&position, &radius)) in positions.iter().zip(radii).enumerate() {
-            let reach = Vec3::new(radius, radius, radius);
-            let (low, high) = (position - reach, position + reach);
-            (lower, upper) = if grain == 0 { (low, high) } else { (lower.min(low), upper.max(high)) };
-        }
+        let (lower, upper) = extent(positions, radii).unwrap_or_default();
         let center = (lower + upper) * 0.5;
         let reach = |(&position, &radius): (&Vec3, &f64)| (position - center).norm() + radius;
         let radius = positions.iter().zip(radii).map(reach).fold(0.0, f64::max);

@@ -4,7 +4,7 @@ use super::push::Push;
 use super::{Plan, counts};
 use crate::acoustics::RayForce;
 use crate::engine::Engine;
-use crate::run::{Paces, Rehearsal};
+use crate::run::{Rehearsal, Stretches};
 use crate::scenario::{Output, Scenario};
 use crate::units::Time;
 
@@ -33,8 +33,8 @@ struct Rate {
 }
 
 impl Rate {
-    fn of(paces: &Paces) -> Option<Self> {
-        let latest = paces.latest();
+    fn of(stretches: &Stretches) -> Option<Self> {
+        let latest = stretches.latest();
         (latest.time > 0.0)
             .then(|| Self { steps: latest.steps / latest.time, wall_s: latest.wall_s / latest.time })
     }

@@ -10,6 +10,7 @@ mod gas;
 mod hard;
 mod mean_field;
 mod notes;
+mod placed;
 mod push;
 
 use std::fmt;
@@ -101,6 +102,9 @@ impl Plan {
         let pushes = placed.as_ref().map_or_else(Vec::new, |grains| push::all(scenario, grains));
         let smallest = smallest(scenario, placed.as_ref());
         push::describe(&mut plan, &pushes);
+        if let Some(grains) = &placed {
+            placed::notes(&mut plan.notes, scenario, grains);
+        }
         let tried = placed.and_then(|grains| plan.rehearsal(scenario, grains, effort.budget));
         match (&gas, &tried) {
             (Some(gas), tried) => hard::estimate(&mut plan, scenario, gas, tried.as_ref()),
@@ -122,9 +126,12 @@ impl Plan {
             self.notes.push(format!("steps and time are not known: {reason}"));
             return None;
         }
-        let again = grains.clone();
+        let may_try_again = scenario.start.relax.is_some() || scenario.acoustics.is_some();
+        let again = may_try_again.then(|| grains.clone());
         let mut tried = rehearse(scenario, grains, budget);
-        if matches!(tried, Err(RunError::Start(SimError::StoppedAtRest))) {
+        if matches!(tried, Err(RunError::Start(SimError::StoppedAtRest)))
+            && let Some(again) = &again
+        {
             let what = "start.relax takes long: how long is not known; steps and time are without it";
             self.notes.push(what.to_owned());
             let mut hasty = scenario.clone();
@@ -133,7 +140,10 @@ impl Plan {
         }
         let mut tried =
             tried.map_err(|error| self.notes.push(format!("a run would fail at its start: {error}"))).ok()?;
-        if !tried.is_finished && tried.quiet.all.steps == 0.0 {
+        if !tried.is_finished
+            && tried.quiet.all.steps == 0.0
+            && let Some(again) = again
+        {
             let mut calm = scenario.clone();
             (calm.acoustics, calm.start.relax) = (None, None);
             tried.calm = rehearse(&calm, again, budget / 2).ok().map(|calm| calm.quiet);

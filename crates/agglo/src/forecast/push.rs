@@ -49,12 +49,15 @@ pub(super) struct Push {
 /// One push for each beam.
 pub(super) fn all(scenario: &Scenario, grains: &Particles) -> Vec<Push> {
     let Some(acoustics) = &scenario.acoustics else { return Vec::new() };
+    // Each beam meets the same grains, which no pulse moves.
+    let mut still = grains.clone();
     let of = |(beam, number): (&Beam, usize)| {
         let area = PI * beam.radius.si().powi(2);
         let impedance = scenario.medium.density.si() * scenario.medium.sound_speed.si();
         let (power, pressure) = power_and_pressure(beam.strength, area, impedance);
         let began = Instant::now();
-        let pulse = FirstPulse::of(scenario, grains.clone(), number, MOST_RAYS);
+        let (pulse, back) = FirstPulse::of(scenario, std::mem::take(&mut still), number, MOST_RAYS);
+        still = back;
         let pulses = f64::from(counts::pulses_before(beam, scenario.time.end.si()));
         let wall_s = began.elapsed().as_secs_f64();
         let push = Push { beam: number, pulses, power, pressure, wall_s, ..Push::default() };

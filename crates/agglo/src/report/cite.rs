@@ -100,7 +100,9 @@ pub fn citations(scenario: &Scenario) -> Vec<Citation> {
     if let Ok(value) = Value::try_from(scenario) {
         collect(&value, &mut Vec::new(), &mut paths);
     }
-    let always = laws_of_every_impact(scenario);
+    let mut always = laws_of_every_impact(scenario);
+    // How much of a ray is reflected no key chooses.
+    always.extend(scenario.acoustics.as_ref().map(|_| "fresnel"));
     PAGES
         .iter()
         .filter(|page| paths.iter().any(|path| names(path, page)) || always.contains(&page.name))
@@ -174,13 +176,20 @@ mod tests {
     #[test]
     fn the_laws_of_the_file_are_cited_and_no_others() {
         let sound = laws("acoustic-sound");
-        for law in ["hertz", "restitution", "mindlin", "beam", "drag", "beams", "ray_force", "verlet"] {
+        for law in
+            ["hertz", "restitution", "mindlin", "beam", "drag", "beams", "ray_force", "fresnel", "verlet"]
+        {
             assert!(sound.contains(&law), "{law} is missing in {sound:?}");
         }
         for law in ["strain_power", "staggered", "hooke", "constant", "hardness", "gravity"] {
             assert!(!sound.contains(&law), "{law} is in {sound:?}");
         }
+        let scenario = Scenario::from_toml(template("acoustic-sound").unwrap().text).unwrap();
+        let all = citations(&scenario);
+        let of_reflection = all.iter().find(|citation| citation.law == "fresnel").unwrap();
+        assert!(of_reflection.source.contains("L. M. Brekhovskikh, Waves in"), "{}", of_reflection.source);
         let hard = laws("reacting");
+        assert!(!hard.contains(&"fresnel"));
         for law in ["hardness", "tangential", "fragmentation", "cooling", "contact_area", "event_driven"] {
             assert!(hard.contains(&law), "{law} is missing in {hard:?}");
         }

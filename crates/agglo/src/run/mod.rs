@@ -22,7 +22,7 @@ use std::time::Instant;
 pub use error::RunError;
 pub use hard::{Growth, HardSummary};
 pub use quiet::quiet;
-pub(crate) use rehearsal::{Paces, Rehearsal, rehearse};
+pub(crate) use rehearsal::{Rehearsal, Stretches, rehearse};
 pub use soft::{Clusters, EnergyFigures, PulseFigures, SoftSummary};
 pub use summary::Summary;
 

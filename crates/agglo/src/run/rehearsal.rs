@@ -29,7 +29,7 @@ const PATIENCE: u32 = 2;
 
 /// Simulated time, steps and time on the clock that belong together.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Pace {
+pub struct Stretch {
     /// Simulated time [s].
     pub time: f64,
     /// Steps, or events.
@@ -38,7 +38,7 @@ pub struct Pace {
     pub wall_s: f64,
 }
 
-impl Pace {
+impl Stretch {
     fn plus(self, other: Self) -> Self {
         Self {
             time: self.time + other.time,
@@ -50,20 +50,20 @@ impl Pace {
 
 /// Steps of one kind: all of them, and the latest, from half to three quarters of all.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Paces {
+pub struct Stretches {
     /// All.
-    pub all: Pace,
-    before: Pace,
-    now: Pace,
+    pub all: Stretch,
+    before: Stretch,
+    now: Stretch,
 }
 
-impl Paces {
+impl Stretches {
     /// The latest steps.
-    pub fn latest(&self) -> Pace {
+    pub fn latest(&self) -> Stretch {
         self.before.plus(self.now)
     }
 
-    fn add(&mut self, step: Pace) {
+    fn add(&mut self, step: Stretch) {
         self.all = self.all.plus(step);
         self.now = self.now.plus(step);
         if 2.0 * self.now.steps > self.all.steps {
@@ -95,11 +95,11 @@ pub struct Rehearsal {
     /// Whether that is the end of the run.
     pub is_finished: bool,
     /// Steps without rays in flight.
-    pub quiet: Paces,
+    pub quiet: Stretches,
     /// Steps with rays in flight.
-    pub flying: Paces,
+    pub flying: Stretches,
     /// Steps without rays of the same grains in a quiet medium, where they were tried because rays flew all the time.
-    pub calm: Option<Paces>,
+    pub calm: Option<Stretches>,
     /// Time on the clock [s] of the start.
     pub start_s: f64,
     /// Time on the clock [s] of writing the record.
@@ -135,7 +135,7 @@ fn sit<J: Job>(scenario: &Scenario, grains: Particles, budget: Duration) -> Resu
     let start_s = sat_down.elapsed().as_secs_f64();
     let mut record = Record::of(&mut job, scenario).ok();
     let mut writing_s = sat_down.elapsed().as_secs_f64() - start_s;
-    let (mut quiet, mut flying) = (Paces::default(), Paces::default());
+    let (mut quiet, mut flying) = (Stretches::default(), Stretches::default());
     let look = scenario.time.end.si() / LOOKS;
     let began = Instant::now();
     let mut trouble = None;
@@ -149,8 +149,8 @@ fn sit<J: Job>(scenario: &Scenario, grains: Particles, budget: Duration) -> Resu
             job.forget_events();
         }
         writing_s += before.elapsed().as_secs_f64() - wall_s;
-        let paces = if job.is_ray_flight() { &mut flying } else { &mut quiet };
-        paces.add(Pace { time: job.time() - time, steps: (job.step() - steps) as f64, wall_s });
+        let stretches = if job.is_ray_flight() { &mut flying } else { &mut quiet };
+        stretches.add(Stretch { time: job.time() - time, steps: (job.step() - steps) as f64, wall_s });
     }
     Ok(Rehearsal {
         time: job.time(),

@@ -91,7 +91,7 @@ impl CampaignForecast {
             self.memory.map_or_else(not_known, |memory| format!("{} on {threads}", readable(memory, "B")));
         let disk = self.disk.map_or_else(not_known, |disk| format!("up to {}", readable(disk, "B")));
         let rows = [
-            ("candidates", format!("{} at most", stages.join(", "))),
+            ("candidates", format!("at most {}", stages.join(", then "))),
             ("simulations", from_to(&self.runs.map(|runs| format!("{runs}")))),
             ("time of all", time),
             ("memory", memory),
@@ -105,8 +105,8 @@ fn stage_in_words((stage, candidates): &(Stage, u64)) -> String {
     match stage {
         Stage::Search | Stage::Close => format!("{candidates}"),
         Stage::Polish => format!("{candidates} of the polish"),
-        Stage::Confirm => format!("{candidates} of the best run again"),
-        Stage::Final => "the best of these once more".to_owned(),
+        Stage::Confirm => format!("the best {candidates} from fresh starts"),
+        Stage::Final => "the best of those once more".to_owned(),
     }
 }
 

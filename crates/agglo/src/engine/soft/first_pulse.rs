@@ -2,6 +2,7 @@
 //! bounce among the grains by the run's own laws, but nothing moves while they fly.
 
 use crate::acoustics::PulseCount;
+use crate::domain::extent;
 use crate::engine::{Moment, Warnings};
 use crate::math::Vec3;
 use crate::particles::Particles;
@@ -30,8 +31,8 @@ pub struct FirstPulse {
 
 impl FirstPulse {
     /// The first pulse of beam number `beam` of a checked scenario of soft spheres, with no more rays than
-    /// `most_rays`: fewer rays of the same beam carry more power each.
-    pub fn of(scenario: &Scenario, grains: Particles, beam: usize, most_rays: u32) -> Self {
+    /// `most_rays`: fewer rays of the same beam carry more power each. The grains come back in another order.
+    pub fn of(scenario: &Scenario, grains: Particles, beam: usize, most_rays: u32) -> (Self, Particles) {
         let names = grains.len();
         let mut simulation = Simulation::with(&alone(scenario, beam, most_rays), grains);
         let part = widest_way(&simulation.system.grains) / PARTS_OF_THE_WAY;
@@ -57,7 +58,7 @@ impl FirstPulse {
             }
         }
         found.count = pulses.counts().first().copied().unwrap_or_default();
-        found
+        (found, simulation.system.grains)
     }
 }
 
@@ -77,9 +78,5 @@ fn alone(scenario: &Scenario, beam: usize, most_rays: u32) -> Scenario {
 
 /// Diagonal [m] of the box around the grains.
 fn widest_way(grains: &Particles) -> f64 {
-    let reach = |radius: f64| Vec3::new(radius, radius, radius);
-    let ends = || grains.position.iter().zip(&grains.radius);
-    let lower = ends().map(|(&r, &radius)| r - reach(radius)).reduce(Vec3::min);
-    let upper = ends().map(|(&r, &radius)| r + reach(radius)).reduce(Vec3::max);
-    lower.zip(upper).map_or(0.0, |(lower, upper)| (upper - lower).norm())
+    extent(&grains.position, &grains.radius).map_or(0.0, |(lower, upper)| (upper - lower).norm())
 }

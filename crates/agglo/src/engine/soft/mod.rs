@@ -27,5 +27,6 @@ pub use pulses::Pulses;
 pub use relax::{RestWatch, Resting};
 pub use simulation::{Clock, Simulation, SimulationState};
 pub use system::System;
-pub use truncation::truncation;
+pub use truncation::{Truncation, truncation};
 pub use types::{Breach, Limits, Staggered, Verlet};
+pub(crate) use validity::of_bonds as warning_of_bonds;

@@ -23,6 +23,7 @@ use super::relax::RestWatch;
 use super::step_size::{self, Fast, Paces};
 use super::system::System;
 use super::tempo::Tempo;
+use super::truncation::Truncation;
 use super::types::{Breach, Limits, Scheme};
 use super::{staggered, truncation, validity, verlet};
 
@@ -65,7 +66,7 @@ pub struct SimulationState<'a> {
     warnings: Warnings,
     tempo: Option<Tempo>,
     paces: Paces,
-    truncation: Option<f64>,
+    truncation: Option<Truncation>,
 }
 
 /// A simulation.
@@ -88,8 +89,8 @@ pub struct Simulation {
     pub(super) tempo: Option<Tempo>,
     /// How fast the laws were at the last look.
     pub(super) paces: Paces,
-    /// What the cut-off of the near field left out of the forces at the start.
-    pub truncation: Option<f64>,
+    /// What the cut-off of the near field left out at the start.
+    pub truncation: Option<Truncation>,
     end: f64,
 }
 

@@ -59,6 +59,9 @@ pub struct SoftSummary {
     /// Part of the forces that the near field's cut-off left out at the start (root mean square); null without one.
     #[serde(default)]
     pub near_field_truncation: Option<f64>,
+    /// Energy of the pairs within the near field's cut-off over that of all pairs, at the start; null without one.
+    #[serde(default)]
+    pub near_field_energy: Option<f64>,
     /// Momentum that impulses do not explain, over the grains' momenta.
     pub momentum_drift_relative: f64,
     /// Warnings, with how often each came up.
@@ -198,7 +201,8 @@ impl SoftSummary {
                 unexplained_largest: simulation.ledger.worst,
                 unexplained_limit: simulation.drift_warning(),
             },
-            near_field_truncation: simulation.truncation,
+            near_field_truncation: simulation.truncation.map(|found| found.forces),
+            near_field_energy: simulation.truncation.and_then(|found| found.energy),
             momentum_drift_relative: simulation.momentum_drift_relative(),
             warnings: simulation.warnings.counts().clone(),
         }
@@ -239,7 +243,13 @@ impl SoftSummary {
         let [degree, since] = [self.dispersion_degree, self.dispersion_degree_relative];
         row("dispersion degree", format!("{degree:.4}; {since:.4} relative to the start"));
         if let Some(part) = self.near_field_truncation {
-            row("near-field cut-off", format!("left out {:.2} % of the forces at the start", 100.0 * part));
+            let energy = self
+                .near_field_energy
+                .map_or(String::new(), |energy| format!("; the energy is {energy:.3} of that of all pairs"));
+            row(
+                "near-field cut-off",
+                format!("left out {:.2} % of the forces at the start{energy}", 100.0 * part),
+            );
         }
         row("energy drift", format!("{:.3e} of all energy", self.energy.balance.drift_relative));
         if self.energy.is_alarming() {
