@@ -98,6 +98,49 @@ fn breaches_may_be_warnings() {
     assert_says(&summary, &["grains overlapped by more than limits.strain"]);
 }
 
+/// Energy from nowhere: the step of 2.9/w is above the border of stability, 2/w of the spring, by far. It ends the run with a
+/// message; where that much is allowed, the summary, the closing table and the first lines of the report say it.
+#[test]
+fn unexplained_energy_is_an_error_or_a_warning() {
+    let unstable = MEETING
+        .replace("\"5 us\"", "\"0.15 ms\"")
+        .replace("contact.normal.hertz]", "contact.normal.hooke]\nstiffness = \"1650 N/m\"")
+        .replace("\"10 m/s\"", "\"1 m/s\"")
+        .replace("\"-10 m/s\"", "\"-1 m/s\"")
+        .replace("\"3 mm\"", "\"2 mm\"")
+        .replace("time.end = \"1 ms\"", "time.end = \"3 ms\"");
+    let wide = ["limits.displacement=1e9", "limits.on_breach=\"warn\""];
+    let (_, text) = failing(&unstable, &wide);
+    assert_says(
+        &text,
+        &["the ledger does not explain", "more than limits.drift_error = 0.1", "make the step smaller"],
+    );
+    let bench = Bench::with(&unstable);
+    let more: Vec<&str> =
+        wide.iter().chain(&["limits.drift_error=1e9"]).flat_map(|set| ["--set", set]).collect();
+    let done = ended(bench.start(&more).output().unwrap(), 0);
+    assert_says(
+        &complained(&done),
+        &["warning: energy that the ledger does not explain is above limits.drift_warning"],
+    );
+    assert_says(
+        &String::from_utf8_lossy(&done.stdout),
+        &["unexplained energy", "above limits.drift_warning = 1e-3"],
+    );
+    let page = std::fs::read_to_string(bench.run().join("report.html")).unwrap();
+    let lead = page.find("Not all energy is accounted for").expect("the report says it");
+    assert!(lead < page.find("Energy is accounted for to").unwrap(), "in the first lines");
+    // A limit of the user's own.
+    let more: Vec<&str> = wide
+        .iter()
+        .chain(&["limits.drift_error=1e9", "limits.drift_warning=1e8"])
+        .flat_map(|set| ["--set", set])
+        .collect();
+    let calm = Bench::with(&unstable);
+    let done = ended(calm.start(&more).output().unwrap(), 0);
+    assert!(!complained(&done).contains("drift_warning"));
+}
+
 /// Warnings of validity are the same after a stop; they are told once and counted at each look.
 #[test]
 fn models_out_of_their_range_are_warned_of() {

@@ -13,6 +13,8 @@ mod simulation;
 mod skin;
 pub mod staggered;
 pub mod step_size;
+#[cfg(test)]
+mod step_size_tests;
 mod system;
 mod tempo;
 mod truncation;
