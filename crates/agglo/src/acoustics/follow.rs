@@ -95,6 +95,17 @@ mod tests {
         Followed { center: Vec3::new(1.0, -2.0, 0.5), radius: 1.5, slope: ALLOWANCE + mach }
     }
 
+    /// A ray that grazes the ball ends (1 - √(1 - β²))/β radii behind it, β = 0.1 and that of the fastest grain more.
+    #[test]
+    fn a_grazing_ray_waits_for_what_may_come_after_it() {
+        for (mach, beta) in [(0.0, 0.1_f64), (0.5, 0.6)] {
+            let ball = ball(mach);
+            let origin = ball.center + Vec3::new(-3.0, ball.radius, 0.0);
+            let behind = (1.0 - (1.0 - beta * beta).sqrt()) / beta * ball.radius;
+            assert!((ball.exit_distance(origin, Vec3::AXES[0]) - 3.0 - behind).abs() < 1e-12);
+        }
+    }
+
     /// Nothing that starts in the ball when a ray is at its exit and flies at up to β c ever comes near it, and a little earlier
     /// something could: the distance of the ray against the reach of the ball, at 4000 later moments.
     #[test]

@@ -80,6 +80,14 @@ mod tests {
         assert_eq!(spacing(Vec3::new(1e12, 0.0, 0.0)), 2.0_f64.powi(39 - 52));
     }
 
+    /// Half a per cent within the limits and beyond: 1e-5 of a radius for a place, 1e-3 of it for a way worth going.
+    #[test]
+    fn limits_are_parts_of_the_radius() {
+        assert!(is_fine(0.995e-8, 1e-3) && !is_fine(1.005e-8, 1e-3) && !is_fine(f64::NAN, 1e-3));
+        let stuck = |way: f64| is_stuck(Vec3::AXES[0], Vec3::AXES[0] * 1e-12, 1e-3, 1e-6, way / 1e-12);
+        assert!(!stuck(0.995e-6) && stuck(1.005e-6));
+    }
+
     #[test]
     fn far_grains_and_slow_steps_are_told() {
         let told = |x: f64, v: f64, dt: f64, duration: f64| {

@@ -98,10 +98,11 @@ fn with_rays(pushes: &[Push], scenario: &Scenario) -> Option<f64> {
     pushes.first().filter(|_| is_stepped).map(|push| 1.0 / push.duration)
 }
 
-/// Time [s] in which rays fly. Later pulses are taken to fly as long as the first.
+/// Time [s] in which rays fly. Later pulses have a longer way, there and back, through grains that have spread.
 pub(super) fn flights(scenario: &Scenario, pushes: &[Push]) -> f64 {
-    let all: f64 = pushes.iter().map(|push| push.pulses * push.flight_s).sum();
-    all.min(scenario.time.end.si())
+    let speed = scenario.medium.sound_speed.si();
+    let of = |push: &Push| push.pulses * push.flight_s + 2.0 * push.spreads() / speed;
+    pushes.iter().map(of).sum::<f64>().min(scenario.time.end.si())
 }
 
 /// Bytes of a run's folder: what was written, and as much more as is due until the end.
@@ -118,8 +119,9 @@ pub(super) fn of_files(plan: &mut Plan, scenario: &Scenario, tried: &Rehearsal, 
     let quiet_left = left - flying_left;
     let rows = due(series, quiet_left) + flying(dense.series, series);
     let frame = weights.frame.or(weights.flying_frame).unwrap_or(0.0);
-    let frames = due(frames, quiet_left) * frame
-        + flying(dense.frames, frames) * weights.flying_frame.unwrap_or(frame);
+    let all_rays = weights.flying_frame.unwrap_or(frame) - frame;
+    let flying_frame = frame + counts::PART_IN_FLIGHT * all_rays;
+    let frames = due(frames, quiet_left) * frame + flying(dense.frames, frames) * flying_frame;
     let kept = CHECKPOINTS_KEPT * weights.checkpoint;
     let [grains, rays] = counts::shown(plan, scenario, flights(scenario, pushes));
     let report = BYTES_PER_REPORT + BYTES_PER_SHOWN_GRAIN * grains + BYTES_PER_SHOWN_RAY * rays;

@@ -20,7 +20,7 @@ const BYTES_PER_SHOWN_RAY: f64 = 56.0;
 /// A report shows no more grains than this, all frames together: the rest is thinned out.
 const MOST_SHOWN: f64 = 1.3e6;
 /// Of the rays of a pulse, those that are in flight in the mean of its time.
-const PART_IN_FLIGHT: f64 = 0.5;
+pub(super) const PART_IN_FLIGHT: f64 = 0.5;
 const BYTES_PER_GRAIN: f64 = 400.0;
 const BYTES_PER_CONTACT: f64 = 200.0;
 const BYTES_PER_RAY: f64 = 120.0;

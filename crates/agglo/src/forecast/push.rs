@@ -12,6 +12,7 @@ use crate::math::Vec3;
 use crate::particles::{Material, Particles};
 use crate::scenario::Scenario;
 use crate::scenario::figures::{digits, readable};
+use crate::units::Quantity;
 
 /// More rays than this are not followed: as many carry the power of all.
 const MOST_RAYS: u32 = 100_000;
@@ -20,8 +21,9 @@ const MOST_RAYS: u32 = 100_000;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Push {
     pub beam: usize,
-    /// Pulses before the end.
+    /// Pulses before the end, and the time [s] from one to the next.
     pub pulses: f64,
+    pub period: f64,
     /// Power and pressure of the beam [W, Pa].
     pub power: f64,
     pub pressure: f64,
@@ -40,6 +42,8 @@ pub(super) struct Push {
     pub common_speed: f64,
     /// Speed at which two grains meet, root of the mean square [m/s].
     pub meeting_speed: f64,
+    /// Time [s] in which drag takes a grain's speed, in the mean; infinite without drag.
+    pub stopping_s: f64,
     /// Reynolds number of the grain for which it is largest.
     pub reynolds: f64,
     /// Overlap strain when two like grains meet at that speed, if a law of contact repels them.
@@ -60,7 +64,8 @@ pub(super) fn all(scenario: &Scenario, grains: &Particles) -> Vec<Push> {
         still = back;
         let pulses = f64::from(counts::pulses_before(beam, scenario.time.end.si()));
         let wall_s = began.elapsed().as_secs_f64();
-        let push = Push { beam: number, pulses, power, pressure, wall_s, ..Push::default() };
+        let period = beam.pulses.period.map_or(0.0, Quantity::si);
+        let push = Push { beam: number, pulses, period, power, pressure, wall_s, ..Push::default() };
         push.with_pulse(scenario, grains, &pulse, f64::from(beam.rays))
     };
     acoustics.beams.iter().zip(0..).map(of).collect()
@@ -98,11 +103,36 @@ impl Push {
             fastest: speeds().fold(0.0, f64::max),
             common_speed: common.norm(),
             meeting_speed,
+            stopping_s: stopping(scenario, grains),
             reynolds: reynolds.fold(0.0, f64::max),
             strain: deepest(scenario, grains, meeting_speed),
             ..self
         }
     }
+
+    /// How far [m] grains have come from one another at each of the later pulses, added up, if nothing but drag holds them:
+    /// σ τ (1 - e^(-t/τ)) at t = T, 2 T ... (n - 1) T, with σ the scatter of their speeds.
+    pub(super) fn spreads(&self) -> f64 {
+        let (count, scatter) = (self.pulses, self.meeting_speed / SQRT_2);
+        let decay = self.period / self.stopping_s;
+        if count <= 1.0 || self.period == 0.0 {
+            0.0
+        } else if decay == 0.0 {
+            scatter * self.period * 0.5 * count * (count - 1.0)
+        } else {
+            scatter * self.stopping_s * (count - (-count * decay).exp_m1() / (-decay).exp_m1())
+        }
+    }
+}
+
+/// Time [s] in which drag takes a grain's speed, in the mean over the grains: by Stokes' law, the weakest of all.
+fn stopping(scenario: &Scenario, grains: &Particles) -> f64 {
+    let Some(drag) = &scenario.fields.drag else { return f64::INFINITY };
+    let of = |(mass, radius): (&f64, &f64)| {
+        let moved = mass + drag.added_mass(&scenario.medium, *radius);
+        moved / drag.coefficient(&scenario.medium, *radius, Vec3::ZERO)
+    };
+    grains.mass.iter().zip(&grains.radius).map(of).sum::<f64>() / grains.len() as f64
 }
 
 /// Largest overlap strain of all materials, for grains as they are in the mean.
@@ -156,10 +186,6 @@ pub(super) fn describe(plan: &mut Plan, pushes: &[Push]) {
             digits(100.0 * push.absorbed)
         );
         row("  its first pulse".to_owned(), what);
-        if push.pulses > 1.0 {
-            let told = "taken to fly as long: longer where the grains have spread by then";
-            row("  later pulses".to_owned(), told.to_owned());
-        }
         let [mean, fastest, common] =
             [push.mean_speed, push.fastest, push.common_speed].map(|speed| readable(speed, "m/s"));
         row(

@@ -18,11 +18,17 @@ fn template(name: &str) -> &'static str {
 fn the_sample_problem() {
     let plan = plan_of(template("acoustic"));
     assert_eq!((plan.grains, plan.rays_per_pulse, plan.pulses), (2000, 10_000, 4));
-    // While rays fly, four times as long as those of the first pulse, a frame every 0.5 ms, else every 50 ms. The program and
+    // Grains scatter at 1/sqrt(2) of the speed at which they meet, and Stokes' drag takes it in 2 rho R²/(9 eta). While rays fly, as
+    // long as those of the first pulse and for the way through the scattered grains, a frame every 0.5 ms, else every 50 ms. The program and
     // the report; grains in all frames; half the rays in those of flights; grains with three contacts each; rays.
     let scenario = Scenario::from_toml(template("acoustic")).unwrap();
     let pushes = push::all(&scenario, &crate::packing::place(&scenario, Path::new("")).unwrap());
-    let flights = 4.0 * pushes[0].flight_s;
+    let viscosity = scenario.medium.viscosity.si();
+    let stopping = 2.0 * 6000.0 * 0.05 * 0.05 / (9.0 * viscosity);
+    let scattered =
+        |time: f64| pushes[0].meeting_speed / 2_f64.sqrt() * stopping * (1.0 - (-time / stopping).exp());
+    let later = [0.5, 1.0, 1.5].map(|time| 2.0 * scattered(time) / 1500.0).iter().sum::<f64>();
+    let flights = 4.0 * pushes[0].flight_s + later;
     let [quiet, flying] = [1.0 + (2.0 - flights) / 0.05, flights / 0.5e-3];
     let by_hand = 24e6
         + (quiet + flying) * 2000.0 * 190.0

@@ -81,7 +81,7 @@ pub struct Weights {
     pub row: f64,
     /// A frame without rays in flight; nothing where rays flew all the time.
     pub frame: Option<f64>,
-    /// A frame with rays in flight, if some flew.
+    /// A frame with all rays of a pulse in flight, if some flew.
     pub flying_frame: Option<f64>,
     /// A checkpoint.
     pub checkpoint: f64,
@@ -184,6 +184,7 @@ impl Record {
         let recorder = Recorder::create::<J>(scenario, &folder)?;
         let mut record = Self { scenario: scenario.to_toml()?, place, folder, recorder, frames: [None; 2] };
         record.recorder.record_due(job)?;
+        record.weigh_frame(job)?;
         record.save(job)?;
         Ok(record)
     }
@@ -194,9 +195,7 @@ impl Record {
         if self.recorder.checkpoint_is_due(&job.moment()) {
             self.save(job)?;
         }
-        if job.is_ray_flight() && self.frames[1].is_none() {
-            self.weigh_frame(job)?;
-        }
+        self.weigh_frame(job)?;
         Ok(self)
     }
 
@@ -208,17 +207,18 @@ impl Record {
         let row = self.weighed(|record| {
             Ok(record.recorder.write_rows(job).and_then(|()| record.recorder.flush())?)
         })?;
-        self.weigh_frame(job)?;
         self.save(job)?;
         let newest = bytes_below(&self.folder.checkpoints()) - 0.5 * checkpoints;
         let [frame, flying_frame] = self.frames;
         Ok(Weights { so_far, row, frame, flying_frame, checkpoint: newest.max(0.0) })
     }
 
-    /// Writes a frame, due or not, of which only the weight is kept.
+    /// Writes the first frame without rays and the first with all rays in flight, due or not; only the weights are kept.
     fn weigh_frame<J: Job>(&mut self, job: &mut J) -> Result<(), RunError> {
         let kind = usize::from(job.is_ray_flight());
-        self.frames[kind] = Some(self.weighed(|record| Ok(record.recorder.write_frame(job)?))?);
+        if self.frames[kind].is_none() {
+            self.frames[kind] = Some(self.weighed(|record| Ok(record.recorder.write_frame(job)?))?);
+        }
         Ok(())
     }
 

@@ -89,8 +89,10 @@ fn val_zohdi_2016_beam_power_of_all_rays() {
         assert!((all.flow + taken / count.power_in - Vec3::AXES[2]).norm() < 1e-10);
         axis += all.flow.z / 8.0;
         magnitude += all.magnitude / 8.0;
-        // Between all power in one ray and evenly spread.
-        assert!(all.root_of_squares > 0.01 * all.magnitude && all.root_of_squares < 0.0105);
+        // Squares too: those of all rays at first, less what hits took of them.
+        let lost: f64 = hits.iter().map(|hit| hit.power_in.powi(2) * (1.0 - hit.reflectance.powi(2))).sum();
+        let squares = 1e-4 - lost / count.power_in.powi(2);
+        assert!((all.root_of_squares.powi(2) / squares - 1.0).abs() < 1e-10);
     }
     assert!((axis + 0.155).abs() < 0.01, "{axis}");
     assert!((magnitude - 0.932).abs() < 0.003, "{magnitude}");

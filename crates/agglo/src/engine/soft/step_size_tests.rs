@@ -17,17 +17,22 @@ const HOOKE: &str = "[contact.normal.hooke]\nstiffness = \"10 N/m\"\n";
 const DASHPOT: &str = "[contact.damping.restitution]\nrestitution = 0.3\n";
 
 fn paces(laws: &str) -> Paces {
+    paces_at("20 um", STRAIN, laws)
+}
+
+/// With centers at a distance, and contacts that reach this strain.
+fn paces_at(distance: &str, strain: f64, laws: &str) -> Paces {
     let text = format!(
         "version = 1\ntime.end = \"1 ms\"\nengine.verlet = {{}}\n\
          medium = {{ density = \"1000 kg/m3\", viscosity = \"1 mPa s\" }}\n[materials.stone]\n\
          density = \"2500 kg/m3\"\nyoungs_modulus = \"10 MPa\"\npoisson_ratio = 0.25\n\
          [[grains]]\nmaterial = \"stone\"\ncharge = \"1 pC\"\nsize.constant.radius = \"10 um\"\n\
-         placement.list.positions = [[\"0 m\", \"0 m\", \"0 m\"], [\"20 um\", \"0 m\", \"0 m\"]]\n{laws}"
+         placement.list.positions = [[\"0 m\", \"0 m\", \"0 m\"], [\"{distance}\", \"0 m\", \"0 m\"]]\n{laws}"
     );
     let scenario = Scenario::from_toml(&text).unwrap();
     let grains = place(&scenario, Path::new("")).unwrap();
     let simulation = Simulation::start(&scenario, grains).unwrap();
-    Paces::new(&simulation.system, Some(STRAIN), 0.0)
+    Paces::new(&simulation.system, Some(strain), 0.0)
 }
 
 fn assert_pace(found: Pace, square: f64, rate: f64, what: &str) {
@@ -50,6 +55,32 @@ fn contacts() {
     // 2 E* √(R* δ) with E* = E/(2 (1 - ν²)), R* = R/2 and δ = 2 um; Rayleigh's wave is slower here.
     let stiffness = 10e6 / (1.0 - 0.0625) * (0.5 * RADIUS * 2e-6_f64).sqrt();
     assert_pace(paces("[contact.normal.hertz]\n").contact, stiffness / (0.5 * MASS), 0.0, "hertz");
+}
+
+/// Where contacts hardly reach anything, Rayleigh's wave: 4/T², T = π R √(ρ/G)/(0.1631 ν + 0.8766), G = 4 MPa.
+#[test]
+fn the_wave_of_stiff_contacts() {
+    let time = PI * RADIUS * (2500.0_f64 / 4e6).sqrt() / (0.1631 * 0.25 + 0.8766);
+    let found = paces_at("20 um", 1e-9, "[contact.normal.hertz]\n").contact;
+    assert_pace(found, 4.0 / (time * time), 0.0, "wave");
+}
+
+/// Laws by the area of contact, of grains that overlap by 1 um: A = π δ (R - δ/4). Dashpot c A/m*; springs across
+/// 4 (7/2) K A/m*, beside the normal one and, for a bond, on top of it.
+#[test]
+fn contacts_by_area() {
+    let area = PI * 1e-6 * (RADIUS - 0.25e-6);
+    let normal = 10.0 / (0.5 * MASS);
+    let across = 14.0 * 1e12 * area / (0.5 * MASS);
+    // The area is of two lenses that are known to rounding of the distance, 1e-16/1e-6 of the overlap.
+    let with = |law: &str| paces_at("19 um", 1e-9, &format!("{HOOKE}{law}")).contact;
+    let viscous = "[contact.damping.viscous_area]\ncoefficient = \"1e8 Pa s/m\"\n";
+    assert_pace(with(viscous), normal, 1e8 * area / (0.5 * MASS), "viscous_area");
+    let friction = "[contact.friction.regularised]\nstiffness = \"1e12 Pa/m\"\nstatic_friction = 0.4\ndynamic_friction = 0.3\n";
+    assert_pace(with(friction), across, 0.0, "regularised");
+    let bond = "[bonds.strain_bond]\nstiffness = \"1 kPa\"\nexponent = 2.0\ntangential_stiffness = \"1e12 Pa/m\"\n\
+                threshold_strain = 0.001\n";
+    assert_pace(with(bond), normal + across, 0.0, "strain_bond");
 }
 
 /// Drag by its solved rate of spin; q B/m and the gradient of E over all axes; 2 γ (∂B/∂z)².

@@ -75,6 +75,7 @@ mod tests {
     fn a_step_that_leads_into_a_wall_is_tried_again() {
         let tempo = Tempo::new(0.125, 1.0);
         assert_eq!(tempo.shorter(0.25, 1.0), None);
+        assert_eq!(tempo.shorter(0.251, 1.0), Some(0.125));
         assert_eq!(tempo.shorter(0.5, 1.0), Some(0.125));
         assert_eq!(tempo.shorter(0.5, 1.5), Some(0.1875));
         assert_eq!(tempo.shorter(1.0, 1e-9), Some(0.1));
