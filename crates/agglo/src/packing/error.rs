@@ -15,6 +15,9 @@ fn apart(values: [f64; 2], unit: &str, which: usize) -> String {
 /// Why the grains could not be placed. `group` is the place in the scenario's list `grains`, from 0.
 #[derive(Debug, thiserror::Error)]
 pub enum PackingError {
+    /// It was asked to stop.
+    #[error("stopped while grains were placed")]
+    Stopped,
     /// Random sequential addition found no more room.
     #[error(
         "grains[{group}]: no room left after {placed} of {wanted} grains (solid fraction {}, asked for {}); random placement of equal spheres ends at {limit}. Ask for fewer grains, give a \

@@ -14,7 +14,7 @@ mod velocity;
 
 pub use error::{PackingError, SATURATION};
 pub use overlap::{Overlap, first_overlap};
-pub use place::{place, place_groups};
+pub use place::{PlaceWatch, place, place_groups, place_watched};
 pub use placement::{Fill, GrainList, Lattice, LatticeKind, Placement, RandomAddition, Table};
 pub use random::fill_with;
 pub use size::{ConstantSize, LengthRatio, LognormalSize, Size, SizeTable, UniformSize};

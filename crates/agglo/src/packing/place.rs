@@ -1,5 +1,6 @@
 //! From the groups of a scenario to grains.
 
+use std::ops::ControlFlow;
 use std::path::Path;
 
 use super::error::PackingError;
@@ -27,14 +28,40 @@ pub fn place(scenario: &Scenario, base: &Path) -> Result<Particles, PackingError
     place_groups(scenario, base).map(|(grains, _)| grains)
 }
 
+/// Asked now and then while grains are placed whether to go on.
+pub type PlaceWatch<'a> = dyn FnMut() -> ControlFlow<()> + 'a;
+
+/// As [`place`]; `watch` may stop it.
+///
+/// # Errors
+/// As for [`place`], and [`PackingError::Stopped`].
+pub fn place_watched(
+    scenario: &Scenario,
+    base: &Path,
+    watch: &mut PlaceWatch<'_>,
+) -> Result<Particles, PackingError> {
+    placed(scenario, base, watch).map(|(grains, _)| grains)
+}
+
 /// As [`place`], with the number of grains of each group; those of a group follow one another.
 ///
 /// # Errors
 /// As for [`place`].
 pub fn place_groups(scenario: &Scenario, base: &Path) -> Result<(Particles, Vec<u64>), PackingError> {
+    placed(scenario, base, &mut || ControlFlow::Continue(()))
+}
+
+fn placed(
+    scenario: &Scenario,
+    base: &Path,
+    watch: &mut PlaceWatch<'_>,
+) -> Result<(Particles, Vec<u64>), PackingError> {
     let mut grains = Particles::default();
     let mut counts = Vec::new();
     for (group, request) in scenario.grains.iter().enumerate() {
+        if watch().is_break() {
+            return Err(PackingError::Stopped);
+        }
         let found = scenario.materials.iter().enumerate().find(|(_, (name, _))| **name == request.material);
         let Some((material, (_, properties))) = found else {
             let reason = format!("there is no material `{}`", request.material);
@@ -44,7 +71,8 @@ pub fn place_groups(scenario: &Scenario, base: &Path) -> Result<(Particles, Vec<
             return Err(PackingError::Value { group, key: "size", reason });
         }
         let volume = scenario.volume.as_ref();
-        let mut spots = Group { request, seed: scenario.seed, number: group, base, volume }.spots(&grains)?;
+        let group_of = Group { request, seed: scenario.seed, number: group, base, volume };
+        let mut spots = group_of.spots(&grains, watch)?;
         scatter(request, scenario.seed, group, &mut spots);
         for spot in spots {
             let row = grain(request, properties, spot);
@@ -81,7 +109,7 @@ struct Group<'a> {
 }
 
 impl Group<'_> {
-    fn spots(&self, earlier: &Particles) -> Result<Vec<Spot>, PackingError> {
+    fn spots(&self, earlier: &Particles, watch: &mut PlaceWatch<'_>) -> Result<Vec<Spot>, PackingError> {
         let &Self { request, seed, number: group, base, volume } = self;
         let velocity = vector(request.velocity);
         let temperature = request.temperature.si();
@@ -91,7 +119,7 @@ impl Group<'_> {
         let mut sized = |position| spot((position, request.size.sample(&mut stream)));
         match &request.placement {
             Placement::Random(_) | Placement::Fill(_) => {
-                let placed = random::add(&self.random_request()?, earlier, volume)?;
+                let placed = random::add(&self.random_request()?, earlier, volume, watch)?;
                 Ok(placed.into_iter().map(spot).collect())
             }
             Placement::Lattice(lattice) => {

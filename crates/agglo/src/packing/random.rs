@@ -16,10 +16,12 @@
 //! Equal spheres come to an end at a solid fraction of 0.384 (0.382 in earlier work) far from walls, and lower
 //! near them. Unequal spheres are given up after a bounded number of draws, somewhat before their end.
 
+use std::ops::ControlFlow;
+
 use super::error::{PackingError, SATURATION};
 use super::occupied::Occupied;
 use super::room::Room;
-use super::{Fill, RandomAddition, Size};
+use super::{Fill, PlaceWatch, RandomAddition, Size};
 use crate::domain::Volume;
 use crate::math::Vec3;
 use crate::math::rng::{Purpose, Stream};
@@ -119,6 +121,7 @@ pub(super) fn add(
     request: &Request,
     earlier: &Particles,
     volume: Option<&Volume>,
+    watch: &mut PlaceWatch<'_>,
 ) -> Result<Vec<(Vec3, f64)>, PackingError> {
     let &Request { seed, group, ref room, gap, size, key, .. } = request;
     let wanted = request.wanted.clone().map_err(|reason| PackingError::Value { group, key, reason })?;
@@ -145,7 +148,7 @@ pub(super) fn add(
         return too_large(radii[0]);
     }
     let search = Search { room, gap, radii: &radii, earlier, volume };
-    let placed = search.run(seed, group, equal);
+    let placed = search.run(seed, group, equal, watch)?;
     if placed.len() == radii.len() {
         Ok(placed)
     } else {
@@ -170,7 +173,7 @@ pub fn fill_with(radii: &[f64], volume: &Volume, seed: u64) -> Result<Vec<Vec3>,
     }
     let (earlier, volume) = (&Particles::default(), Some(volume));
     let search = Search { room: &room, gap: 0.0, radii: &sorted, earlier, volume };
-    let placed = search.run(seed, group, largest == smallest);
+    let placed = search.run(seed, group, largest == smallest, &mut || ControlFlow::Continue(()))?;
     if placed.len() < radii.len() {
         let [solid_fraction, reached] = [radii.len(), placed.len()].map(|count| search.solid_fraction(count));
         let (placed, wanted) = (placed.len(), radii.len());
@@ -190,6 +193,31 @@ fn radii_from_large_to_small(size: &Size, count: u32, seed: u64, group: usize) -
     radii
 }
 
+/// Whether the search is to stop, asked now and then.
+struct Asked<'a, 'w> {
+    watch: &'a mut PlaceWatch<'w>,
+    times: u32,
+    is_stopped: bool,
+}
+
+impl Asked<'_, '_> {
+    /// Draws between two questions.
+    const EVERY: u32 = 1 << 12;
+
+    fn is_over(&mut self) -> bool {
+        self.times += 1;
+        if self.times == Self::EVERY {
+            self.times = 0;
+            self.is_stopped |= (self.watch)().is_break();
+        }
+        self.is_stopped
+    }
+
+    fn go_on(&self) -> Result<(), PackingError> {
+        if self.is_stopped { Err(PackingError::Stopped) } else { Ok(()) }
+    }
+}
+
 /// The request in one place.
 struct Search<'a> {
     room: &'a Room,
@@ -206,7 +234,14 @@ impl Search<'_> {
     }
 
     /// Puts grains until all are placed or no more room is found.
-    fn run(&self, seed: u64, group: usize, equal: bool) -> Vec<(Vec3, f64)> {
+    fn run(
+        &self,
+        seed: u64,
+        group: usize,
+        equal: bool,
+        watch: &mut PlaceWatch<'_>,
+    ) -> Result<Vec<(Vec3, f64)>, PackingError> {
+        let mut asked = Asked { watch, times: 0, is_stopped: false };
         let mut occupied = self.occupied_by_earlier();
         let mut stream = Stream::new(seed, Purpose::Placement, group as u32);
         let mut placed = Vec::with_capacity(self.radii.len());
@@ -215,17 +250,18 @@ impl Search<'_> {
             let patience = if equal { PATIENCE } else { LONGEST_SEARCH.min(most_draws - draws) };
             let found = (0..patience).find_map(|_| {
                 draws += 1;
-                let place = self.room.sample(radius, &mut stream)?;
-                occupied.is_free(place, radius).then_some(place)
+                let place = self.room.sample(radius, &mut stream);
+                place.filter(|&place| asked.is_over() || occupied.is_free(place, radius))
             });
+            asked.go_on()?;
             let Some(place) = found else { break };
             occupied.insert(place, radius);
             placed.push((place, radius));
         }
         if equal && placed.len() < self.radii.len() {
-            self.fill_gaps(&mut occupied, &mut stream, &mut placed);
+            self.fill_gaps(&mut occupied, &mut stream, &mut placed, &mut asked)?;
         }
-        placed
+        Ok(placed)
     }
 
     fn occupied_by_earlier(&self) -> Occupied {
@@ -253,15 +289,25 @@ impl Search<'_> {
     }
 
     /// Goes on with draws from cubes that cover all the room left, for equal grains.
-    fn fill_gaps(&self, occupied: &mut Occupied, stream: &mut Stream, placed: &mut Vec<(Vec3, f64)>) {
+    fn fill_gaps(
+        &self,
+        occupied: &mut Occupied,
+        stream: &mut Stream,
+        placed: &mut Vec<(Vec3, f64)>,
+        asked: &mut Asked<'_, '_>,
+    ) -> Result<(), PackingError> {
         let radius = self.radii[0];
         let mut cubes = Cubes::about(&self.room.bounds(), radius);
-        cubes.middles.retain(|&middle| self.may_have_room(middle, cubes.half_edge, occupied));
+        let half_edge = cubes.half_edge;
+        let mut may_have_room = |middle, half_edge, occupied: &Occupied| {
+            !asked.is_over() && self.may_have_room(middle, half_edge, occupied)
+        };
+        cubes.middles.retain(|&middle| may_have_room(middle, half_edge, occupied));
         for _ in 0..ROUNDS {
             let (draws, before) = (cubes.middles.len(), placed.len());
             for _ in 0..draws {
                 if placed.len() == self.radii.len() {
-                    return;
+                    return Ok(());
                 }
                 let place = cubes.sample(stream);
                 if self.room.admits(place, radius) && occupied.is_free(place, radius) {
@@ -272,14 +318,16 @@ impl Search<'_> {
             // While draws succeed there is no need for smaller cubes.
             let worn_out = (placed.len() - before) as f64 <= WORN_OUT * draws as f64;
             if worn_out && draws < MOST_CUBES {
-                cubes.halve(|middle, half_edge| self.may_have_room(middle, half_edge, occupied));
+                cubes.halve(|middle, half_edge| may_have_room(middle, half_edge, occupied));
             } else {
-                cubes.middles.retain(|&middle| self.may_have_room(middle, cubes.half_edge, occupied));
+                let half_edge = cubes.half_edge;
+                cubes.middles.retain(|&middle| may_have_room(middle, half_edge, occupied));
             }
             if cubes.middles.is_empty() {
-                return;
+                break;
             }
         }
+        asked.go_on()
     }
 
     /// Whether a cube is neither outside the region nor covered by one grain.
@@ -332,7 +380,7 @@ impl Cubes {
     }
 
     /// Puts the eight halves of each cube in its place, those that `may_have_room` (middle, half edge).
-    fn halve(&mut self, may_have_room: impl Fn(Vec3, f64) -> bool) {
+    fn halve(&mut self, mut may_have_room: impl FnMut(Vec3, f64) -> bool) {
         self.half_edge *= 0.5;
         let half = self.half_edge;
         let side = |corner: u32, axis: u32| if corner >> axis & 1 == 0 { -half } else { half };

@@ -1,5 +1,7 @@
 //! Tests of whole placements.
 
+use std::ops::ControlFlow;
+
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -160,7 +162,7 @@ fn equal_spheres_saturate_where_others_found() {
         let (room, gap) = (room::Room::inside(&cube(edge)), 0.0);
         let request =
             random::Request { seed: 1, group: 0, room, gap, wanted: Ok(wanted), size: &size, key: "" };
-        random::add(&request, &Particles::default(), None)
+        random::add(&request, &Particles::default(), None, &mut || ControlFlow::Continue(()))
     };
     let error = add((0.381 * edge.powi(3) / size.mean_volume()) as u32).unwrap_err();
     let message = error.to_string();
@@ -276,4 +278,19 @@ fn two_hundred_thousand_grains() {
     let solid = 4.0 / 3.0 * std::f64::consts::PI * 200_000.0 / 0.25;
     let request = random(cube(solid.cbrt()), None, Some(0.25));
     assert_eq!(placed(vec![group("ink", radius(1.0), request)]).unwrap().len(), 200_000);
+}
+
+/// A search for room that would go on for long is stopped when it asks the first time.
+#[test]
+fn placing_stops_when_it_is_told_to() {
+    let size = radius(0.7);
+    let (room, gap) = (room::Room::inside(&cube(40.0)), 0.0);
+    let request = random::Request { seed: 1, group: 0, room, gap, wanted: Ok(16_000), size: &size, key: "" };
+    let mut asked = 0;
+    let mut stop = || {
+        asked += 1;
+        ControlFlow::Break(())
+    };
+    let stopped = random::add(&request, &Particles::default(), None, &mut stop);
+    assert!(matches!(stopped, Err(PackingError::Stopped)) && asked == 1, "{stopped:?}");
 }

@@ -7,6 +7,7 @@ use std::time::Instant;
 
 use crate::engine::SimError;
 use crate::engine::soft::Resting;
+use crate::packing::{PackingError, place_watched};
 use crate::particles::Particles;
 use crate::scenario::Scenario;
 
@@ -28,9 +29,16 @@ const LOOKS: f64 = 200.0;
 pub fn quiet(scenario: &Scenario, base: &Path, stop: &AtomicBool) -> Result<Ending, RunError> {
     let sat_down = Instant::now();
     let scenario = scenario.resolved();
-    let grains = crate::packing::place(&scenario, base)?;
+    let grains = match place_watched(&scenario, base, &mut || asked(stop)) {
+        Err(PackingError::Stopped) => return Ok(Ending::Interrupted(0.0)),
+        placed => placed?,
+    };
     let go = if scenario.engine.is_hard() { sit::<Hard> } else { sit::<Soft> };
     go(&scenario, grains, sat_down, stop)
+}
+
+fn asked(stop: &AtomicBool) -> ControlFlow<()> {
+    if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }
 
 fn sit<J: Job>(
@@ -40,9 +48,7 @@ fn sit<J: Job>(
     stop: &AtomicBool,
 ) -> Result<Ending, RunError> {
     let end = scenario.time.end.si();
-    let mut watch = |_: &Resting| {
-        if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    };
+    let mut watch = |_: &Resting| asked(stop);
     let mut job = match J::start(scenario, grains, &mut watch) {
         Err(SimError::StoppedAtRest) => return Ok(Ending::Interrupted(0.0)),
         started => started.map_err(RunError::Start)?,
