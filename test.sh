@@ -4,8 +4,13 @@
 #
 # Needs Rust (cargo) and Python 3.11 or later. What else is missing is installed: Python packages into target/venv, and Debian
 # packages only where something does not work without them (then it says which).
+#
+# --long repeats the storms of kills and of two processes in one folder 500 times, not 20 times.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
+if [[ ${1:-} == --long ]]; then
+    export AGGLO_STORMS=500
+fi
 
 venv=target/venv
 log=target/test.log

@@ -78,16 +78,36 @@ pub(crate) enum Verb {
         folder: PathBuf,
     },
     /// Go on with a run from its newest sound checkpoint, or with a search or study
-    Resume {
-        /// The folder
-        folder: PathBuf,
-        /// Number of threads; all processors if left out
-        #[arg(long, value_parser = clap::value_parser!(u32).range(1..=4096))]
-        threads: Option<u32>,
-        /// Write no report.html at the end
-        #[arg(long)]
-        no_report: bool,
-    },
+    Resume(ResumeOrders),
+}
+
+impl Verb {
+    /// The number of threads that is asked for.
+    pub(crate) fn threads(&self) -> Option<u32> {
+        match self {
+            Self::Run(orders) => orders.orders.threads,
+            Self::Search(orders) | Self::Study(orders) => orders.threads,
+            Self::Resume(orders) => orders.threads,
+            Self::Render(wishes) => wishes.threads,
+            _ => None,
+        }
+    }
+}
+
+/// What to go on with.
+#[derive(Args, Debug)]
+pub(crate) struct ResumeOrders {
+    /// The folder
+    pub folder: PathBuf,
+    /// Go on to another end, such as "40 s", with a run that was stopped or has finished
+    #[arg(long, value_name = "TIME")]
+    pub until: Option<String>,
+    /// Number of threads; all processors if left out
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub threads: Option<u32>,
+    /// Write no report.html at the end
+    #[arg(long)]
+    pub no_report: bool,
 }
 
 /// What to run, and what to see meanwhile.

@@ -12,6 +12,7 @@ mod render;
 mod report;
 mod run;
 mod search;
+mod signals;
 #[cfg(feature = "watch")]
 mod watch;
 
@@ -46,7 +47,21 @@ impl Failure {
 }
 
 fn main() -> ExitCode {
-    let outcome = match Arguments::parse().verb {
+    signals::outlive_file_limits();
+    let verb = Arguments::parse().verb;
+    let outcome = run::use_threads(verb.threads()).and_then(|()| act(verb));
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            // Nothing is left to do where even this message cannot be written.
+            let _ = writeln!(io::stderr(), "{}", failure.message);
+            ExitCode::from(failure.code)
+        }
+    }
+}
+
+fn act(verb: Verb) -> Result<(), Failure> {
+    match verb {
         Verb::New { template } => new(&template),
         Verb::Check { scenario, settings } => check(&scenario, &settings),
         Verb::Explain { law } => explain::explain(law.as_deref()),
@@ -62,18 +77,8 @@ fn main() -> ExitCode {
         #[cfg(feature = "watch")]
         Verb::Watch { folder } => watch::watch(&folder),
         Verb::Render(wishes) => render::render(&wishes),
-        Verb::Resume { folder, threads, no_report } if agglo::search::campaign::is_one(&folder) => {
-            search::resume(&folder, threads, !no_report)
-        }
-        Verb::Resume { folder, threads, no_report } => run::resume(&folder, threads, !no_report),
-    };
-    match outcome {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => {
-            // Nothing is left to do where even this message cannot be written.
-            let _ = writeln!(io::stderr(), "{}", failure.message);
-            ExitCode::from(failure.code)
-        }
+        Verb::Resume(orders) if agglo::search::campaign::is_one(&orders.folder) => search::resume(&orders),
+        Verb::Resume(orders) => run::resume(&orders),
     }
 }
 

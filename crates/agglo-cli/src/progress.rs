@@ -82,6 +82,10 @@ impl Display {
 
     /// Shows how far a search or study is.
     pub(crate) fn show_campaign(&mut self, progress: &CampaignProgress) {
+        for warning in &progress.warnings {
+            self.warnings += 1;
+            self.line(&format!("warning: {warning}"));
+        }
         let state = campaign_state(progress);
         let part = progress.evaluations_at_most.map(|most| progress.evaluations as f64 / most.max(1) as f64);
         if self.on_terminal {
@@ -287,6 +291,7 @@ mod tests {
             starts_per_second: 35.21,
             failures: 2,
             left_s: Some(62.0),
+            warnings: Vec::new(),
         };
         let wanted = "search, best 0.3204 +- 0.004, 314 of 370 candidates in 21 batches, 2 failed, 1204 runs, \
                       35.21/s, 1:02 left";

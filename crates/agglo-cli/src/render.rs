@@ -2,7 +2,6 @@
 
 use std::ops::{ControlFlow, RangeInclusive};
 use std::path::PathBuf;
-use std::sync::atomic::Ordering;
 
 use agglo::math::Vec3;
 use agglo::plot::Map;
@@ -10,7 +9,7 @@ use agglo::render::{Background, Film, FilmEnding, Options, Output, Shots, Side, 
 use clap::{Args, ValueEnum};
 
 use crate::progress::Display;
-use crate::run::{listen, use_threads};
+use crate::signals::{Ear, Late};
 use crate::{Failure, print};
 
 /// What to draw.
@@ -76,7 +75,7 @@ pub(crate) struct Wishes {
     fps: f64,
     /// Number of threads; all processors if left out
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=4096))]
-    threads: Option<u32>,
+    pub threads: Option<u32>,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -124,13 +123,12 @@ pub(crate) fn render(wishes: &Wishes) -> Result<(), Failure> {
     let output = Output::of(&wishes.output).map_err(refused)?;
     let is_movie = output.is_movie();
     let shots = Shots { frames: wishes.frames.clone(), every: wishes.every as usize, rate: wishes.fps };
-    use_threads(wishes.threads)?;
-    let stop = listen()?;
+    let ear = Ear::open(None, Late::Ends("stopped in the middle of a picture; those before it are kept"))?;
     let mut display = Display::new();
     let wanted = Film { output, shots, options: wishes.options() };
     let ending = film(folder, wanted, &mut |progress| {
         display.show_film(progress);
-        if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if ear.is_asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     let wall = display.wall();
     match ending.map_err(refused)? {

@@ -6,11 +6,20 @@ use std::path::Path;
 use agglo::report::{self, ReportError};
 use agglo::scenario::Scenario;
 
+use crate::signals::Ear;
 use crate::{Failure, print};
 
 /// Writes the page of what has just finished and says so; a page that cannot be written is a warning, since all
 /// results are there.
-pub(crate) fn at_the_end(folder: &Path) -> String {
+///
+/// Nothing else is left to be saved: a signal ends the program at once, and one that came before leaves the page out.
+pub(crate) fn at_the_end(folder: &Path, ear: &Ear) -> String {
+    let shown = folder.display();
+    let advice = format!("`agglo report {shown}` writes report.html");
+    if ear.is_asked() {
+        return format!("; stopped before its page: {advice}");
+    }
+    ear.ends_at_once(format!("stopped while the page was written; all results are in {shown}, and {advice}"));
     match report::write(folder) {
         Ok(_) => "; report.html shows it".to_owned(),
         Err(error) => {

@@ -1,15 +1,18 @@
 //! The verbs `run` and `resume`.
 
+use std::io::Write;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use agglo::run::{Ending, Observer, Progress, RunError, Summary};
 use agglo::scenario::readable;
+use agglo::units::{Quantity, Time, parse_quantity};
 
-use crate::arguments::{Orders, RunOrders};
+use crate::arguments::{Orders, ResumeOrders, RunOrders};
 use crate::progress::Display;
+use crate::signals::{Ear, Late};
 use crate::{Failure, print, progress, read, report};
 
 /// Runs a scenario into a folder.
@@ -20,7 +23,6 @@ pub(crate) fn run(run_orders: &RunOrders) -> Result<(), Failure> {
     let read = read::scenario(&orders.scenario, &settings)?;
     let folder = orders.output.clone().unwrap_or_else(|| default_folder(&orders.scenario));
     refuse_occupied(&folder)?;
-    use_threads(orders.threads)?;
     let beside = |stop| companion(run_orders, &folder, stop);
     go(&folder, beside, !orders.no_report, |observer| {
         agglo::run::run(&read.scenario, &read.base, &folder, observer)
@@ -41,16 +43,26 @@ fn companion(_: &RunOrders, _: &Path, _: Arc<AtomicBool>) -> Option<Box<dyn Comp
 }
 
 /// Goes on with the run in a folder.
-pub(crate) fn resume(folder: &Path, threads: Option<u32>, reports: bool) -> Result<(), Failure> {
+pub(crate) fn resume(orders: &ResumeOrders) -> Result<(), Failure> {
+    let folder = orders.folder.as_path();
     if !folder.is_dir() {
         return Err(Failure::bad_input(format!("error: there is no folder {}", folder.display())));
+    }
+    if let Some(until) = &orders.until {
+        let end = parse_quantity(until, Time::DIMENSION)
+            .map_err(|error| Failure::bad_input(format!("error: --until: {error}")))?;
+        return go(
+            folder,
+            |_| None,
+            !orders.no_report,
+            |observer| agglo::run::resume_until(folder, Quantity(end), observer),
+        );
     }
     if let Some(summary) = agglo::run::finished(folder) {
         let shown = folder.display();
         return print(&format!("{}\nthe run in {shown} has finished already", table(&summary)));
     }
-    use_threads(threads)?;
-    go(folder, |_| None, reports, |observer| agglo::run::resume(folder, observer))
+    go(folder, |_| None, !orders.no_report, |observer| agglo::run::resume(folder, observer))
 }
 
 /// The settings of the command line, the seed among them.
@@ -66,23 +78,32 @@ pub(crate) fn default_folder(scenario: &Path) -> PathBuf {
 
 /// A folder that holds anything is left alone: it may be the only copy of another run.
 pub(crate) fn refuse_occupied(folder: &Path) -> Result<(), Failure> {
-    let shown = folder.display();
-    if folder.exists() && !folder.is_dir() {
-        return Err(Failure::bad_input(format!("error: {shown} is a file; choose a folder with -o")));
-    }
-    let occupied = std::fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some());
-    if occupied {
-        let help = format!("`agglo resume {shown}` goes on with a run; -o FOLDER writes elsewhere");
-        return Err(Failure::bad_input(format!("error: the folder {shown} is not empty\nhelp: {help}")));
-    }
-    Ok(())
+    agglo::folder::vacant(folder)
+        .map_err(|error| Failure { message: format!("error: {error}"), code: error.exit_code() })
 }
 
-/// Makes the program's pool of threads.
-pub(crate) fn use_threads(threads: Option<u32>) -> Result<(), Failure> {
-    let Some(threads) = threads else { return Ok(()) };
+/// Threads that can be asked for at the most.
+const MOST_THREADS: usize = 4096;
+
+/// Makes the program's pool of threads: as many as are wanted, or as `RAYON_NUM_THREADS` says. More than could be asked for
+/// by `--threads` are as many as there are processors.
+pub(crate) fn use_threads(wanted: Option<u32>) -> Result<(), Failure> {
+    let of_environment: Option<usize> =
+        std::env::var("RAYON_NUM_THREADS").ok().and_then(|count| count.parse().ok());
+    let threads = match (wanted, of_environment) {
+        (Some(threads), _) => threads as usize,
+        (None, Some(threads)) if threads > MOST_THREADS => {
+            // A run goes on where nobody reads its messages.
+            let _ = writeln!(
+                std::io::stderr(),
+                "warning: RAYON_NUM_THREADS={threads} is more than {MOST_THREADS}: all processors are used"
+            );
+            std::thread::available_parallelism().map_or(1, usize::from)
+        }
+        (None, _) => return Ok(()),
+    };
     rayon::ThreadPoolBuilder::new()
-        .num_threads(threads as usize)
+        .num_threads(threads)
         .build_global()
         .map_err(|error| Failure::failed(format!("error: cannot start {threads} threads: {error}")))
 }
@@ -103,16 +124,16 @@ fn go(
     reports: bool,
     work: impl FnOnce(&mut Observer<'_>) -> Result<Ending, RunError>,
 ) -> Result<(), Failure> {
-    let stop = listen()?;
+    let ear = Ear::open(Some(folder), Late::GoesOn)?;
     let mut display = Display::new();
-    let mut companion = beside(Arc::clone(&stop));
+    let mut companion = beside(ear.flag());
     let outcome = work(&mut |progress| {
         if companion.as_mut().is_some_and(|companion| companion.tell(progress)) {
             display.note(progress);
         } else {
             display.show(progress);
         }
-        if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if ear.is_asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     let closed = companion.map_or(Ok(()), Companion::close);
     let (wall, closing) = display.finish();
@@ -122,7 +143,7 @@ fn go(
     }
     match outcome {
         Ok(Ending::Finished(summary)) => {
-            let page = if reports { report::at_the_end(folder) } else { String::new() };
+            let page = if reports { report::at_the_end(folder, &ear) } else { String::new() };
             // Of the whole run, also where this was only the end of it.
             let warnings = progress::count(summary.warnings().len());
             print(&format!("{}\nin {shown} ({wall}, {warnings}){page}", table(&summary)))
@@ -136,22 +157,6 @@ fn go(
         Err(error) => {
             Err(Failure { message: format!("error: {error}\n({closing})"), code: error.exit_code() })
         }
-    }
-}
-
-/// A flag that Ctrl-C sets.
-pub(crate) fn listen() -> Result<Arc<AtomicBool>, Failure> {
-    let stop = Arc::new(AtomicBool::new(false));
-    let asked = Arc::clone(&stop);
-    ctrlc::set_handler(move || interrupt(&asked))
-        .map_err(|error| Failure::failed(format!("error: cannot listen for Ctrl-C: {error}")))?;
-    Ok(stop)
-}
-
-/// The first Ctrl-C asks the run to stop with a checkpoint, the second ends the program at once.
-fn interrupt(asked: &AtomicBool) {
-    if asked.swap(true, Ordering::Relaxed) {
-        std::process::exit(1);
     }
 }
 

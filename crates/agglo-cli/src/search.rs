@@ -2,16 +2,16 @@
 
 use std::ops::ControlFlow;
 use std::path::Path;
-use std::sync::atomic::Ordering;
 
 use agglo::forecast::Plan;
 use agglo::search::campaign::{self, CampaignEnding, CampaignError, CampaignObserver, CampaignSummary};
 use agglo::search::{Axis, Campaign, CampaignForecast, Ensemble, Problem, Scale, Until};
 
-use crate::arguments::Orders;
+use crate::arguments::{Orders, ResumeOrders};
 use crate::progress::Display;
 use crate::read::{self, Kind};
-use crate::run::{columns, default_folder, listen, refuse_occupied, settings, use_threads};
+use crate::run::{columns, default_folder, refuse_occupied, settings};
+use crate::signals::{Ear, Late};
 use crate::{Failure, print, report};
 
 /// Conducts a search or study into a folder.
@@ -20,19 +20,25 @@ pub(crate) fn conduct(orders: &Orders, kind: Kind) -> Result<(), Failure> {
     let (campaign, base) = read::campaign(&orders.scenario, &settings(orders))?;
     let folder = orders.output.clone().unwrap_or_else(|| default_folder(&orders.scenario));
     refuse_occupied(&folder)?;
-    use_threads(orders.threads)?;
     let threads = threads(orders.threads);
     go(&folder, !orders.no_report, |observer| campaign::run(&campaign, &base, &folder, threads, observer))
 }
 
 /// Goes on with the search or study in a folder.
-pub(crate) fn resume(folder: &Path, threads_wanted: Option<u32>, reports: bool) -> Result<(), Failure> {
+pub(crate) fn resume(orders: &ResumeOrders) -> Result<(), Failure> {
+    let folder = orders.folder.as_path();
+    if orders.until.is_some() {
+        let shown = folder.display();
+        let help = "a budget of time, and how many candidates there are, stand in its search.toml";
+        let message = format!("error: {shown} holds a search or study; --until is for runs\nhelp: {help}");
+        return Err(Failure::bad_input(message));
+    }
     if let Some(summary) = campaign::finished(folder) {
         let shown = folder.display();
         return print(&format!("{}\nwhat is in {shown} has finished already", columns(&summary.table())));
     }
-    use_threads(threads_wanted)?;
-    go(folder, reports, |observer| campaign::resume(folder, threads(threads_wanted), observer))
+    let threads = threads(orders.threads);
+    go(folder, !orders.no_report, |observer| campaign::resume(folder, threads, observer))
 }
 
 fn threads(wanted: Option<u32>) -> usize {
@@ -46,16 +52,16 @@ fn go(
     reports: bool,
     work: impl FnOnce(&mut CampaignObserver<'_>) -> Result<CampaignEnding, CampaignError>,
 ) -> Result<(), Failure> {
-    let stop = listen()?;
+    let ear = Ear::open(Some(folder), Late::GoesOn)?;
     let mut display = Display::new();
     let outcome = work(&mut |progress| {
         display.show_campaign(progress);
-        if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if ear.is_asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     let (_, closing) = display.finish();
     let shown = folder.display();
     match outcome {
-        Ok(CampaignEnding::Finished(summary)) => print(&finished(&summary, folder, reports)),
+        Ok(CampaignEnding::Finished(summary)) => print(&finished(&summary, folder, reports.then_some(&ear))),
         Ok(CampaignEnding::Interrupted) => Err(Failure::failed(format!(
             "stopped ({closing}); all simulations that ended are kept, `agglo resume {shown}` goes on from there"
         ))),
@@ -65,8 +71,8 @@ fn go(
     }
 }
 
-fn finished(summary: &CampaignSummary, folder: &Path, reports: bool) -> String {
-    let page = |of: &Path| if reports { report::at_the_end(of) } else { String::new() };
+fn finished(summary: &CampaignSummary, folder: &Path, reports: Option<&Ear>) -> String {
+    let page = |of: &Path| reports.map(|ear| report::at_the_end(of, ear)).unwrap_or_default();
     let run = folder.join("best");
     let best = if run.is_dir() {
         let shown = run.display();

@@ -4,8 +4,9 @@
 use std::ops::ControlFlow;
 use std::sync::atomic::AtomicBool;
 
+use agglo::folder::CampaignFolder;
 use agglo::search::analysis::Moments;
-use agglo::search::campaign::{CampaignEnding, Course, Folder, Goal, conduct};
+use agglo::search::campaign::{CampaignEnding, Course, Goal, conduct};
 use agglo::search::functions::TestFunction;
 use agglo::search::optimiser::{Method, PublishedGenetic};
 use agglo::search::{Axis, Candidate, Confirm, Ensemble, Fitness, Model, Scale, Trouble};
@@ -50,7 +51,8 @@ impl Model for Bowl {
 fn campaign(threads: usize, starts: u32) {
     let model = Bowl(vec!["value".to_owned()]);
     let dir = tempfile::tempdir().expect("a folder for temporary files");
-    let folder = Folder::create(&dir.path().join("out"), "", "").expect("an empty folder");
+    let folder = CampaignFolder::create(&dir.path().join("out")).expect("an empty folder");
+    folder.put("", "").expect("a folder that can be written");
     let axis =
         |k: usize| Axis { name: format!("x{k}"), unit: String::new(), scale: Scale::Linear([0.0, 1.0]) };
     let method =

@@ -23,6 +23,8 @@ pub mod engine;
 pub mod measure;
 pub mod record;
 
+pub mod folder;
+
 pub mod forecast;
 pub mod run;
 pub mod scenario;

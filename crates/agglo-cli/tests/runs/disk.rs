@@ -110,3 +110,42 @@ fn a_summary_that_cannot_be_shown_is_an_error() {
     let shown = command(&["explain", "hertz"]).stdout(full).output().unwrap();
     assert!(complained(&ended(shown, 1)).contains("cannot write"));
 }
+
+/// Without anybody who ignores the signal: the program itself does not end without a word.
+#[test]
+fn a_limit_for_files_is_told_in_words() {
+    let bench = Bench::with(STAGGERED);
+    let (scenario, run) = (bench.scenario(), bench.run());
+    let arguments = ["run", &scenario, "-o", run.to_str().unwrap(), "--set", "output.series=\"1 us\""];
+    let limited = Command::new("sh")
+        .args(["-c", "ulimit -f 250; exec \"$@\"", "sh", env!("CARGO_BIN_EXE_agglo")])
+        .args(arguments)
+        .output()
+        .unwrap();
+    let text = complained(&ended(limited, 1));
+    assert!(text.contains("larger than the limit") && text.contains("agglo resume"), "{text}");
+    ended(bench.resume().output().unwrap(), 0);
+}
+
+#[test]
+fn a_link_that_leads_nowhere_is_named() {
+    let bench = Bench::with(STAGGERED);
+    std::os::unix::fs::symlink("nowhere", bench.run()).unwrap();
+    for verb in [bench.start(&[]), bench.start(&["--no-report"])] {
+        let mut verb = verb;
+        let text = complained(&ended(verb.output().unwrap(), 2));
+        assert!(text.contains("is a symbolic link to nowhere"), "{text}");
+    }
+    // A link to a folder is as good as the folder.
+    fs::create_dir(bench.folder().join("nowhere")).unwrap();
+    ended(bench.start(&[]).output().unwrap(), 0);
+    assert_same(&bench.folder().join("nowhere"), reference(STAGGERED));
+}
+
+#[test]
+fn threads_of_the_environment_are_capped() {
+    let mut order = command(&["list-laws"]);
+    let done = ended(order.env("RAYON_NUM_THREADS", "100000").output().unwrap(), 0);
+    let text = complained(&done);
+    assert!(text.contains("RAYON_NUM_THREADS=100000 is more than 4096"), "{text}");
+}

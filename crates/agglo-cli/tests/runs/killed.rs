@@ -1,9 +1,12 @@
 //! A run that is killed or stopped, and goes on.
 
+use std::time::Instant;
+
 use crate::common::{
-    Bench, EVENTS, STAGGERED, STEPS, VERLET, assert_same, complained, ended, reference, said, signal, steps,
-    wait_for_step,
+    Bench, EVENTS, STAGGERED, STEPS, VERLET, assert_same, checkpoints, complained, ended, reference, said,
+    signal, steps, wait_for_step,
 };
+use crate::company::storms;
 
 /// SIGKILL at ten moments spread over the run, each time in the sitting that went on after the last; then the rest.
 fn killed_ten_times(scenario: &'static str) {
@@ -44,6 +47,41 @@ fn a_run_killed_at_ten_moments_ends_with_the_same_files_events() {
 #[test]
 fn a_run_killed_at_ten_moments_ends_with_the_same_files_steps() {
     killed_ten_times(STEPS);
+}
+
+/// Kills at moments that have nothing to do with checkpoints, as many as `AGGLO_STORMS` says, ten for each run.
+#[test]
+fn runs_killed_in_a_storm_end_with_the_same_files() {
+    let reference = reference(STEPS);
+    let begun = Instant::now();
+    ended(Bench::with(STEPS).start(&["--no-report"]).output().unwrap(), 0);
+    let whole = begun.elapsed();
+    for round in 0..storms().div_ceil(10) {
+        let bench = Bench::with(STEPS);
+        for kill in 0..10 {
+            // A run that was killed before its first checkpoint begins again.
+            let begins = checkpoints(&bench.run()).is_empty();
+            if begins {
+                // What the kill left; it may not be there.
+                let _ = std::fs::remove_dir_all(bench.run());
+            }
+            let mut order = if begins { bench.start(&[]) } else { bench.resume() };
+            let mut child = order.spawn().unwrap();
+            std::thread::sleep(whole.mul_f64(((round * 10 + kill) * 37 % 100) as f64 / 300.0));
+            // It may have reached its end.
+            let _ = child.kill();
+            child.wait().unwrap();
+        }
+        let last = if checkpoints(&bench.run()).is_empty() {
+            let _ = std::fs::remove_dir_all(bench.run());
+            bench.start(&[]).output()
+        } else {
+            bench.resume().output()
+        };
+        ended(last.unwrap(), 0);
+        ended(crate::common::agglo(&["report", bench.run().to_str().unwrap()]), 0);
+        assert_same(&bench.run(), reference);
+    }
 }
 
 /// Half-written files that a kill left are gone, whichever folder they are in.

@@ -5,16 +5,21 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot start the program or read its files has failed")]
 
 mod common;
+mod company;
 mod damage;
 mod disk;
 mod end;
+mod foreign;
 mod hard;
 mod killed;
+mod moved;
 mod output;
 mod pictures;
 mod report;
 mod shipped;
+mod signals;
 mod summary;
 mod trouble;
+mod until;
 mod verbs;
 mod watching;

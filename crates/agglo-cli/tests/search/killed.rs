@@ -61,3 +61,32 @@ fn ctrl_c_keeps_what_ended_and_says_how_to_go_on() {
     let again = said(&ended(bench.resume().output().unwrap(), 0));
     assert!(again.contains("has finished already") && again.contains("hardness"), "{again}");
 }
+
+/// Two processes at once, as often as `AGGLO_STORMS` says: one is refused, and no start is lost.
+#[test]
+fn two_searches_at_once_lose_no_start() {
+    let storms = std::env::var("AGGLO_STORMS").ok().and_then(|count| count.parse().ok()).unwrap_or(20_u64);
+    for storm in 0..storms {
+        let bench = Bench::with(SEARCH);
+        let mut second = if storm % 2 == 0 { bench.order("search", &[]) } else { bench.resume() };
+        let first = bench.order("search", &[]).spawn().unwrap();
+        if storm % 2 == 1 {
+            bench.wait_for_starts(1);
+        }
+        std::thread::sleep(std::time::Duration::from_millis(storm * 5 % 43));
+        let second = second.spawn().unwrap();
+        let outputs = [first, second].map(|child| child.wait_with_output().unwrap());
+        let refused: Vec<_> = outputs.iter().filter(|output| !output.status.success()).collect();
+        for output in &refused {
+            let words = complained(output);
+            let reasons = ["is at work in", "is not empty", "holds a run"];
+            assert!(
+                output.status.code() == Some(2) && reasons.iter().any(|why| words.contains(why)),
+                "{words}"
+            );
+        }
+        assert!(refused.len() < 2, "both were refused");
+        ended(bench.resume().output().unwrap(), 0);
+        assert_same(&bench.out(), &reference().out());
+    }
+}

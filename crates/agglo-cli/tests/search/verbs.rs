@@ -108,3 +108,50 @@ fn a_study_without_objectives_measures() {
     assert!(once == 1 && !header.contains("cost"), "{header}");
     assert!(bench.summary()["best"].is_null());
 }
+
+/// Grains of a table: the search takes it into its folder and goes on, moved and without what it was made from, with the
+/// same files; its folder searches again, and the best one's folder runs again.
+#[test]
+fn a_search_over_a_table_goes_on_wherever_it_is_moved() {
+    let table = |bench: &Bench| {
+        let at = |k: u32| -9.0 + 2.0 * f64::from(k);
+        let places = (0..1000).map(|n| [at(n % 10), at(n / 10 % 10), at(n / 100)]);
+        let rows: Vec<String> = places.map(|[x, y, z]| format!("{x}e-3,{y}e-3,{z}e-3\n")).collect();
+        std::fs::write(bench.file("grains.csv"), "x_m,y_m,z_m\n".to_owned() + &rows.concat()).unwrap();
+        let text = std::fs::read_to_string(bench.file("scenario.toml")).unwrap();
+        let text =
+            text.replace("[grains.placement.fill]\ncount = 400\n", "placement.table.file = \"grains.csv\"\n");
+        std::fs::write(bench.file("scenario.toml"), text).unwrap();
+    };
+    let [whole, moved] = [Bench::with(SEARCH), Bench::with(SEARCH)];
+    let few = ["--set", "method.published_genetic.generations=1", "--no-report"];
+    table(&whole);
+    whole.ends("search", &few, 0);
+    let absolute = whole.file("");
+    for name in ["scenario.toml", "search.toml", "best/scenario.toml"] {
+        let text = std::fs::read_to_string(whole.out().join(name)).unwrap();
+        assert!(!text.contains(&absolute), "{name}: {text}");
+    }
+    table(&moved);
+    let child = moved.order("search", &few).spawn().unwrap();
+    assert!(moved.wait_for_starts(3));
+    crate::common::signal(&child, "INT");
+    child.wait_with_output().unwrap();
+    let away = tempfile::tempdir().unwrap();
+    let out = away.path().join("out");
+    std::fs::rename(moved.out(), &out).unwrap();
+    std::fs::remove_file(moved.file("grains.csv")).unwrap();
+    ended(agglo(&["resume", out.to_str().unwrap(), "--no-report"]), 0);
+    crate::bench::assert_same(&out, &whole.out());
+    let again = |verb: &str, file: &str, to: &str| {
+        let (file, to) = (out.join(file), away.path().join(to));
+        let orders = [verb, file.to_str().unwrap(), "-o", to.to_str().unwrap(), "--no-report"];
+        ended(agglo(&orders), 0);
+        to
+    };
+    crate::bench::assert_same(&again("search", "search.toml", "again"), &whole.out());
+    crate::bench::assert_same(&again("run", "best/scenario.toml", "best-again"), &out.join("best"));
+    // What runs can do and searches cannot is told.
+    let text = complained(&ended(agglo(&["resume", out.to_str().unwrap(), "--until", "1 s"]), 2));
+    assert!(text.contains("--until is for runs"), "{text}");
+}

@@ -10,6 +10,7 @@ use std::path::Path;
 use tempfile::{NamedTempFile, TempPath};
 
 use super::RecordError;
+use crate::folder::{Mark, Marked};
 
 /// Temporary files begin with this and end with [`SUFFIX`].
 const PREFIX: &str = ".agglo-";
@@ -29,27 +30,34 @@ pub(super) enum Durability {
 /// # Errors
 /// [`RecordError::File`]; the old file is then still there.
 pub fn write(path: &Path, contents: &[u8]) -> Result<(), RecordError> {
-    write_with(path, Durability::Power, |file| file.write_all(contents))
+    write_with(path, Durability::Power, |file| file.write_all(contents)).map(drop)
 }
 
-/// As [`write()`], with the contents written by `fill`.
+/// As [`write()`], with the contents written by `fill`; gives their mark.
 pub(super) fn write_with(
     path: &Path,
     durability: Durability,
-    fill: impl FnOnce(&mut BufWriter<&mut File>) -> std::io::Result<()>,
-) -> Result<(), RecordError> {
+    fill: impl FnOnce(&mut BufWriter<Marked<&mut File>>) -> std::io::Result<()>,
+) -> Result<Mark, RecordError> {
     let folder = folder_of(path);
     let mut temporary = new_temporary(folder).map_err(RecordError::file("write", path))?;
     let fill_file = || {
-        let mut buffered = BufWriter::with_capacity(1 << 16, temporary.as_file_mut());
+        let mut buffered = BufWriter::with_capacity(1 << 16, Marked::over(temporary.as_file_mut()));
         fill(&mut buffered)?;
         buffered.flush()?;
+        let mark = buffered.get_ref().mark();
         drop(buffered);
-        if durability == Durability::Power { temporary.as_file().sync_all() } else { Ok(()) }
+        if durability == Durability::Power {
+            temporary.as_file().sync_all()?;
+        }
+        Ok(mark)
     };
-    fill_file().map_err(RecordError::file("write", path))?;
+    let mark = fill_file().map_err(RecordError::file("write", path))?;
     temporary.persist(path).map_err(|error| RecordError::file("write", path)(error.error))?;
-    if durability == Durability::Power { sync_folder(folder) } else { Ok(()) }
+    if durability == Durability::Power {
+        sync_folder(folder)?;
+    }
+    Ok(mark)
 }
 
 /// A temporary file beside `path` for another program to write, which then can take its place; it goes when dropped.

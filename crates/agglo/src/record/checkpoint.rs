@@ -26,9 +26,10 @@ use serde::de::DeserializeOwned;
 
 use super::RecordError;
 use super::atomic::{self, Durability};
+use crate::folder::files;
 
 const MAGIC: &[u8; 8] = b"AGGLO\r\n\x8a";
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 const PREFIX: &str = "checkpoint-";
 const SUFFIX: &str = ".agglo";
@@ -70,15 +71,40 @@ pub fn save<T: Serialize>(dir: &Path, step: u64, state: &T) -> Result<PathBuf, R
     Ok(path)
 }
 
+/// Removes all checkpoints beside this one.
+///
+/// # Errors
+/// [`RecordError::File`].
+pub fn keep_only(kept: &Path) -> Result<(), RecordError> {
+    let others = list(kept.parent().unwrap_or(Path::new("")))?.into_iter().filter(|(_, path)| path != kept);
+    others
+        .into_iter()
+        .try_for_each(|(_, path)| std::fs::remove_file(&path).map_err(RecordError::file("remove", &path)))
+}
+
 /// Reads the newest sound checkpoint in `dir`: the state, its step, and the newer ones that cannot be used.
 ///
 /// # Errors
 /// [`RecordError::NoCheckpoint`] where none is sound, [`RecordError::File`] where the folder cannot be read.
 pub fn load_newest<T: DeserializeOwned>(dir: &Path) -> Result<(T, u64, Vec<Refused>), RecordError> {
+    load_newest_that(dir, Ok)
+}
+
+/// As [`load_newest`]: the newest sound checkpoint that `accept` takes, and what it makes of it; it gives the reason where
+/// it refuses one.
+///
+/// # Errors
+/// As [`load_newest`].
+pub fn load_newest_that<T: DeserializeOwned, U>(
+    dir: &Path,
+    mut accept: impl FnMut(T) -> Result<U, String>,
+) -> Result<(U, u64, Vec<Refused>), RecordError> {
     let mut refused = Vec::new();
     for (_, path) in list(dir)? {
-        let read = std::fs::read(&path).map_err(|error| error.to_string());
-        match read.and_then(|bytes| decode(&bytes)) {
+        let read = files::read(&path).map_err(|error| error.to_string());
+        let accepted =
+            read.and_then(|bytes| decode(&bytes)).and_then(|(state, step)| Ok((accept(state)?, step)));
+        match accepted {
             Ok((state, step)) => return Ok((state, step, refused)),
             Err(reason) => refused.push(Refused { path, reason }),
         }

@@ -45,6 +45,14 @@ pub enum RecordError {
         /// Its length at the checkpoint [bytes].
         expected: u64,
     },
+    /// A file that is not what a run wrote.
+    #[error("cannot go on with {path}: {reason}", path = .path.display())]
+    Foreign {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
     /// A state that cannot be turned into bytes.
     #[error("cannot write the checkpoint {path}: {reason}", path = .path.display())]
     Encode {

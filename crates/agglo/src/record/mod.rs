@@ -13,4 +13,4 @@ pub use error::RecordError;
 #[cfg(test)]
 pub(crate) use number::AWKWARD;
 pub use number::{Number, fractional, number};
-pub use series::{Cell, Series};
+pub use series::{Cell, Opened, Series};

@@ -2,10 +2,11 @@
 
 use std::fmt::Write as _;
 use std::fs::{File, OpenOptions};
-use std::io::{BufRead, BufReader, BufWriter, Seek, SeekFrom, Write};
+use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use super::{Number, RecordError};
+use crate::folder::{Mark, Marking, files};
 
 /// An entry of a row that mixes numbers and words.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,7 +27,7 @@ pub struct Series {
     path: PathBuf,
     columns: usize,
     file: BufWriter<File>,
-    bytes: u64,
+    marking: Marking,
     line: String,
 }
 
@@ -36,45 +37,42 @@ impl Series {
     /// # Errors
     /// [`RecordError::File`].
     pub fn create(path: &Path, columns: &[&str]) -> Result<Self, RecordError> {
-        let file = File::create(path).map_err(RecordError::file("create", path))?;
-        let mut series = Self::over(path, columns.len(), file, 0);
+        let file = files::create(path).map_err(RecordError::file("create", path))?;
+        let mut series = Self::over(path, columns.len(), file, Marking::default());
         series.line.push_str(&columns.join(","));
         series.end_line()?;
         Ok(series)
     }
 
-    /// Goes on with a table at the length `bytes` that [`Series::position`] gave; later rows are dropped.
+    /// Opens a table that is to go on at a mark that [`Series::mark`] gave; it is not changed yet.
     ///
     /// # Errors
-    /// [`RecordError::Shorter`] where the table has fewer bytes, [`RecordError::File`].
-    pub fn reopen_at(path: &Path, bytes: u64) -> Result<Self, RecordError> {
-        Self::check(path, bytes)?;
-        let reopen = RecordError::file("reopen", path);
-        let file = OpenOptions::new().read(true).write(true).open(path).map_err(reopen)?;
-        let mut header = String::new();
-        BufReader::new(&file).read_line(&mut header).map_err(RecordError::file("read", path))?;
-        let columns = header.trim_end().split(',').count();
-        let mut series = Self::over(path, columns, file, bytes);
-        let file = series.file.get_mut();
-        let cut = file.set_len(bytes).and_then(|()| file.seek(SeekFrom::Start(bytes)));
-        cut.map_err(RecordError::file("cut", path))?;
-        Ok(series)
-    }
-
-    /// Whether a table can be reopened at the length `bytes`; it is not changed.
-    ///
-    /// # Errors
-    /// [`RecordError::Shorter`] where the table has fewer bytes, [`RecordError::File`].
-    pub fn check(path: &Path, bytes: u64) -> Result<(), RecordError> {
-        let found = path.metadata().map_err(RecordError::file("reopen", path))?.len();
-        if found < bytes {
-            return Err(RecordError::Shorter { path: path.to_owned(), found, expected: bytes });
+    /// [`RecordError::Shorter`] where the table has fewer bytes, [`RecordError::Foreign`] where they are others,
+    /// [`RecordError::File`].
+    pub fn check(path: &Path, columns: &[&str], mark: Mark) -> Result<Opened, RecordError> {
+        let mut options = OpenOptions::new();
+        let file = files::open(path, options.read(true).write(true));
+        let file = file.map_err(RecordError::file("reopen", path))?;
+        let found = file.metadata().map_err(RecordError::file("reopen", path))?.len();
+        if found < mark.bytes {
+            return Err(RecordError::Shorter { path: path.to_owned(), found, expected: mark.bytes });
         }
-        Ok(())
+        let marking = Marking::of(&file, mark.bytes).map_err(RecordError::file("read", path))?;
+        if marking.mark() == mark {
+            return Ok(Opened { path: path.to_owned(), columns: columns.len(), file, marking });
+        }
+        let header =
+            first_line(&file, columns.join(",").len() + 1).map_err(RecordError::file("read", path))?;
+        let reason = if header == (columns.join(",") + "\n").as_bytes() {
+            "what the run had written there was changed since, or is of another run"
+        } else {
+            "its first line is not that of the run's table"
+        };
+        Err(RecordError::Foreign { path: path.to_owned(), reason: reason.to_owned() })
     }
 
-    fn over(path: &Path, columns: usize, file: File, bytes: u64) -> Self {
-        Self { path: path.to_owned(), columns, file: BufWriter::new(file), bytes, line: String::new() }
+    fn over(path: &Path, columns: usize, file: File, marking: Marking) -> Self {
+        Self { path: path.to_owned(), columns, file: BufWriter::new(file), marking, line: String::new() }
     }
 
     /// Adds a row.
@@ -120,7 +118,7 @@ impl Series {
     fn end_line(&mut self) -> Result<(), RecordError> {
         self.line.push('\n');
         self.file.write_all(self.line.as_bytes()).map_err(RecordError::file("write", &self.path))?;
-        self.bytes += self.line.len() as u64;
+        self.marking.add(self.line.as_bytes());
         self.line.clear();
         Ok(())
     }
@@ -142,9 +140,40 @@ impl Series {
         self.file.get_ref().sync_data().map_err(RecordError::file("write", &self.path))
     }
 
-    /// Length of the table so far [bytes], rows not yet flushed included.
-    pub fn position(&self) -> u64 {
-        self.bytes
+    /// Length and checksum of the table so far, rows not yet flushed included.
+    pub fn mark(&self) -> Mark {
+        self.marking.mark()
+    }
+}
+
+/// The first bytes of a file.
+fn first_line(mut file: &File, bytes: usize) -> std::io::Result<Vec<u8>> {
+    let mut line = Vec::new();
+    file.seek(SeekFrom::Start(0))?;
+    file.take(bytes as u64).read_to_end(&mut line)?;
+    Ok(line)
+}
+
+/// A table that is as it was at its mark, and may hold rows beyond.
+#[derive(Debug)]
+pub struct Opened {
+    path: PathBuf,
+    columns: usize,
+    file: File,
+    marking: Marking,
+}
+
+impl Opened {
+    /// Drops what is beyond the mark and goes on from there.
+    ///
+    /// # Errors
+    /// [`RecordError::File`].
+    pub fn cut(self) -> Result<Series, RecordError> {
+        let Self { path, columns, mut file, marking } = self;
+        let bytes = marking.mark().bytes;
+        let cut = file.set_len(bytes).and_then(|()| file.seek(SeekFrom::Start(bytes)));
+        cut.map_err(RecordError::file("cut", &path))?;
+        Ok(Series::over(&path, columns, file, marking))
     }
 }
 
@@ -169,7 +198,7 @@ mod tests {
             series.row(row).unwrap();
         }
         series.flush().unwrap();
-        assert_eq!(series.position(), path.metadata().unwrap().len());
+        assert_eq!(series.mark().bytes, path.metadata().unwrap().len());
         let bits = |row: &[f64]| row.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
         for (written, read) in rows.iter().zip(read(&path)) {
             assert_eq!(bits(written), bits(&read));
@@ -205,18 +234,33 @@ mod tests {
         let path = folder.path().join("series.csv");
         let mut series = Series::create(&path, &["time_s", "count"]).unwrap();
         series.row(&[0.0, 1.0]).unwrap();
-        let position = series.position();
+        let mark = series.mark();
         series.row(&[1.0, 2.0]).unwrap();
         series.row(&[2.0, 3.0]).unwrap();
         drop(series);
-        let mut again = Series::reopen_at(&path, position).unwrap();
-        assert_eq!(again.position(), position);
+        let mut again = Series::check(&path, &["time_s", "count"], mark).unwrap().cut().unwrap();
+        assert_eq!(again.mark(), mark);
         again.row(&[1.0, 20.0]).unwrap();
         assert!(matches!(again.row(&[1.0]), Err(RecordError::Shape { found: 1, expected: 2, .. })));
         again.sync().unwrap();
         assert_eq!(read(&path), [[0.0, 1.0], [1.0, 20.0]]);
-        let error = Series::reopen_at(&path, 1000).unwrap_err().to_string();
+        let longer = Mark { bytes: 1000, ..mark };
+        let error = Series::check(&path, &["time_s", "count"], longer).unwrap_err().to_string();
         assert!(error.contains("but the checkpoint was written when it had 1000"), "{error}");
+        // The mark goes on over the rows that were added.
+        again.row(&[2.0, 3.0]).unwrap();
+        again.sync().unwrap();
+        let mark = again.mark();
+        Series::check(&path, &["time_s", "count"], mark).unwrap();
+        let sound = std::fs::read(&path).unwrap();
+        for at in 0..sound.len() {
+            let mut damaged = sound.clone();
+            damaged[at] = 0;
+            std::fs::write(&path, &damaged).unwrap();
+            let error = Series::check(&path, &["time_s", "count"], mark).unwrap_err().to_string();
+            let words = if at < "time_s,count\n".len() { "first line" } else { "was changed since" };
+            assert!(error.contains(words), "{error}");
+        }
     }
 
     #[test]
@@ -225,7 +269,10 @@ mod tests {
         assert_eq!(error, "cannot create /nowhere/series.csv: no such file or folder");
         #[cfg(target_os = "linux")]
         {
-            let mut full = Series::create(Path::new("/dev/full"), &["time_s"]).unwrap();
+            let device = Path::new("/dev/full");
+            let file = OpenOptions::new().write(true).open(device).unwrap();
+            let mut full = Series::over(device, 1, file, Marking::default());
+            full.row(&[0.0]).unwrap();
             assert_eq!(full.flush().unwrap_err().to_string(), "cannot write /dev/full: the disk is full");
         }
     }

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::error::RenderError;
 use crate::domain::Volume;
+use crate::folder::{CampaignFolder, RunFolder};
 use crate::math::Vec3;
 use crate::record::RecordError;
 use crate::record::frames::{Collection, FieldValues, Frame};
@@ -30,7 +31,7 @@ impl Reel {
     /// # Errors
     /// [`RenderError::NoFrames`], or [`RenderError::Frame`] where the list of frames cannot be read.
     pub fn open(dir: &Path) -> Result<Self, RenderError> {
-        let best = dir.join("best");
+        let best = CampaignFolder::at(dir).best();
         let dir = if !has_frames(dir) && has_frames(&best) { best } else { dir.to_owned() };
         let list = list_of(&dir, "grains");
         let grains = if list.is_file() { listed(&list).map_err(RenderError::Frame)? } else { Vec::new() };
@@ -41,7 +42,7 @@ impl Reel {
             let list = list_of(&dir, kind);
             if list.is_file() { listed(&list).map_err(RenderError::Frame) } else { Ok(Vec::new()) }
         };
-        let scenario = scenario(&dir.join("scenario.toml"));
+        let scenario = scenario(&RunFolder::at(&dir).scenario());
         Ok(Self { grains, bonds: others("bonds")?, rays: others("rays")?, scenario, dir })
     }
 
@@ -144,7 +145,7 @@ fn scenario(path: &Path) -> Result<Scenario, String> {
 }
 
 fn list_of(dir: &Path, kind: &str) -> PathBuf {
-    dir.join("frames").join(format!("{kind}.pvd"))
+    RunFolder::at(dir).frame_list(kind)
 }
 
 fn has_frames(dir: &Path) -> bool {

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::folder::{Folder, files};
 use super::sheet::Sheet;
 use crate::contact::Bonds;
+use crate::folder::names;
 use crate::record::frames::Collection;
 use crate::run::tables_of;
 
@@ -69,7 +70,7 @@ fn damaged(sheet: &Sheet) -> usize {
 
 /// Frames that are missing, and lists of them that are missing or damaged.
 fn frames(folder: &Folder) -> Vec<String> {
-    let place = folder.root.join("frames");
+    let place = folder.root.join(names::FRAMES);
     let mut notes = Vec::new();
     let mut due = Vec::new();
     for kind in ["grains", "bonds", "rays"] {

@@ -3,6 +3,7 @@
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+use crate::folder::names;
 use crate::run::Summary;
 use crate::scenario::Scenario;
 
@@ -68,7 +69,7 @@ impl Folder {
     }
 
     fn read_scenario(&mut self) {
-        let text = match std::fs::read_to_string(self.root.join("scenario.toml")) {
+        let text = match std::fs::read_to_string(self.root.join(names::SCENARIO)) {
             Ok(text) => text,
             Err(error) => {
                 let reason = why(&error);
@@ -89,7 +90,7 @@ impl Folder {
     }
 
     fn read_summary(&mut self) {
-        let text = match std::fs::read_to_string(self.root.join("summary.json")) {
+        let text = match std::fs::read_to_string(self.root.join(names::SUMMARY)) {
             Ok(text) => text,
             Err(error) if error.kind() == ErrorKind::NotFound => {
                 return self.notes.push("summary.json is missing: the run has not finished".to_owned());
@@ -106,7 +107,7 @@ impl Folder {
     }
 
     fn read_tables(&mut self) {
-        for path in files(&self.root.join("series"), "", ".csv") {
+        for path in files(&self.root.join(names::SERIES), "", ".csv") {
             let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
             match Table::read(&path) {
                 Ok(table) => {
@@ -129,7 +130,7 @@ impl Folder {
     }
 
     fn find_frames(&mut self) {
-        self.frames = files(&self.root.join("frames"), "grains_", ".vtp");
+        self.frames = files(&self.root.join(names::FRAMES), "grains_", ".vtp");
         if self.frames.is_empty() {
             self.notes.push("there are no frames in frames/: the replay is left out".to_owned());
         }
@@ -143,7 +144,7 @@ impl Folder {
 
     /// Whether there is a checkpoint, whole or not.
     pub fn has_checkpoint(&self) -> bool {
-        !files(&self.root.join("checkpoints"), "checkpoint-", ".agglo").is_empty()
+        !files(&self.root.join(names::CHECKPOINTS), "checkpoint-", ".agglo").is_empty()
     }
 
     /// The version that wrote the folder, as the scenario or the summary says it.

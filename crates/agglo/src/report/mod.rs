@@ -23,6 +23,7 @@ pub use cite::{Citation, citations, program};
 pub use listing::Line;
 pub use replay::Replay;
 
+use crate::folder::names;
 use crate::record::{RecordError, atomic};
 use folder::Folder;
 
@@ -103,7 +104,7 @@ pub enum ReportError {
 pub fn write(dir: &Path) -> Result<(PathBuf, Vec<String>), ReportError> {
     let report =
         if crate::search::campaign::is_one(dir) { Report::of_campaign(dir) } else { Report::of_run(dir)? };
-    let path = dir.join("report.html");
+    let path = dir.join(names::REPORT);
     atomic::write(&path, report.page().as_bytes())?;
     Ok((path, report.notes))
 }

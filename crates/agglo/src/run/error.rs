@@ -5,9 +5,10 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use crate::engine::SimError;
+use crate::folder::FolderError;
 use crate::packing::PackingError;
 use crate::record::RecordError;
-use crate::scenario::Faults;
+use crate::scenario::{Faults, readable};
 
 /// Why a run ended early.
 #[derive(Debug, Error)]
@@ -46,21 +47,9 @@ pub enum RunError {
     /// The scenario has faults or cannot be written down.
     #[error("the scenario has faults:\n{0}")]
     Scenario(#[from] Faults),
-    /// The folder holds a run already.
-    #[error(
-        "{} holds a run already; go on with it by `agglo resume {}`, or choose another folder with -o",
-        dir.display(), dir.display()
-    )]
-    FolderInUse {
-        /// The folder.
-        dir: PathBuf,
-    },
-    /// There is no run to go on with.
-    #[error("{} holds no run that can be resumed; start one with `agglo run SCENARIO -o {}`", dir.display(), dir.display())]
-    NoRun {
-        /// The folder.
-        dir: PathBuf,
-    },
+    /// The folder cannot be used.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
     /// The run ended before its first checkpoint.
     #[error(
         "the run in {} was stopped before its first checkpoint; remove the folder and start again with `agglo run`",
@@ -69,6 +58,51 @@ pub enum RunError {
     NoCheckpointYet {
         /// The folder.
         dir: PathBuf,
+    },
+    /// It was asked to stop before a run began or went on.
+    #[error("stopped {0}")]
+    StoppedBefore(&'static str),
+    /// A run has come farther than it is to go.
+    #[error("--until {}: the run in {} has come to {} already; give a later time", readable(*until, "s"), dir.display(), readable(*reached, "s"))]
+    Until {
+        /// The run's folder.
+        dir: PathBuf,
+        /// The end that was asked for [s].
+        until: f64,
+        /// Where it is [s].
+        reached: f64,
+    },
+    /// The folder of a run that goes on is no longer there, or no longer its own.
+    #[error(
+        "{} was removed or taken over while the run wrote into it ({error}): nothing of this run is left to go on from",
+        dir.display()
+    )]
+    Gone {
+        /// The run's folder.
+        dir: PathBuf,
+        /// What could not be done.
+        error: RecordError,
+    },
+    /// The folder's scenario cannot be read.
+    #[error("cannot go on: {} {reason}\nhelp: it says what is run; put it back as it was", path.display())]
+    ScenarioLost {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// The folder's scenario is not what its checkpoints are of.
+    #[error(
+        "cannot go on: {0}/scenario.toml was edited, or its checkpoints are of another run; they have {keys}\n\
+         help: put the file back as it was; `agglo resume {0} --until \"40 s\"` goes on to another end, and \
+         `agglo run {0}/scenario.toml -o ANOTHER` runs what the file says now",
+        dir.display()
+    )]
+    Edited {
+        /// The run's folder.
+        dir: PathBuf,
+        /// The keys that differ, with both values.
+        keys: String,
     },
     /// The checkpoint's scenario cannot be read by this version.
     #[error("{}: the scenario of the checkpoint cannot be read: {reason}", dir.display())]
@@ -84,14 +118,18 @@ impl RunError {
     /// Exit code of the program: 1 for a run that failed, 2 for bad input.
     pub fn exit_code(&self) -> u8 {
         match self {
+            Self::Folder(error) => error.exit_code(),
             Self::Placement(_)
             | Self::Scenario(_)
-            | Self::FolderInUse { .. }
-            | Self::NoRun { .. }
-            | Self::NoCheckpointYet { .. } => 2,
+            | Self::NoCheckpointYet { .. }
+            | Self::ScenarioLost { .. }
+            | Self::Until { .. }
+            | Self::Edited { .. } => 2,
             Self::Step { .. }
             | Self::Start(_)
             | Self::Quiet(_)
+            | Self::StoppedBefore(_)
+            | Self::Gone { .. }
             | Self::Record(_)
             | Self::CutShort { .. }
             | Self::BadCheckpoint { .. } => 1,

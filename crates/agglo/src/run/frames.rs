@@ -1,36 +1,86 @@
 //! Frames for ParaView: grains, bonds and rays, each with its list of files and times.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
 use crate::acoustics::{Flight, Ray};
 use crate::contact::network::Bond;
+use crate::folder::{Mark, RunFolder};
 use crate::math::Vec3;
 use crate::particles::{ColumnValues, Particles};
 use crate::record::RecordError;
 use crate::record::frames::{Collection, Field, write_bonds, write_grains, write_rays};
 
+use super::fit::Reading;
+
+/// The frames of a kind: their list, and what their files are.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct FrameList {
+    list: Collection,
+    marks: Vec<Mark>,
+}
+
 /// The lists of frames; a checkpoint holds them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FrameLists {
-    grains: Collection,
-    bonds: Collection,
-    rays: Collection,
+    grains: FrameList,
+    bonds: FrameList,
+    rays: FrameList,
     last_time: Option<f64>,
+}
+
+impl FrameLists {
+    /// Whether the folder has the frames as they were written, and lists that begin with them; else why not.
+    pub fn check(&self, folder: &RunFolder, reading: &mut Reading<'_>) -> Result<(), String> {
+        [("grains", &self.grains), ("bonds", &self.bonds), ("rays", &self.rays)]
+            .into_iter()
+            .try_for_each(|(kind, frames)| frames.check(kind, folder, reading))
+    }
+}
+
+impl FrameList {
+    fn check(&self, kind: &str, folder: &RunFolder, reading: &mut Reading<'_>) -> Result<(), String> {
+        let count = self.list.len();
+        if count == 0 {
+            return Ok(());
+        }
+        let listed = Collection::read(&folder.frame_list(kind)).map_err(|error| error.to_string())?;
+        if !listed.frames().take(count).eq(self.list.frames()) || self.marks.len() != count {
+            return Err(format!("frames/{kind}.pvd does not list the frames that the run had written"));
+        }
+        for (number, ((_, file), mark)) in (1..).zip(self.list.frames().zip(&self.marks)) {
+            if reading(&format!("reading frame {number} of {count} of {kind}")).is_break() {
+                return Err("stopped".to_owned());
+            }
+            mark.check(&folder.frames().join(file)).map_err(|why| format!("frames/{file} {why}"))?;
+        }
+        Ok(())
+    }
+
+    /// Takes up a frame that was written and writes the list.
+    fn add(&mut self, time: f64, name: &str, mark: Mark, list: &Path) -> Result<(), RecordError> {
+        self.list.add(time, name);
+        self.marks.push(mark);
+        self.list.write(list)
+    }
+
+    fn next_name(&self, kind: &str) -> String {
+        format!("{kind}_{:06}.vtp", self.list.len())
+    }
 }
 
 /// Writes frames into a folder.
 #[derive(Debug)]
 pub struct Frames {
-    folder: PathBuf,
+    folder: RunFolder,
     lists: FrameLists,
 }
 
 impl Frames {
-    /// Frames in `folder`, going on after those of `lists`.
-    pub fn new(folder: &Path, lists: FrameLists) -> Self {
-        Self { folder: folder.to_owned(), lists }
+    /// Frames in the folder of a run, going on after those of `lists`.
+    pub fn new(folder: &RunFolder, lists: FrameLists) -> Self {
+        Self { folder: folder.clone(), lists }
     }
 
     /// The lists so far.
@@ -50,17 +100,18 @@ impl Frames {
         grains: &Particles,
         (field, values): (&str, &[u32]),
     ) -> Result<(), RecordError> {
+        // Here and not for each file: those of a moment are written one after another.
+        self.folder.hold_on()?;
         self.lists.last_time = Some(time);
-        let name = next_name("grains", &self.lists.grains);
+        let name = self.lists.grains.next_name("grains");
         let extra = Field::new(field, ColumnValues::Integers(values));
-        write_grains(&self.folder.join(&name), time, grains, &[extra])?;
-        self.lists.grains.add(time, &name);
-        self.lists.grains.write(&self.folder.join("grains.pvd"))
+        let mark = write_grains(&self.folder.frames().join(&name), time, grains, &[extra])?;
+        self.lists.grains.add(time, &name, mark, &self.folder.frame_list("grains"))
     }
 
     /// Writes the bonds at `time` [s] as lines between centres, in the order of the names that they join.
     pub fn bonds(&mut self, time: f64, grains: &Particles, bonds: &[Bond]) -> Result<(), RecordError> {
-        let name = next_name("bonds", &self.lists.bonds);
+        let name = self.lists.bonds.next_name("bonds");
         let mut bonds: Vec<&Bond> = bonds.iter().collect();
         bonds.sort_by_key(|bond| {
             let [a, b] = bond.grains.map(|grain| grains.id[grain as usize]);
@@ -75,24 +126,18 @@ impl Frames {
             })
             .collect();
         let fields = [Field::new("stretch", ColumnValues::Scalars(&stretch))];
-        write_bonds(&self.folder.join(&name), time, grains, &pairs, &fields)?;
-        self.lists.bonds.add(time, &name);
-        self.lists.bonds.write(&self.folder.join("bonds.pvd"))
+        let mark = write_bonds(&self.folder.frames().join(&name), time, grains, &pairs, &fields)?;
+        self.lists.bonds.add(time, &name, mark, &self.folder.frame_list("bonds"))
     }
 
     /// Writes the rays in flight at `time` [s].
     pub fn rays(&mut self, time: f64, flight: &Flight) -> Result<(), RecordError> {
-        let name = next_name("rays", &self.lists.rays);
+        let name = self.lists.rays.next_name("rays");
         let rays = flight.rays();
         let positions: Vec<Vec3> = rays.iter().map(Ray::position).collect();
         let directions: Vec<Vec3> = rays.iter().map(|ray| ray.direction).collect();
         let powers: Vec<f64> = rays.iter().map(|ray| ray.power).collect();
-        write_rays(&self.folder.join(&name), time, &positions, &directions, &powers)?;
-        self.lists.rays.add(time, &name);
-        self.lists.rays.write(&self.folder.join("rays.pvd"))
+        let mark = write_rays(&self.folder.frames().join(&name), time, &positions, &directions, &powers)?;
+        self.lists.rays.add(time, &name, mark, &self.folder.frame_list("rays"))
     }
-}
-
-fn next_name(kind: &str, list: &Collection) -> String {
-    format!("{kind}_{:06}.vtp", list.len())
 }

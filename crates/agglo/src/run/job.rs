@@ -4,15 +4,15 @@ use serde::{Deserialize, Serialize};
 
 use crate::engine::SimError;
 use crate::engine::soft::RestWatch;
+use crate::folder::RunFolder;
 use crate::particles::Particles;
 use crate::record::RecordError;
 use crate::scenario::Scenario;
 
-use super::folder::Folder;
 use super::frames::Frames;
-use super::hard::HardState;
+use super::hard::{Hard, HardState};
 use super::recorder::RecorderState;
-use super::soft::SoftState;
+use super::soft::{Soft, SoftState};
 use super::summary::Summary;
 use super::tables::{Layout, Tables};
 use super::timers::Moment;
@@ -26,6 +26,8 @@ pub struct Saved<S> {
     pub state: S,
     /// Where the recorder stands.
     pub recorder: RecorderState,
+    /// Ends [s] that the run had before it got a later one.
+    pub ends_before: Vec<f64>,
     /// Wall time so far [s].
     pub wall_s: f64,
 }
@@ -33,8 +35,8 @@ pub struct Saved<S> {
 impl Saved<()> {
     /// The same with a state.
     pub fn with<S>(self, state: S) -> Box<Saved<S>> {
-        let Self { scenario, state: (), recorder, wall_s } = self;
-        Box::new(Saved { scenario, state, recorder, wall_s })
+        let Self { scenario, state: (), recorder, ends_before, wall_s } = self;
+        Box::new(Saved { scenario, state, recorder, ends_before, wall_s })
     }
 }
 
@@ -45,6 +47,40 @@ pub enum AnySaved<'a> {
     Soft(Box<Saved<SoftState<'a>>>),
     /// Hard spheres.
     Hard(Box<Saved<HardState<'a>>>),
+}
+
+impl AnySaved<'_> {
+    /// Simulated time [s].
+    pub fn time(&self) -> f64 {
+        match self {
+            Self::Soft(saved) => saved.state.time(),
+            Self::Hard(saved) => saved.state.time(),
+        }
+    }
+
+    /// Ends [s] that the run had before it got a later one.
+    pub fn ends_before(&self) -> &[f64] {
+        match self {
+            Self::Soft(saved) => &saved.ends_before,
+            Self::Hard(saved) => &saved.ends_before,
+        }
+    }
+
+    /// The scenario's text and the ends before, to be changed.
+    pub fn end_mut(&mut self) -> (&mut String, &mut Vec<f64>) {
+        match self {
+            Self::Soft(saved) => (&mut saved.scenario, &mut saved.ends_before),
+            Self::Hard(saved) => (&mut saved.scenario, &mut saved.ends_before),
+        }
+    }
+
+    /// The scenario's text, where the recorder stands, and the tables that it writes.
+    pub fn parts(&self) -> (&str, &RecorderState, Layout) {
+        match self {
+            Self::Soft(saved) => (&saved.scenario, &saved.recorder, Soft::TABLES),
+            Self::Hard(saved) => (&saved.scenario, &saved.recorder, Hard::TABLES),
+        }
+    }
 }
 
 /// A simulation as a session sees it.
@@ -96,7 +132,7 @@ pub trait Job: Sized {
     /// Writes a frame.
     fn record_frame(&self, frames: &mut Frames) -> Result<(), RecordError>;
     /// Writes what is written once, at the end.
-    fn record_end(&self, folder: &Folder) -> Result<(), RecordError>;
+    fn record_end(&self, folder: &RunFolder) -> Result<(), RecordError>;
     /// Draws up the summary; `wall_s` is the wall time [s].
     fn summary(&self, scenario: &Scenario, wall_s: f64) -> Summary;
 }

@@ -1,7 +1,7 @@
 //! The verbs that the terminal and Python share: run a scenario, resume a run.
 
 mod error;
-mod folder;
+mod fit;
 mod frames;
 mod hard;
 mod job;
@@ -13,6 +13,7 @@ mod soft;
 mod summary;
 mod tables;
 mod timers;
+mod until;
 
 use std::io::ErrorKind;
 use std::ops::ControlFlow;
@@ -26,13 +27,15 @@ pub(crate) use rehearsal::{Rehearsal, Stretches, rehearse};
 pub use soft::{Clusters, EnergyFigures, PulseFigures, SoftSummary};
 pub use summary::Summary;
 
+use crate::folder::RunFolder;
+use crate::packing::{PackingError, place_watched};
 use crate::particles::Particles;
 use crate::record::RecordError;
 use crate::scenario::Scenario;
-use folder::Folder;
+use crate::units::Time;
 use hard::Hard;
 use job::{AnySaved, Job};
-use session::Session;
+use session::{Session, TELL_EVERY, Way};
 use soft::Soft;
 
 /// The tables that a run writes: their places in its folder and the names of their columns.
@@ -82,19 +85,44 @@ pub fn run(
 ) -> Result<Ending, RunError> {
     let sat_down = Instant::now();
     let scenario = scenario.resolved();
-    let grains = crate::packing::place(&scenario, base)?;
-    let folder = Folder::create(dir)?;
+    let grains = placed(&scenario, base, observer)?;
+    let folder = RunFolder::create(dir)?;
+    let scenario = folder.with_tables(&scenario, base).inspect_err(|_| folder.abandon())?;
     on_a_worker(|| {
         let go = if scenario.engine.is_hard() { sit::<Hard> } else { sit::<Soft> };
         go(&scenario, grains, &folder, sat_down, observer)
     })
 }
 
+/// Places the grains; the observer is told and may stop it.
+fn placed(scenario: &Scenario, base: &Path, observer: &mut Observer<'_>) -> Result<Particles, RunError> {
+    let mut told = Instant::now();
+    let mut watch = || {
+        if told.elapsed() < TELL_EVERY {
+            return ControlFlow::Continue(());
+        }
+        told = Instant::now();
+        before_the_start("placing grains", scenario.time.end.si(), observer)
+    };
+    match place_watched(scenario, base, &mut watch) {
+        Err(PackingError::Stopped) => {
+            Err(RunError::StoppedBefore("before the run began; nothing was written"))
+        }
+        placed => Ok(placed?),
+    }
+}
+
+/// Tells the observer what is done before the clock starts or goes on.
+fn before_the_start(words: &str, end: f64, observer: &mut Observer<'_>) -> ControlFlow<()> {
+    let (now, warnings) = (words.to_owned(), Vec::new());
+    observer(&Progress { time: 0.0, end, step: 0, steps_are: "steps", now, warnings })
+}
+
 /// The first sitting of a run.
 fn sit<J: Job>(
     scenario: &Scenario,
     grains: Particles,
-    folder: &Folder,
+    folder: &RunFolder,
     sat_down: Instant,
     observer: &mut Observer<'_>,
 ) -> Result<Ending, RunError> {
@@ -109,17 +137,46 @@ fn sit<J: Job>(
 /// # Errors
 /// [`RunError`] where there is no sound checkpoint, a step fails or a file cannot be written.
 pub fn resume(dir: &Path, observer: &mut Observer<'_>) -> Result<Ending, RunError> {
-    let folder = Folder::open(dir)?;
     if let Some(summary) = finished(dir) {
         return Ok(Ending::Finished(summary));
     }
-    on_a_worker(|| {
-        let (saved, refused) = session::load(&folder)?;
-        match saved {
-            AnySaved::Soft(saved) => Session::<Soft>::resume(folder, *saved, &refused)?.carry_on(observer),
-            AnySaved::Hard(saved) => Session::<Hard>::resume(folder, *saved, &refused)?.carry_on(observer),
+    let folder = RunFolder::take(dir)?;
+    // Another process may have finished it in between.
+    if let Some(summary) = finished(dir) {
+        return Ok(Ending::Finished(summary));
+    }
+    on_a_worker(|| go_on(&folder, None, observer))
+}
+
+/// Goes on with the run in `dir` until another end [s], whether it has finished or not. The folder's scenario gets the
+/// new end, and its first line but one and the summary say so.
+///
+/// A run that was stopped comes to the same files as one that had the new end from the start. One that had finished goes
+/// on from the checkpoint before its end, with the same outcome: its last step was cut to the end, and is done again.
+///
+/// # Errors
+/// As [`resume`]; [`RunError::Until`] where the run has come to that time already.
+pub fn resume_until(dir: &Path, until: Time, observer: &mut Observer<'_>) -> Result<Ending, RunError> {
+    let folder = RunFolder::take(dir)?;
+    on_a_worker(|| go_on(&folder, Some(until), observer))
+}
+
+fn go_on(folder: &RunFolder, until: Option<Time>, observer: &mut Observer<'_>) -> Result<Ending, RunError> {
+    let has_finished = folder.summary().exists();
+    let mut reading = |words: &str| before_the_start(words, 0.0, observer);
+    let mut found = fit::load(folder, until.is_some() && has_finished, &mut reading)?;
+    if let Some(until) = until {
+        until::change(folder, &mut found.saved, until)?;
+    }
+    let (folder, way) = (folder.clone(), Way { is_new_end: until.is_some(), refused: found.refused });
+    match found.saved {
+        AnySaved::Soft(saved) => {
+            Session::<Soft>::resume(folder, *saved, found.tables, &way)?.carry_on(observer)
         }
-    })
+        AnySaved::Hard(saved) => {
+            Session::<Hard>::resume(folder, *saved, found.tables, &way)?.carry_on(observer)
+        }
+    }
 }
 
 /// The summary of the run in `dir`, if it has finished.
@@ -134,7 +191,7 @@ pub fn finished(dir: &Path) -> Option<Summary> {
 /// # Errors
 /// [`RecordError`] where there is one that cannot be read.
 pub fn summary(dir: &Path) -> Result<Option<Summary>, RecordError> {
-    let Ok(folder) = Folder::open(dir) else { return Ok(None) };
+    let Ok(folder) = RunFolder::open(dir) else { return Ok(None) };
     let path = folder.summary();
     let text = match std::fs::read_to_string(&path) {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),

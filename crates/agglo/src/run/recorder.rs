@@ -2,13 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::record::RecordError;
+use crate::folder::RunFolder;
+use crate::record::{Opened, RecordError};
 use crate::scenario::Scenario;
 
-use super::folder::Folder;
+use super::fit::Reading;
 use super::frames::{FrameLists, Frames};
 use super::job::Job;
-use super::tables::{Tables, TablesState};
+use super::tables::{Layout, Tables, TablesState};
 use super::timers::{Moment, ROUND_OFF, Timers};
 
 /// How many rows and frames that were due fell into one with another, since one step passed both times.
@@ -28,6 +29,24 @@ pub struct RecorderState {
     frames: FrameLists,
 }
 
+impl RecorderState {
+    /// Opens the tables and holds them to the checkpoint; nothing is changed.
+    ///
+    /// # Errors
+    /// [`RecordError`] where a table is missing, or not what it was.
+    pub fn check_tables(&self, layout: Layout, folder: &RunFolder) -> Result<Vec<Opened>, RecordError> {
+        self.tables.check(layout, folder.root())
+    }
+
+    /// Holds the frames to the checkpoint.
+    ///
+    /// # Errors
+    /// Which is not what it was, and why.
+    pub fn check_frames(&self, folder: &RunFolder, reading: &mut Reading<'_>) -> Result<(), String> {
+        self.frames.check(folder, reading)
+    }
+}
+
 /// Writes tables, frames and events.
 #[derive(Debug)]
 pub struct Recorder {
@@ -43,27 +62,31 @@ impl Recorder {
     ///
     /// # Errors
     /// [`RecordError`] where a file cannot be made.
-    pub fn create<J: Job>(scenario: &Scenario, folder: &Folder) -> Result<Self, RecordError> {
+    pub fn create<J: Job>(scenario: &Scenario, folder: &RunFolder) -> Result<Self, RecordError> {
         Ok(Self {
             timers: Timers::new(&scenario.output),
             last_row: -1.0,
             merged: Merged::default(),
             tables: Tables::create(J::TABLES, folder.root())?,
-            frames: Frames::new(&folder.frames(), FrameLists::default()),
+            frames: Frames::new(folder, FrameLists::default()),
         })
     }
 
     /// Opens the files of a run that goes on and cuts them back to the checkpoint.
     ///
     /// # Errors
-    /// [`RecordError`] where a file is missing or shorter than it was.
-    pub fn resume<J: Job>(folder: &Folder, state: RecorderState) -> Result<Self, RecordError> {
+    /// [`RecordError`] where a table cannot be cut.
+    pub fn resume(
+        folder: &RunFolder,
+        state: RecorderState,
+        tables: Vec<Opened>,
+    ) -> Result<Self, RecordError> {
         Ok(Self {
             timers: state.timers,
             last_row: state.last_row,
             merged: state.merged,
-            tables: Tables::resume(J::TABLES, folder.root(), &state.tables)?,
-            frames: Frames::new(&folder.frames(), state.frames),
+            tables: Tables::resume(tables)?,
+            frames: Frames::new(folder, state.frames),
         })
     }
 
@@ -105,7 +128,7 @@ impl Recorder {
     ///
     /// # Errors
     /// [`RecordError`] where a file cannot be written.
-    pub fn record_end<J: Job>(&mut self, job: &mut J, folder: &Folder) -> Result<(), RecordError> {
+    pub fn record_end<J: Job>(&mut self, job: &mut J, folder: &RunFolder) -> Result<(), RecordError> {
         // A due time that is the end but for round-off has been served.
         let before = job.time() * (1.0 - ROUND_OFF);
         if self.last_row < before || self.last_row < 0.0 {

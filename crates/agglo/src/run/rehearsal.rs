@@ -10,11 +10,11 @@ use std::time::{Duration, Instant};
 
 use crate::engine::SimError;
 use crate::engine::soft::Resting;
+use crate::folder::RunFolder;
 use crate::particles::Particles;
 use crate::record::{RecordError, checkpoint};
 use crate::scenario::Scenario;
 
-use super::folder::Folder;
 use super::hard::Hard;
 use super::job::{Job, Saved};
 use super::recorder::Recorder;
@@ -170,7 +170,7 @@ fn sit<J: Job>(scenario: &Scenario, grains: Particles, budget: Duration) -> Resu
 struct Record {
     scenario: String,
     place: tempfile::TempDir,
-    folder: Folder,
+    folder: RunFolder,
     recorder: Recorder,
     /// Bytes of a frame without and with rays in flight.
     frames: [Option<f64>; 2],
@@ -180,7 +180,7 @@ impl Record {
     fn of<J: Job>(job: &mut J, scenario: &Scenario) -> Result<Self, RunError> {
         let place =
             tempfile::tempdir().map_err(RecordError::file("make a folder in", &std::env::temp_dir()))?;
-        let folder = Folder::create(&place.path().join("run"))?;
+        let folder = RunFolder::create(&place.path().join("run"))?;
         let recorder = Recorder::create::<J>(scenario, &folder)?;
         let mut record = Self { scenario: scenario.to_toml()?, place, folder, recorder, frames: [None; 2] };
         record.recorder.record_due(job)?;
@@ -231,7 +231,7 @@ impl Record {
     fn save<J: Job>(&mut self, job: &J) -> Result<(), RunError> {
         self.recorder.sync()?;
         let (scenario, recorder) = (self.scenario.clone(), self.recorder.state());
-        let saved = job.save(Saved { scenario, state: (), recorder, wall_s: 0.0 });
+        let saved = job.save(Saved { scenario, state: (), recorder, ends_before: Vec::new(), wall_s: 0.0 });
         checkpoint::save(&self.folder.checkpoints(), job.step(), &saved)?;
         Ok(())
     }

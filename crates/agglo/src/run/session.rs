@@ -1,34 +1,24 @@
 //! One sitting of a run: steps, records and checkpoints until the end, an error or a stop.
 
+use std::fmt::Write as _;
 use std::ops::ControlFlow;
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use crate::engine::soft::Resting;
+use crate::folder::RunFolder;
 use crate::particles::Particles;
 use crate::record::checkpoint::{self, Refused};
-use crate::record::{RecordError, atomic};
+use crate::record::{Opened, atomic};
 use crate::scenario::{Scenario, readable};
 
-use super::folder::Folder;
-use super::job::{AnySaved, Job, Saved};
+use super::job::{Job, Saved};
 use super::recorder::Recorder;
+use super::summary::ends_in_words;
 use super::{Ending, Observer, Progress, RunError};
 
 /// How often the observer is told.
-const TELL_EVERY: Duration = Duration::from_millis(100);
-
-/// Reads the newest sound checkpoint in the folder, and what was wrong with newer ones.
-///
-/// # Errors
-/// [`RunError`] where there is none.
-pub fn load(folder: &Folder) -> Result<(AnySaved<'static>, Vec<Refused>), RunError> {
-    match checkpoint::load_newest::<AnySaved<'_>>(&folder.checkpoints()) {
-        Err(RecordError::NoCheckpoint { refused, .. }) if refused.is_empty() => {
-            Err(RunError::NoCheckpointYet { dir: folder.root().to_owned() })
-        }
-        found => found.map(|(saved, _, refused)| (saved, refused)).map_err(RunError::from),
-    }
-}
+pub const TELL_EVERY: Duration = Duration::from_millis(100);
 
 /// The progress of grains that come to rest before the clock starts.
 fn coming_to_rest(resting: &Resting, end: f64) -> Progress {
@@ -44,10 +34,20 @@ fn coming_to_rest(resting: &Resting, end: f64) -> Progress {
     }
 }
 
+/// How a run goes on from a checkpoint.
+pub struct Way {
+    /// Whether it goes on to another end than before.
+    pub is_new_end: bool,
+    /// Newer checkpoints that were not taken.
+    pub refused: Vec<Refused>,
+}
+
 /// One sitting of a run.
 pub struct Session<J> {
     scenario: Scenario,
-    folder: Folder,
+    /// Ends [s] that the run had before it got a later one.
+    ends_before: Vec<f64>,
+    folder: RunFolder,
     job: J,
     recorder: Recorder,
     wall_before: f64,
@@ -65,7 +65,7 @@ impl<J: Job> Session<J> {
     pub fn start(
         scenario: &Scenario,
         grains: Particles,
-        folder: Folder,
+        folder: RunFolder,
         sat_down: Instant,
         observer: &mut Observer<'_>,
     ) -> Result<Self, RunError> {
@@ -79,51 +79,58 @@ impl<J: Job> Session<J> {
             observer(&coming_to_rest(resting, end))
         };
         let job = J::start(scenario, grains, &mut watch).map_err(RunError::Start)?;
-        let head = format!(
-            "# Resolved scenario of a run of agglo {}: every default is written out.\n",
-            env!("CARGO_PKG_VERSION")
-        );
-        let text = scenario.to_toml()?;
-        atomic::write(&folder.scenario(), (head + &text).as_bytes())?;
+        write_scenario(scenario, &[], &folder)?;
         let recorder = Recorder::create::<J>(scenario, &folder)?;
+        let notes = folder.warning().map(str::to_owned).into_iter().collect();
         let mut session = Self {
             scenario: scenario.clone(),
+            ends_before: Vec::new(),
             folder,
             job,
             recorder,
             wall_before: 0.0,
             sat_down,
             told: sat_down,
-            notes: Vec::new(),
+            notes,
         };
         session.recorder.record_due(&mut session.job)?;
         session.save()?;
         Ok(session)
     }
 
-    /// Goes on from a checkpoint; `refused` are newer ones that are damaged.
+    /// Goes on from a checkpoint that its folder was held to.
     ///
     /// # Errors
     /// [`RunError`] where a file cannot be brought back to its state at that time.
-    pub fn resume(folder: Folder, saved: Saved<J::State<'_>>, refused: &[Refused]) -> Result<Self, RunError> {
+    pub fn resume(
+        folder: RunFolder,
+        saved: Saved<J::State<'_>>,
+        tables: Vec<Opened>,
+        way: &Way,
+    ) -> Result<Self, RunError> {
         let bad = |reason: String| RunError::BadCheckpoint { dir: folder.root().to_owned(), reason };
         let scenario = Scenario::from_toml(&saved.scenario).map_err(|faults| bad(faults.to_string()))?;
         let job = J::resume(&scenario, saved.state).map_err(|error| bad(error.to_string()))?;
-        let recorder = Recorder::resume::<J>(&folder, saved.recorder)?;
         folder.sweep()?;
+        let recorder = Recorder::resume(&folder, saved.recorder, tables)?;
         let now = Instant::now();
-        let passed_over =
-            |damaged: &Refused| format!("a checkpoint is damaged and was passed over: {damaged}");
-        Ok(Self {
-            scenario,
-            folder,
-            job,
-            recorder,
-            wall_before: saved.wall_s,
-            sat_down: now,
-            told: now,
-            notes: refused.iter().map(passed_over).collect(),
-        })
+        let unguarded = folder.warning().map(str::to_owned);
+        let passed_over = |refused: &Refused| format!("a checkpoint was passed over: {refused}");
+        let notes = unguarded.into_iter().chain(way.refused.iter().map(passed_over)).collect();
+        let (has_other_end, ends_before) = (!saved.ends_before.is_empty(), saved.ends_before);
+        let wall_before = saved.wall_s;
+        let (sat_down, told) = (now, now);
+        let mut session =
+            Self { scenario, ends_before, folder, job, recorder, wall_before, sat_down, told, notes };
+        if way.is_new_end {
+            // Those with the end before would not belong to the folder's scenario.
+            let newest = session.save()?;
+            checkpoint::keep_only(&newest)?;
+        }
+        if has_other_end {
+            write_scenario(&session.scenario, &session.ends_before, &session.folder)?;
+        }
+        Ok(session)
     }
 
     /// Steps to the end, unless the observer asks to stop.
@@ -132,7 +139,11 @@ impl<J: Job> Session<J> {
     /// [`RunError`] where a step fails or a file cannot be written.
     pub fn carry_on(self, observer: &mut Observer<'_>) -> Result<Ending, RunError> {
         let dir = self.folder.root().to_owned();
+        let folder = self.folder.clone();
         self.steps(observer).map_err(|error| match error {
+            RunError::Record(error) if !folder.is_ours() || !folder.has_checkpoint() => {
+                RunError::Gone { dir, error }
+            }
             RunError::Record(error) => RunError::CutShort { error, dir },
             other => other,
         })
@@ -169,8 +180,9 @@ impl<J: Job> Session<J> {
     }
 
     fn finish(mut self, observer: &mut Observer<'_>) -> Result<Ending, RunError> {
+        self.folder.hold_on()?;
         self.recorder.record_end(&mut self.job, &self.folder)?;
-        let summary = self.job.summary(&self.scenario, self.wall_s());
+        let summary = self.job.summary(&self.scenario, self.wall_s()).that_went_on(&self.ends_before);
         let text = summary.to_json();
         self.notes.extend(self.recorder.merged());
         self.save()?;
@@ -179,16 +191,17 @@ impl<J: Job> Session<J> {
         Ok(Ending::Finished(summary))
     }
 
-    fn save(&mut self) -> Result<(), RunError> {
+    fn save(&mut self) -> Result<PathBuf, RunError> {
+        self.folder.hold_on()?;
         self.recorder.sync()?;
         let saved = self.job.save(Saved {
             scenario: self.scenario.to_toml()?,
             state: (),
             recorder: self.recorder.state(),
+            ends_before: self.ends_before.clone(),
             wall_s: self.wall_s(),
         });
-        checkpoint::save(&self.folder.checkpoints(), self.job.step(), &saved)?;
-        Ok(())
+        Ok(checkpoint::save(&self.folder.checkpoints(), self.job.step(), &saved)?)
     }
 
     fn wall_s(&self) -> f64 {
@@ -209,4 +222,18 @@ impl<J: Job> Session<J> {
         };
         observer(&progress)
     }
+}
+
+/// Writes down what is run, and the ends that it had before.
+fn write_scenario(scenario: &Scenario, ends_before: &[f64], folder: &RunFolder) -> Result<(), RunError> {
+    let mut text = format!(
+        "# Resolved scenario of a run of agglo {}: every default is written out.\n",
+        env!("CARGO_PKG_VERSION")
+    );
+    if !ends_before.is_empty() {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "# The run went on (--until) beyond {}.", ends_in_words(ends_before));
+    }
+    text += &scenario.to_toml()?;
+    Ok(atomic::write(&folder.scenario(), text.as_bytes())?)
 }

@@ -42,13 +42,33 @@ impl Summary {
         }
     }
 
+    /// The same of a run that had these ends [s] before it went on.
+    pub(super) fn that_went_on(mut self, ends_before: &[f64]) -> Self {
+        let kept = match &mut self {
+            Self::Soft(summary) => &mut summary.went_on_from_s,
+            Self::Hard(summary) => &mut summary.went_on_from_s,
+        };
+        ends_before.clone_into(kept);
+        self
+    }
+
     /// The summary as rows of a table: what, how much.
     pub fn table(&self) -> Vec<(String, String)> {
-        match self {
-            Self::Soft(summary) => summary.table(),
-            Self::Hard(summary) => summary.table(),
+        let (mut rows, ends) = match self {
+            Self::Soft(summary) => (summary.table(), &summary.went_on_from_s),
+            Self::Hard(summary) => (summary.table(), &summary.went_on_from_s),
+        };
+        if !ends.is_empty() {
+            // Below the simulated time.
+            rows.insert(1, ("went on from".to_owned(), format!("{} (--until)", ends_in_words(ends))));
         }
+        rows
     }
+}
+
+/// "3 s, then 5 s".
+pub(super) fn ends_in_words(ends: &[f64]) -> String {
+    ends.iter().map(|end| readable(*end, "s")).collect::<Vec<_>>().join(", then ")
 }
 
 /// "2 s in 812 steps".

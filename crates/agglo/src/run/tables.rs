@@ -1,23 +1,30 @@
 //! The tables of a run as one: made, cut back and put onto the disk together.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use crate::record::{Cell, RecordError, Series};
+use crate::folder::Mark;
+use crate::record::{Cell, Opened, RecordError, Series};
 
 /// Tables by their place in the run's folder, with the names of their columns.
 pub type Layout = &'static [(&'static str, &'static [&'static str])];
 
-/// Lengths of the tables' files [bytes].
+/// Lengths and checksums of the tables' files.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TablesState {
-    positions: Vec<u64>,
+    marks: Vec<Mark>,
 }
 
 impl TablesState {
-    fn files(&self, layout: Layout, folder: &Path) -> impl Iterator<Item = (PathBuf, u64)> {
-        layout.iter().zip(&self.positions).map(move |((place, _), bytes)| (folder.join(place), *bytes))
+    /// Opens the tables' files of a run that is to go on. None is changed: all are looked at before the first is cut.
+    pub fn check(&self, layout: Layout, folder: &Path) -> Result<Vec<Opened>, RecordError> {
+        if self.marks.len() != layout.len() {
+            let reason = "the checkpoint knows other tables".to_owned();
+            return Err(RecordError::Foreign { path: folder.to_owned(), reason });
+        }
+        let tables = layout.iter().zip(&self.marks);
+        tables.map(|((place, columns), mark)| Series::check(&folder.join(place), columns, *mark)).collect()
     }
 }
 
@@ -34,17 +41,14 @@ impl Tables {
         Ok(Self { series: layout.iter().map(make).collect::<Result<_, _>>()? })
     }
 
-    /// Opens the tables' files and cuts them back. All are looked at before the first is cut: a run that cannot go on
-    /// stays as it is.
-    pub fn resume(layout: Layout, folder: &Path, state: &TablesState) -> Result<Self, RecordError> {
-        state.files(layout, folder).try_for_each(|(path, bytes)| Series::check(&path, bytes))?;
-        let open = |(path, bytes): (PathBuf, u64)| Series::reopen_at(&path, bytes);
-        Ok(Self { series: state.files(layout, folder).map(open).collect::<Result<_, _>>()? })
+    /// Cuts the tables back to their marks and goes on from there.
+    pub fn resume(opened: Vec<Opened>) -> Result<Self, RecordError> {
+        Ok(Self { series: opened.into_iter().map(Opened::cut).collect::<Result<_, _>>()? })
     }
 
-    /// Lengths of the files.
+    /// Marks of the files.
     pub fn state(&self) -> TablesState {
-        TablesState { positions: self.series.iter().map(Series::position).collect() }
+        TablesState { marks: self.series.iter().map(Series::mark).collect() }
     }
 
     /// Hands all rows to the operating system.

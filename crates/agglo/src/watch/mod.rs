@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 
 pub use figures::{Curve, Figure};
 
+use crate::folder::RunFolder;
 use crate::record::RecordError;
 use crate::run::Summary;
 use crate::scenario::Scenario;
@@ -71,7 +72,8 @@ impl Follower {
     /// # Errors
     /// [`WatchError`] where it holds no run or a scenario of another version.
     pub fn open(dir: &Path) -> Result<Self, WatchError> {
-        let path = dir.join("scenario.toml");
+        let folder = RunFolder::at(dir);
+        let path = folder.scenario();
         if !path.is_file() {
             return Err(WatchError::NoRun { dir: dir.to_owned(), missing: path });
         }
@@ -84,7 +86,7 @@ impl Follower {
             title: scenario.title,
             end: scenario.time.end.si(),
             steps_are: if counts_events { "events" } else { "steps" },
-            tables: figures::Tables::new(&dir.join("series"), is_hard),
+            tables: figures::Tables::new(&folder.series(), is_hard),
             dir: dir.to_owned(),
         })
     }

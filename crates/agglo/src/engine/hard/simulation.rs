@@ -60,6 +60,13 @@ pub struct SimulationState<'a> {
     contact_duration: f64,
 }
 
+impl SimulationState<'_> {
+    /// Where the simulation stands in time.
+    pub fn clock(&self) -> &Clock {
+        &self.clock
+    }
+}
+
 /// The grains at one moment, in the order of their names.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Snapshot {

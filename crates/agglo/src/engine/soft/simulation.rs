@@ -69,6 +69,13 @@ pub struct SimulationState<'a> {
     truncation: Option<Truncation>,
 }
 
+impl SimulationState<'_> {
+    /// Where the simulation stands in time.
+    pub fn clock(&self) -> &Clock {
+        &self.clock
+    }
+}
+
 /// A simulation.
 #[derive(Debug)]
 pub struct Simulation {
@@ -180,7 +187,7 @@ impl Simulation {
         system.rates = state.rates;
         system.remember(&state.contacts);
         Self {
-            tempo: state.tempo,
+            tempo: state.tempo.map(|tempo| tempo.up_to(step_size::longest(scenario))),
             truncation: state.truncation,
             paces: state.paces,
             system,

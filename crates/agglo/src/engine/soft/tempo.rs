@@ -27,6 +27,11 @@ impl Tempo {
         Self { safety, longest, shortest: [f64::INFINITY; 2] }
     }
 
+    /// The same with another longest step [s]: a run may have got another end.
+    pub fn up_to(self, longest: f64) -> Self {
+        Self { longest, ..self }
+    }
+
     /// The step [s] that a critical step [s] asks for.
     pub fn wanted(&self, critical: f64) -> f64 {
         (self.safety * critical).min(self.longest)

@@ -1,7 +1,7 @@
 //! Lists of frames with their times (`.pvd`).
 
 use std::fmt::Write as _;
-use std::path::Path;
+use std::path::{Component, Path};
 
 use serde::{Deserialize, Serialize};
 
@@ -32,14 +32,17 @@ impl Collection {
                 |key: &str| Some(row.split_once(&format!("{key}=\""))?.1.split_once('"')?.0.to_owned());
             Some((value("timestep")?.parse().ok()?, value("file")?))
         };
+        let damaged = |reason: String| RecordError::Damaged { path: path.to_owned(), reason };
         let rows = text.lines().filter(|line| line.starts_with("<DataSet "));
         let frames = rows.map(entry).collect::<Option<Vec<_>>>();
         match frames.filter(|_| text.ends_with("</Collection>\n</VTKFile>\n")) {
-            Some(frames) => Ok(Self { frames }),
-            None => Err(RecordError::Damaged {
-                path: path.to_owned(),
-                reason: "it is not a whole list of frames".to_owned(),
-            }),
+            None => Err(damaged("it is not a whole list of frames".to_owned())),
+            Some(frames) => match frames.iter().find(|(_, file)| is_outside(file)) {
+                Some((_, file)) => {
+                    Err(damaged(format!("its entry \"{}\" lies outside of its folder", file.escape_debug())))
+                }
+                None => Ok(Self { frames }),
+            },
         }
     }
 
@@ -76,6 +79,11 @@ impl Collection {
     }
 }
 
+/// Whether a name leads out of the folder that it is relative to.
+fn is_outside(file: &str) -> bool {
+    !Path::new(file).components().all(|part| matches!(part, Component::Normal(_)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -92,6 +100,19 @@ mod tests {
         list.write(&path).unwrap();
         let read = Collection::read(&path).unwrap();
         assert_eq!(read.frames().map(|(time, _)| time).collect::<Vec<_>>(), AWKWARD);
+    }
+
+    #[test]
+    fn entries_outside_of_the_folder_are_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("grains.pvd");
+        for outside in ["/etc/passwd", "../grains-0.vtp", "frames/../../x.vtp"] {
+            let mut list = Collection::default();
+            list.add(0.0, outside);
+            list.write(&path).unwrap();
+            let text = Collection::read(&path).unwrap_err().to_string();
+            assert!(text.contains(outside) && text.contains("lies outside"), "{text}");
+        }
     }
 
     #[test]

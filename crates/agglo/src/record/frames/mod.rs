@@ -14,6 +14,7 @@ pub use read::{FieldValues, Frame};
 use std::path::Path;
 
 use super::RecordError;
+use crate::folder::Mark;
 use crate::math::Vec3;
 use crate::particles::{ColumnValues, Particles};
 
@@ -33,7 +34,7 @@ pub fn name_with_unit(name: &str, unit: &str) -> String {
 }
 
 /// Writes the grains at `time` [s] with all their columns and `extra` fields [n] (a cluster number, say), both in
-/// memory's order.
+/// memory's order; gives the file's mark, as the others do.
 ///
 /// # Errors
 /// [`RecordError::Shape`] where an extra field is of another length, [`RecordError::File`].
@@ -42,7 +43,7 @@ pub fn write_grains(
     time: f64,
     grains: &Particles,
     extra: &[Field<'_>],
-) -> Result<(), RecordError> {
+) -> Result<Mark, RecordError> {
     let order = by_name(grains);
     let columns = grains.columns().into_iter().filter(|(column, _)| column.name != "position");
     let fields = columns.map(|(column, values)| Field::new(name_with_unit(column.name, column.unit), values));
@@ -71,7 +72,7 @@ pub fn write_bonds(
     grains: &Particles,
     pairs: &[[u32; 2]],
     fields: &[Field<'_>],
-) -> Result<(), RecordError> {
+) -> Result<Mark, RecordError> {
     let order = by_name(grains);
     let mut place = vec![0_u32; order.len()];
     (0..).zip(&order).for_each(|(to, &from)| place[from as usize] = to);
@@ -121,7 +122,7 @@ pub fn write_rays(
     positions: &[Vec3],
     directions: &[Vec3],
     powers: &[f64],
-) -> Result<(), RecordError> {
+) -> Result<Mark, RecordError> {
     let point_fields = vec![
         Field::new("direction", ColumnValues::Vectors(directions)),
         Field::new("power_w", ColumnValues::Scalars(powers)),

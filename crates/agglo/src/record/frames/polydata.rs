@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::io::{self, Write};
 use std::path::Path;
 
+use crate::folder::Mark;
 use crate::math::Vec3;
 use crate::particles::ColumnValues;
 use crate::record::atomic::{self, Durability};
@@ -80,11 +81,11 @@ enum Values<'a> {
 }
 
 impl PolyData<'_> {
-    /// Writes the file; it is there wholly or not at all.
+    /// Writes the file, which is there wholly or not at all, and gives its mark.
     ///
     /// # Errors
     /// [`RecordError::Shape`] where lengths do not fit, [`RecordError::File`].
-    pub fn write(&self, path: &Path) -> Result<(), RecordError> {
+    pub fn write(&self, path: &Path) -> Result<Mark, RecordError> {
         self.check(path)?;
         let (head, arrays) = self.head();
         atomic::write_with(path, Durability::Process, |file| {

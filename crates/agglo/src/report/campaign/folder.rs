@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::folder::names;
 use crate::report::folder::{not_understood, why};
 use crate::report::sheet::Sheet;
 use crate::scenario::{LoadError, Scenario};
@@ -143,7 +144,7 @@ impl Folder {
                 self.notes.push(format!("search.toml {}", why(&cause)));
             }
         }
-        match Scenario::load(&self.root.join("scenario.toml")) {
+        match Scenario::load(&self.root.join(names::SCENARIO)) {
             Ok(scenario) => self.scenario = Some(scenario),
             Err(_) => self.notes.push(
                 "scenario.toml is missing or damaged: what to cite for its laws is not known".to_owned(),
@@ -152,7 +153,7 @@ impl Folder {
     }
 
     fn read_summary(&mut self) {
-        match std::fs::read_to_string(self.root.join("summary.json")) {
+        match std::fs::read_to_string(self.root.join(names::SUMMARY)) {
             Ok(text) => match serde_json::from_str(&text) {
                 Ok(summary) => self.summary = Some(summary),
                 Err(_) => self.notes.push(not_understood(&text)),

@@ -12,6 +12,7 @@ use std::path::Path;
 use super::cite::{citations, methods};
 use super::listing::{listing, plain};
 use super::{Listing, Report};
+use crate::folder::CampaignFolder;
 use crate::scenario::Scenario;
 use crate::search::campaign::CampaignSummary as Summary;
 use folder::Folder;
@@ -76,7 +77,7 @@ fn files(folder: &Folder) -> Vec<Listing> {
         title: if folder.is_study() { "The study" } else { "The search" }.to_owned(),
         lines: plain(&folder.campaign_text),
     }];
-    if let Ok(text) = std::fs::read_to_string(folder.root.join("best/scenario.toml")) {
+    if let Ok(text) = std::fs::read_to_string(CampaignFolder::at(&folder.root).best_run().scenario()) {
         let lines = match Scenario::from_toml(&text) {
             Ok(scenario) => listing(&scenario, &text),
             Err(_) => plain(&text),

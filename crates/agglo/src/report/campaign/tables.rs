@@ -1,6 +1,7 @@
 //! Tables of searches and studies.
 
 use super::folder::Folder;
+use crate::folder::CampaignFolder;
 use crate::report::Figures;
 use crate::report::sheet::Sheet;
 use crate::scenario::column;
@@ -185,7 +186,7 @@ fn again(folder: &Folder) -> Figures {
     }
     let verb = if folder.is_study() { "study" } else { "search" };
     row("command", format!("agglo {verb} search.toml -o again"));
-    if folder.root.join("best/scenario.toml").is_file() {
+    if CampaignFolder::at(&folder.root).best_run().scenario().is_file() {
         row("command of the best one's run", "agglo run best/scenario.toml -o best-again".to_owned());
     }
     Figures {

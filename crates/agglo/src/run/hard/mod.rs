@@ -13,12 +13,12 @@ use serde::{Deserialize, Serialize};
 use crate::engine::hard::{Clock, Simulation, SimulationState};
 use crate::engine::soft::RestWatch;
 use crate::engine::{Engine, SimError};
+use crate::folder::RunFolder;
 use crate::measure::{BreakageRow, DaughterRow, KernelRow};
 use crate::particles::Particles;
 use crate::record::{RecordError, Series};
 use crate::scenario::Scenario;
 
-use super::folder::Folder;
 use super::frames::Frames;
 use super::job::{AnySaved, Job, Saved};
 use super::summary::Summary;
@@ -39,6 +39,13 @@ struct Memory {
 pub struct HardState<'a> {
     simulation: SimulationState<'a>,
     memory: Memory,
+}
+
+impl HardState<'_> {
+    /// Simulated time [s].
+    pub fn time(&self) -> f64 {
+        self.simulation.clock().time
+    }
 }
 
 /// A run of hard spheres.
@@ -140,7 +147,7 @@ impl Job for Hard {
         frames.grains(self.time(), &now.grains, ("primaries", &now.primaries))
     }
 
-    fn record_end(&self, folder: &Folder) -> Result<(), RecordError> {
+    fn record_end(&self, folder: &RunFolder) -> Result<(), RecordError> {
         let (rates, time) = (&self.simulation.cloud().state.rates, self.time());
         let kernels = rates.kernel_rows(time).into_iter().map(|row| row.values());
         write_once(folder, "kernels.csv", KernelRow::COLUMNS, kernels)?;
@@ -158,7 +165,7 @@ impl Job for Hard {
 
 /// Writes a whole table.
 fn write_once<const N: usize>(
-    folder: &Folder,
+    folder: &RunFolder,
     name: &str,
     columns: &[&str],
     mut rows: impl Iterator<Item = [f64; N]>,

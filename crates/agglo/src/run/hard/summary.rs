@@ -33,6 +33,9 @@ pub struct HardSummary {
     pub wall_s: f64,
     /// Simulated time [s].
     pub time_s: f64,
+    /// Ends [s] that the run had before it went on; none where it never got another end.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub went_on_from_s: Vec<f64>,
     /// Steps, or events.
     pub steps: u64,
     /// What `steps` counts: "steps" or "events".

@@ -12,11 +12,11 @@ use crate::contact::bond::Break;
 use crate::contact::network::BondEvent;
 use crate::engine::SimError;
 use crate::engine::soft::{Clock, RestWatch, Simulation, SimulationState};
+use crate::folder::RunFolder;
 use crate::particles::Particles;
 use crate::record::{Cell, RecordError};
 use crate::scenario::Scenario;
 
-use super::folder::Folder;
 use super::frames::Frames;
 use super::job::{AnySaved, Job, Saved};
 use super::summary::Summary;
@@ -29,6 +29,13 @@ use together::Together;
 pub struct SoftState<'a> {
     simulation: SimulationState<'a>,
     start: Clusters,
+}
+
+impl SoftState<'_> {
+    /// Simulated time [s].
+    pub fn time(&self) -> f64 {
+        self.simulation.clock().time
+    }
 }
 
 /// A run of soft spheres.
@@ -132,7 +139,7 @@ impl Job for Soft {
         Ok(())
     }
 
-    fn record_end(&self, _folder: &Folder) -> Result<(), RecordError> {
+    fn record_end(&self, _folder: &RunFolder) -> Result<(), RecordError> {
         Ok(())
     }
 

@@ -23,6 +23,9 @@ pub struct SoftSummary {
     pub wall_s: f64,
     /// Simulated time [s].
     pub time_s: f64,
+    /// Ends [s] that the run had before it went on; none where it never got another end.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub went_on_from_s: Vec<f64>,
     /// Accepted steps.
     pub steps: u64,
     /// Iterations of the staggered scheme.
@@ -181,6 +184,7 @@ impl SoftSummary {
             title: title.to_owned(),
             wall_s,
             time_s: clock.time,
+            went_on_from_s: Vec::new(),
             steps: clock.step,
             iterations: clock.iterations,
             rejected_steps: clock.rejected,

@@ -9,13 +9,13 @@ use std::time::{Duration, Instant};
 use super::archive::{Archive, Evaluation, Stage, Status};
 use super::clock::Clock;
 use super::course::{Course, Results};
-use super::folder::Folder;
 use super::journal::{Journal, Past};
 use super::progress::CampaignObserver;
 use super::records::{Records, Start};
 use super::summary::CampaignSummary;
 use super::watch::{Now, Watch};
 use super::{CampaignEnding, CampaignError};
+use crate::folder::{CampaignFolder, FolderError};
 use crate::record::{RecordError, atomic};
 use crate::search::optimiser::{Optimiser, Point};
 use crate::search::pool::{self, Finished, Halt, Outcome, Pool, Seeds, Task};
@@ -65,11 +65,11 @@ impl From<Halt> for Stop {
 pub fn conduct<M: Model>(
     model: &M,
     course: Course<'_>,
-    (folder, text): (&Folder, &str),
+    (folder, text): (&CampaignFolder, &str),
     observer: &mut CampaignObserver<'_>,
 ) -> Result<CampaignEnding, CampaignError> {
     let sat_down = Instant::now();
-    let foreign = |reason| CampaignError::NoCampaign { dir: folder.root().to_owned(), reason };
+    let foreign = |reason| FolderError::NoCampaign { dir: folder.root().to_owned(), reason };
     let (journal, past) = Journal::open(&folder.journal(), text)?.map_err(foreign)?;
     let wall_before = past.wall_s;
     let wall_s = || wall_before + sat_down.elapsed().as_secs_f64();
@@ -80,7 +80,7 @@ pub fn conduct<M: Model>(
     let sign = course.objectives.first().map(|goal| if goal.is_to_be_large { -1.0 } else { 1.0 });
     let most = course.planned.iter().map(|(_, candidates)| candidates).sum::<u64>();
     let most = (most > 0).then_some(most);
-    let watch = Watch::new(&mut observer, sat_down, most, known, sign);
+    let watch = Watch::new(&mut observer, sat_down, most, known, sign).warning(folder.warning());
     let clock = Clock::new(&course, &journal, &past, &wall_s);
     let ended = std::thread::scope(|scope| {
         let _home = Home(&pool);
@@ -92,6 +92,9 @@ pub fn conduct<M: Model>(
     match ended {
         Ok(summary) => Ok(CampaignEnding::Finished(Box::new(summary))),
         Err(Stop::Asked) => Ok(CampaignEnding::Interrupted),
+        Err(Stop::Failed(CampaignError::Record(error))) if !folder.can_go_on() => {
+            Err(CampaignError::Gone { error, dir: folder.root().to_owned() })
+        }
         Err(Stop::Failed(CampaignError::Record(error))) => {
             Err(CampaignError::CutShort { error, dir: folder.root().to_owned() })
         }
@@ -112,7 +115,7 @@ impl<M: Model> Drop for Home<'_, '_, M> {
 pub(super) struct Conductor<'a, M: Model> {
     model: &'a M,
     pool: &'a Pool<'a, M>,
-    folder: &'a Folder,
+    folder: &'a CampaignFolder,
     ensemble: Ensemble,
     fresh: Ensemble,
     /// Of the search, of the starts that choose the best, and of those that it is reported by.
@@ -133,7 +136,7 @@ impl<'a, M: Model> Conductor<'a, M> {
     fn new(
         model: &'a M,
         course: &Course<'_>,
-        folder: &'a Folder,
+        folder: &'a CampaignFolder,
         pool: &'a Pool<'a, M>,
         (past, clock): (Past, Clock<'a>),
         watch: Watch<'a>,
@@ -189,6 +192,7 @@ impl<'a, M: Model> Conductor<'a, M> {
             recommended = self.ask_and_tell(Stage::Polish, polish(&start).as_mut())?;
         }
         let best = self.confirm(&course, recommended)?;
+        self.folder.hold_on()?;
         self.records.flush()?;
         let mut summary = self.summary(&course, best);
         let results = Results {
@@ -204,6 +208,7 @@ impl<'a, M: Model> Conductor<'a, M> {
             return Err(Stop::Asked);
         }
         summary.wall_s = wall_s();
+        self.folder.hold_on()?;
         atomic::write(&self.folder.summary(), summary.to_json().as_bytes())?;
         remove(&self.folder.journal())?;
         Ok(summary)

@@ -4,8 +4,8 @@ use std::ops::ControlFlow;
 
 use super::CampaignError;
 use super::archive::{Evaluation, Stage};
-use super::folder::Folder;
 use super::summary::{CampaignSummary, Goal, LimitKept};
+use crate::folder::CampaignFolder;
 use crate::search::optimiser::Optimiser;
 use crate::search::{Axis, Candidate, Confirm, Ensemble};
 
@@ -58,7 +58,7 @@ pub struct Course<'a> {
 /// What a campaign came to, for its closing.
 pub struct Results<'a> {
     /// The campaign's folder.
-    pub folder: &'a Folder,
+    pub folder: &'a CampaignFolder,
     /// Its summary but for the wall time.
     pub summary: &'a CampaignSummary,
     /// The best candidate.

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
+use crate::folder::FolderError;
 use crate::record::RecordError;
 use crate::run::RunError;
 use crate::scenario::Faults;
@@ -25,23 +26,20 @@ pub enum CampaignError {
         /// The campaign's folder.
         dir: PathBuf,
     },
-    /// The folder holds something already.
+    /// The folder of a campaign that goes on is no longer there, or no longer its own.
     #[error(
-        "{} holds a campaign or a run already; go on with it by `agglo resume {}`, or choose another folder with -o",
-        dir.display(), dir.display()
+        "{} was removed or taken over while the campaign wrote into it ({error}): nothing of it is left to go on from",
+        dir.display()
     )]
-    FolderInUse {
-        /// The folder.
+    Gone {
+        /// What went wrong.
+        error: RecordError,
+        /// The campaign's folder.
         dir: PathBuf,
     },
-    /// There is no campaign to go on with.
-    #[error("{} holds no campaign that can be resumed: {reason}", dir.display())]
-    NoCampaign {
-        /// The folder.
-        dir: PathBuf,
-        /// Why.
-        reason: String,
-    },
+    /// The folder cannot be used.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
     /// No candidate could be evaluated.
     #[error(
         "none of {candidates} candidates could be evaluated: {failures} failed, {excluded} miss the constraints{first}"
@@ -68,8 +66,13 @@ impl CampaignError {
     /// Exit code of the program: 1 for a campaign that failed, 2 for bad input.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::FolderInUse { .. } | Self::NoCampaign { .. } | Self::Faulty(_) => 2,
-            Self::Record(_) | Self::CutShort { .. } | Self::Hopeless { .. } | Self::BestRun(_) => 1,
+            Self::Folder(error) => error.exit_code(),
+            Self::Faulty(_) => 2,
+            Self::Record(_)
+            | Self::CutShort { .. }
+            | Self::Gone { .. }
+            | Self::Hopeless { .. }
+            | Self::BestRun(_) => 1,
         }
     }
 }

@@ -17,6 +17,7 @@ use std::io::{Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
+use crate::folder::files;
 use crate::record::{Number, RecordError};
 use crate::search::pool::Finished;
 
@@ -65,8 +66,8 @@ impl Journal {
     pub fn open(path: &Path, campaign: &str) -> Result<Result<(Self, Past), String>, RecordError> {
         let heading =
             format!("agglo {},{:08x}\n", env!("CARGO_PKG_VERSION"), crc32fast::hash(campaign.as_bytes()));
-        let found = if path.exists() {
-            std::fs::read(path).map_err(RecordError::file("read", path))?
+        let found = if path.symlink_metadata().is_ok() {
+            files::read(path).map_err(RecordError::file("read", path))?
         } else {
             Vec::new()
         };
@@ -90,7 +91,7 @@ impl Journal {
     /// Cuts the file to its whole lines; an empty one gets its heading.
     fn at(path: &Path, whole: u64, heading: &str) -> Result<Self, RecordError> {
         let mut open = OpenOptions::new();
-        let opened = open.read(true).write(true).create(true).truncate(false).open(path);
+        let opened = files::open(path, open.read(true).write(true).create(true).truncate(false));
         let mut file = opened.map_err(RecordError::file("open", path))?;
         let mut cut = || {
             file.set_len(whole)?;

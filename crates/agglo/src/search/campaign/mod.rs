@@ -10,7 +10,6 @@ mod conduct;
 mod confirm;
 mod course;
 mod error;
-mod folder;
 mod journal;
 mod pictures;
 mod progress;
@@ -24,12 +23,13 @@ pub use archive::{Evaluation, Stage, Status};
 pub use conduct::conduct;
 pub use course::{Ask, Closing, Course, Polish, Results};
 pub use error::CampaignError;
-pub use folder::Folder;
 pub use progress::{CampaignObserver, CampaignProgress};
 pub use summary::{Best, CampaignSummary, FrontPoint, Goal, LimitKept, Named, Noise, Spent};
 pub use verbs::{planned, resume, run, way_of};
 
 use std::path::Path;
+
+use crate::folder::CampaignFolder;
 
 /// How a campaign ended without an error.
 #[derive(Clone, Debug)]
@@ -42,14 +42,17 @@ pub enum CampaignEnding {
 
 /// Whether `dir` holds a campaign, and not a run.
 pub fn is_one(dir: &Path) -> bool {
-    Folder::holds(dir)
+    CampaignFolder::holds(dir)
 }
 
 /// The summary of the campaign in `dir`, if it has finished.
 ///
 /// The summary is written last, so a campaign without one, or with one that cannot be read, has something left to do.
 pub fn finished(dir: &Path) -> Option<CampaignSummary> {
-    let text = std::fs::read_to_string(Folder::open(dir).ok()?.summary()).ok()?;
+    if !is_one(dir) {
+        return None;
+    }
+    let text = std::fs::read_to_string(CampaignFolder::at(dir).summary()).ok()?;
     serde_json::from_str(&text).ok()
 }
 

@@ -27,6 +27,8 @@ pub struct CampaignProgress {
     pub failures: u64,
     /// Wall time that is left [s], if that can be said.
     pub left_s: Option<f64>,
+    /// Warnings that came up since the last call.
+    pub warnings: Vec<String>,
 }
 
 /// Someone who is told of the progress and may ask to stop.

@@ -6,6 +6,7 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+use crate::folder::files;
 use crate::record::{Number, RecordError};
 
 /// A CSV table whose cells may be words.
@@ -26,7 +27,7 @@ impl Table {
         path: &Path,
         columns: impl IntoIterator<Item = S>,
     ) -> Result<Self, RecordError> {
-        let file = File::create(path).map_err(RecordError::file("create", path))?;
+        let file = files::create(path).map_err(RecordError::file("create", path))?;
         let (path, file) = (path.to_owned(), BufWriter::new(file));
         let mut table = Self { path, file, line: String::new(), is_begun: false };
         columns.into_iter().for_each(|column| table.word(column.as_ref()));

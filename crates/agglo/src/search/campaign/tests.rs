@@ -8,6 +8,7 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use super::*;
+use crate::folder::FolderError;
 use crate::record::RecordError;
 use crate::search::optimiser::{Method, PublishedGenetic, Random};
 use crate::search::test_models::Analytic;
@@ -40,6 +41,12 @@ impl Default for Setup {
     }
 }
 
+fn made(dir: &Path) -> Result<CampaignFolder, FolderError> {
+    let folder = CampaignFolder::create(dir)?;
+    folder.put(TEXT, "")?;
+    Ok(folder)
+}
+
 /// Conducts a campaign in `dir`, anew or as a resumption.
 fn conducted(
     model: &Analytic,
@@ -57,7 +64,7 @@ fn conducted_with(
     setup: &Setup,
     observer: &mut CampaignObserver<'_>,
 ) -> Result<CampaignEnding, CampaignError> {
-    let folder = if dir.exists() { Folder::open(dir)? } else { Folder::create(dir, TEXT, "")? };
+    let folder = if dir.exists() { CampaignFolder::take(dir)? } else { made(dir)? };
     let axis = |name: &str| Axis {
         name: name.to_owned(),
         unit: "m/s".to_owned(),
@@ -314,10 +321,10 @@ fn folders_in_use_and_foreign_journals_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let dir = folder.path().join("run");
     whole(&Analytic::default(), &dir, 1, &Method::Random(Random { points: 3 }));
-    let error = Folder::create(&dir, TEXT, "").unwrap_err();
-    assert!(matches!(error, CampaignError::FolderInUse { .. }) && error.exit_code() == 2);
-    let error = Folder::open(folder.path()).unwrap_err();
-    assert!(matches!(error, CampaignError::NoCampaign { .. }) && error.exit_code() == 2);
+    let error = CampaignFolder::create(&dir).unwrap_err();
+    assert!(matches!(error, FolderError::InUse { .. }) && error.exit_code() == 2);
+    let error = CampaignFolder::take(folder.path()).unwrap_err();
+    assert!(matches!(error, FolderError::NoCampaign { .. }) && error.exit_code() == 2);
     fs::write(dir.join("starts.journal"), "agglo 0.0.1,00000000\n").unwrap();
     let go_on = &mut |_: &CampaignProgress| ControlFlow::Continue(());
     let error = conducted(&Analytic::default(), &dir, (1, &genetic()), go_on).unwrap_err();

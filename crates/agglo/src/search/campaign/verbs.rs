@@ -6,16 +6,16 @@ use std::path::{Path, PathBuf};
 use super::archive::Stage;
 use super::conduct::conduct;
 use super::course::{Ask, Course, Polish, Results};
-use super::folder::Folder;
 use super::progress::CampaignObserver;
 use super::summary::Goal;
 use super::{CampaignEnding, CampaignError, pictures};
-use crate::packing::Placement;
+use crate::engine::SimError;
+use crate::folder::{CampaignFolder, FolderError};
 use crate::record::RecordError;
-use crate::run::{self, Ending};
+use crate::run::{self, Ending, RunError};
 use crate::scenario::{LoadError, Scenario};
 use crate::search::optimiser::{Method, NelderMead, Optimiser};
-use crate::search::{Base, Campaign, Confirm, Problem};
+use crate::search::{Base, Campaign, Confirm, Problem, Range, Scalar};
 
 /// Conducts a campaign on `threads` threads in the folder `dir`; `base` is the folder that its files are relative to.
 ///
@@ -29,27 +29,39 @@ pub fn run(
     observer: &mut CampaignObserver<'_>,
 ) -> Result<CampaignEnding, CampaignError> {
     let problem = Problem::new(campaign, base)?;
-    let mut scenario = problem.base().clone();
-    find_tables(&mut scenario, problem.folder());
     let head = |what: &str| {
         format!("# {what} of agglo {}: every default is written out.\n", env!("CARGO_PKG_VERSION"))
     };
     let own = Base::File("scenario.toml".to_owned());
     let resolved = Campaign { base: own, settings: Vec::new(), ..campaign.clone() };
+    let folder = CampaignFolder::create(dir)?;
+    let (scenario, resolved) = with_tables(&folder, &problem, resolved)?;
     let scenario = head("Scenario that is varied by a search or study") + &scenario.to_toml()?;
     let campaign = head("Resolved search or study") + &resolved.to_toml()?;
-    Folder::create(dir, &campaign, &scenario)?;
-    resume(dir, threads, observer)
+    folder.put(&campaign, &scenario)?;
+    go_on(&folder, threads, observer)
 }
 
-/// Tables of grains are found from any folder.
-fn find_tables(scenario: &mut Scenario, base: &Path) {
-    for group in &mut scenario.grains {
-        if let Placement::Table(table) = &mut group.placement {
-            let found = base.join(&table.file);
-            table.file = std::path::absolute(&found).unwrap_or(found);
+/// Takes the tables of grains into the folder, those of the scenario and those that parameters choose from.
+fn with_tables(
+    folder: &CampaignFolder,
+    problem: &Problem,
+    mut campaign: Campaign,
+) -> Result<(Scenario, Campaign), FolderError> {
+    let (mut tables, base) = (folder.tables(), problem.folder());
+    let scenario = tables.adopt_all(problem.base(), base)?;
+    for parameter in &mut campaign.parameters {
+        let chooses_a_table =
+            parameter.key.as_ref().is_some_and(|key| key.ends_with(".placement.table.file"));
+        let Range::Choices(choices) = &mut parameter.range else { continue };
+        for choice in choices.iter_mut().filter(|_| chooses_a_table) {
+            if let Scalar::Text(file) = choice {
+                let place = tables.adopt(&base.join(&*file))?;
+                *file = place.to_string_lossy().into_owned();
+            }
         }
     }
+    Ok((scenario, campaign))
 }
 
 /// Goes on with the campaign in `dir`, on any number of threads.
@@ -63,15 +75,30 @@ pub fn resume(
     threads: usize,
     observer: &mut CampaignObserver<'_>,
 ) -> Result<CampaignEnding, CampaignError> {
-    let folder = Folder::open(dir)?;
-    if let Some(summary) = super::finished(dir) {
-        return Ok(CampaignEnding::Finished(Box::new(summary)));
+    let finished = || super::finished(dir).map(|summary| CampaignEnding::Finished(Box::new(summary)));
+    if let Some(ending) = finished() {
+        return Ok(ending);
     }
+    let folder = CampaignFolder::take(dir)?;
+    // Another process may have finished it in between.
+    match finished() {
+        Some(ending) => Ok(ending),
+        None => go_on(&folder, threads, observer),
+    }
+}
+
+/// Goes on with the campaign in a folder whose lock is held.
+fn go_on(
+    folder: &CampaignFolder,
+    threads: usize,
+    observer: &mut CampaignObserver<'_>,
+) -> Result<CampaignEnding, CampaignError> {
+    let dir = folder.root();
     let read = |path: PathBuf| std::fs::read_to_string(&path).map_err(RecordError::file("read", &path));
-    let text = read(folder.campaign())? + &read(folder.scenario())?;
+    let text = read(folder.campaign())? + &read(folder.scenario())? + &folder.told_of_tables()?;
     let unreadable = |error: LoadError| {
         let reason = format!("its search.toml cannot be read: {error}");
-        CampaignError::NoCampaign { dir: dir.to_owned(), reason }
+        FolderError::NoCampaign { dir: dir.to_owned(), reason }
     };
     let campaign = Campaign::load(&folder.campaign()).map_err(unreadable)?;
     let problem = Problem::new(&campaign, dir)?;
@@ -103,7 +130,7 @@ pub fn resume(
             if is_search { run_best(&problem, results, ask) } else { Ok(ControlFlow::Continue(())) }
         },
     };
-    conduct(&problem, course, (&folder, &text), observer)
+    conduct(&problem, course, (folder, &text), observer)
 }
 
 fn goal(formula: &str, is_to_be_large: bool) -> Goal {
@@ -128,10 +155,14 @@ fn run_best(
         std::fs::remove_dir_all(&dir).map_err(RecordError::file("remove", &dir))?;
     }
     let scenario = Scenario { seed: best.start_seed, ..problem.scenario(candidate)? };
-    Ok(match run::run(&scenario, problem.folder(), &dir, &mut |_| ask())? {
-        Ending::Finished(_) => ControlFlow::Continue(()),
-        Ending::Interrupted(_) => ControlFlow::Break(()),
-    })
+    match run::run(&scenario, problem.folder(), &dir, &mut |_| ask()) {
+        Ok(Ending::Finished(_)) => Ok(ControlFlow::Continue(())),
+        Ok(Ending::Interrupted(_))
+        | Err(RunError::StoppedBefore(_) | RunError::Start(SimError::StoppedAtRest)) => {
+            Ok(ControlFlow::Break(()))
+        }
+        Err(error) => Err(error.into()),
+    }
 }
 
 fn levels(problem: &Problem) -> Vec<Option<usize>> {

@@ -19,6 +19,8 @@ pub struct Watch<'a> {
     known: u64,
     /// -1 where a cost is minus what is to be large; none where there is no goal.
     sign: Option<f64>,
+    /// What is still to be told.
+    warnings: Vec<String>,
 }
 
 /// Where a campaign is.
@@ -43,7 +45,13 @@ impl<'a> Watch<'a> {
         known: u64,
         sign: Option<f64>,
     ) -> Self {
-        Self { observer, sat_down, told: None, evaluations_at_most, known, sign }
+        Self { observer, sat_down, told: None, evaluations_at_most, known, sign, warnings: Vec::new() }
+    }
+
+    /// The same with something to be told first.
+    pub fn warning(mut self, warning: Option<&str>) -> Self {
+        self.warnings.extend(warning.map(str::to_owned));
+        self
     }
 
     /// Tells the observer, if it is time to; it may ask to stop.
@@ -71,6 +79,7 @@ impl<'a> Watch<'a> {
             starts_per_second: if wall > 0.0 { now.starts as f64 / wall } else { 0.0 },
             failures: archive.failures,
             left_s: left.filter(|_| new > 0.0).map(|left| left * wall / new),
+            warnings: std::mem::take(&mut self.warnings),
         };
         (self.observer)(&progress)
     }

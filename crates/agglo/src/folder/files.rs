@@ -1,0 +1,92 @@
+//! Files are opened where they are: links are not followed, and only regular files are opened at all.
+
+use std::fs::{File, OpenOptions};
+use std::io::{self, ErrorKind};
+use std::path::Path;
+
+/// Opens a regular file as `options` say.
+///
+/// # Errors
+/// As [`OpenOptions::open`]; also where a link, a pipe or a device has the name.
+pub fn open(path: &Path, options: &mut OpenOptions) -> io::Result<File> {
+    if let Ok(data) = path.symlink_metadata() {
+        // Looked at before it is opened: opening a pipe waits for its other end.
+        regular(&data)?;
+    }
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::OpenOptionsExt;
+        // For a link that came between.
+        options.custom_flags(rustix::fs::OFlags::NOFOLLOW.bits().cast_signed());
+    }
+    let file = options.open(path)?;
+    regular(&file.metadata()?)?;
+    Ok(file)
+}
+
+/// Makes a file; one that has the name is unlinked and not overwritten, so that another name of it keeps what it has.
+///
+/// # Errors
+/// As [`open`].
+pub fn create(path: &Path) -> io::Result<File> {
+    if let Ok(data) = path.symlink_metadata() {
+        regular(&data)?;
+        std::fs::remove_file(path)?;
+    }
+    OpenOptions::new().read(true).write(true).create_new(true).open(path)
+}
+
+/// Reads a regular file of the folder.
+///
+/// # Errors
+/// As [`open`].
+pub fn read(path: &Path) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    io::Read::read_to_end(&mut open(path, OpenOptions::new().read(true))?, &mut bytes)?;
+    Ok(bytes)
+}
+
+/// Refuses what is no regular file.
+fn regular(data: &std::fs::Metadata) -> io::Result<()> {
+    let what = match data.file_type() {
+        kind if kind.is_file() => return Ok(()),
+        kind if kind.is_symlink() => "it is a symbolic link, which is not followed",
+        kind if kind.is_dir() => "it is a folder",
+        _ => "it is no regular file",
+    };
+    Err(io::Error::new(ErrorKind::InvalidInput, what))
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+    use std::os::unix::fs::symlink;
+
+    #[test]
+    fn links_and_devices_are_refused_and_what_they_lead_to_is_kept() {
+        let folder = tempfile::tempdir().unwrap();
+        let [precious, link] = ["precious", "table.csv"].map(|name| folder.path().join(name));
+        std::fs::write(&precious, "kept").unwrap();
+        symlink(&precious, &link).unwrap();
+        let mut options = OpenOptions::new();
+        options.read(true).write(true).create(true).truncate(true);
+        for refused in [open(&link, &mut options), create(&link)] {
+            let error = refused.unwrap_err();
+            assert_eq!(error.to_string(), "it is a symbolic link, which is not followed");
+        }
+        assert!(open(Path::new("/dev/null"), OpenOptions::new().write(true)).is_err());
+        assert!(create(folder.path()).unwrap_err().to_string().contains("folder"));
+        assert_eq!(read(&precious).unwrap(), b"kept");
+    }
+
+    #[test]
+    fn another_name_of_a_file_keeps_its_content() {
+        let folder = tempfile::tempdir().unwrap();
+        let [precious, table] = ["precious", "table.csv"].map(|name| folder.path().join(name));
+        std::fs::write(&precious, "kept").unwrap();
+        std::fs::hard_link(&precious, &table).unwrap();
+        create(&table).unwrap();
+        assert_eq!(read(&precious).unwrap(), b"kept");
+        assert_eq!(read(&table).unwrap(), b"");
+    }
+}

@@ -1,0 +1,45 @@
+//! Folders of runs, searches and studies: the names of what is in them, who may write there, and how files are opened.
+//!
+//! Nothing else names a file in such a folder. Whoever writes there holds its [`Lock`], which the system releases when
+//! the process ends, however it ends. Files are opened without following links, so that nothing outside the folder is
+//! ever written; a [`Mark`] tells whether one is still what it was.
+
+mod campaign;
+mod error;
+pub(crate) mod files;
+mod lock;
+mod mark;
+pub(crate) mod names;
+mod run;
+mod tables;
+mod traces;
+
+pub use campaign::CampaignFolder;
+pub use error::FolderError;
+pub use lock::Lock;
+pub use mark::{Mark, Marked, Marking};
+pub use run::RunFolder;
+pub use traces::Traces;
+
+use std::path::Path;
+
+/// Whether a new run, search or study may begin in `dir`: it is not there yet, or an empty folder.
+///
+/// # Errors
+/// [`FolderError`] where it is not empty, another process is at work in it, or it is no folder.
+pub fn vacant(dir: &Path) -> Result<(), FolderError> {
+    traces::no_dangling_link(dir)?;
+    if dir.exists() && !dir.is_dir() {
+        return Err(FolderError::NoFolder { dir: dir.to_owned() });
+    }
+    let Ok(entries) = std::fs::read_dir(dir) else { return Ok(()) };
+    // A process that was killed leaves its lock's file.
+    let is_other = |entry: &std::fs::DirEntry| entry.file_name() != names::LOCK;
+    if entries.flatten().any(|entry| is_other(&entry)) {
+        if dir.join(names::LOCK).exists() {
+            drop(Lock::take(dir)?);
+        }
+        return Err(FolderError::NotEmpty { dir: dir.to_owned() });
+    }
+    Ok(())
+}
