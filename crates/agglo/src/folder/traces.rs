@@ -10,7 +10,7 @@ use crate::record::RecordError;
 pub struct Traces(Vec<PathBuf>);
 
 impl Traces {
-    /// What [`Traces::make`] would make for `dir`: the folder and those above it, as far as they are not there.
+    /// The folders that are not there yet, of `dir` itself and those above it.
     pub fn before(dir: &Path) -> Self {
         let missing = dir.ancestors().filter(|part| !part.as_os_str().is_empty());
         let mut missing: Vec<PathBuf> =
