@@ -20,29 +20,37 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 
 use agglo::forecast::Plan;
+use agglo::record::visible;
 use agglo::scenario::{TEMPLATES, nearest_template, schema, template};
 use agglo::search::campaign_schema;
 use clap::Parser;
 
 use arguments::{Arguments, Verb};
-use read::Kind;
+use read::{Kind, Source};
 
 /// Why the program ends early: the message for the user and the exit code.
 #[derive(Debug)]
 pub(crate) struct Failure {
     message: String,
     code: u8,
+    /// Whether it has colors of our own, and nothing else that acts on a terminal.
+    is_page: bool,
 }
 
 impl Failure {
     /// Something that the user asked for cannot be done.
     pub(crate) fn bad_input(message: impl Into<String>) -> Self {
-        Self { message: message.into(), code: 2 }
+        Self { message: message.into(), code: 2, is_page: false }
     }
 
     /// Something went wrong on the way.
     pub(crate) fn failed(message: impl Into<String>) -> Self {
-        Self { message: message.into(), code: 1 }
+        Self { message: message.into(), code: 1, is_page: false }
+    }
+
+    /// Faults as [`agglo::scenario::Faults::render`] draws them.
+    pub(crate) fn page(page: String) -> Self {
+        Self { message: page, code: 2, is_page: true }
     }
 }
 
@@ -54,7 +62,8 @@ fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             // Nothing is left to do where even this message cannot be written.
-            let _ = writeln!(io::stderr(), "{}", failure.message);
+            let message = if failure.is_page { failure.message.into() } else { visible(&failure.message) };
+            let _ = writeln!(io::stderr(), "{message}");
             ExitCode::from(failure.code)
         }
     }
@@ -82,9 +91,9 @@ fn act(verb: Verb) -> Result<(), Failure> {
     }
 }
 
-/// Writes to the standard output; a reader that closed the pipe has seen enough.
+/// Writes to the standard output, without what acts on a terminal; a reader that closed the pipe has seen enough.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
-    match writeln!(io::stdout(), "{}", text.trim_end()) {
+    match writeln!(io::stdout(), "{}", visible(text.trim_end())) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
             Err(Failure::failed(format!("error: cannot write: {error}")))
         }
@@ -104,11 +113,12 @@ fn new(name: &str) -> Result<(), Failure> {
 }
 
 fn check(file: &std::path::Path, settings: &[String]) -> Result<(), Failure> {
-    if read::kind(file) != Kind::Scenario {
-        return search::check(file, settings);
+    let source = Source::read(file)?;
+    if source.kind() != Kind::Scenario {
+        return search::check(&source, settings);
     }
-    let read = read::scenario(file, settings)?;
-    let plan = Plan::new(&read.scenario, &read.base)
-        .map_err(|error| Failure::bad_input(format!("error: {}: {error}", file.display())))?;
-    print(&format!("{} is sound\n{plan}", file.display()))
+    let scenario = source.scenario(settings)?;
+    let plan = Plan::new(&scenario, &source.base)
+        .map_err(|error| Failure::bad_input(format!("error: {}: {error}", source.shown)))?;
+    print(&format!("{} is sound\n{plan}", source.shown))
 }

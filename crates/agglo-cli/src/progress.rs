@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::io::{self, IsTerminal, Write};
 use std::time::{Duration, Instant};
 
+use agglo::record::visible;
 use agglo::render::FilmProgress;
 use agglo::run::Progress;
 use agglo::scenario::readable;
@@ -73,7 +74,7 @@ impl Display {
         let state = state(progress, pace);
         if self.on_terminal {
             self.bar.set_position((PARTS * part(progress)) as u64);
-            self.bar.set_message(state);
+            self.bar.set_message(visible(&state).into_owned());
         } else if self.last_line.elapsed() >= BETWEEN_LINES {
             self.last_line = Instant::now();
             self.line(&format!("{:>3.0} %  {state}", 100.0 * part(progress)));
@@ -90,7 +91,7 @@ impl Display {
         let part = progress.evaluations_at_most.map(|most| progress.evaluations as f64 / most.max(1) as f64);
         if self.on_terminal {
             self.bar.set_position((PARTS * part.unwrap_or(0.0).min(1.0)) as u64);
-            self.bar.set_message(state);
+            self.bar.set_message(visible(&state).into_owned());
         } else if self.last_line.elapsed() >= BETWEEN_LINES {
             self.last_line = Instant::now();
             let part = part.map(|part| format!("{:>3.0} %  ", 100.0 * part)).unwrap_or_default();
@@ -112,7 +113,7 @@ impl Display {
         let part = done as f64 / all.max(1) as f64;
         if self.on_terminal {
             self.bar.set_position((PARTS * part) as u64);
-            self.bar.set_message(state);
+            self.bar.set_message(visible(&state).into_owned());
         } else if self.last_line.elapsed() >= BETWEEN_LINES {
             self.last_line = Instant::now();
             self.line(&format!("{:>3.0} %  {state}", 100.0 * part));
@@ -120,6 +121,7 @@ impl Display {
     }
 
     fn line(&self, text: &str) {
+        let text = &*visible(text);
         if self.on_terminal {
             self.bar.println(text);
         } else {

@@ -3,7 +3,8 @@
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 
-use agglo::scenario::{LoadError, Scenario};
+use agglo::record::door;
+use agglo::scenario::{Faults, Scenario};
 use agglo::search::Campaign;
 
 use crate::Failure;
@@ -39,59 +40,82 @@ impl Kind {
     }
 }
 
-/// What a file is meant to be, told from its text without reading it closely.
-pub(crate) fn kind(file: &Path) -> Kind {
-    let Ok(text) = std::fs::read_to_string(file) else { return Kind::Scenario };
-    if !Campaign::is_meant_by(&text) {
-        return Kind::Scenario;
-    }
-    let is_plan = |line: &str| {
-        let line = line.trim_start().trim_start_matches('[').trim_start();
-        line.strip_prefix("plan").is_some_and(|rest| rest.trim_start().starts_with([']', '.', '=']))
-    };
-    if text.lines().any(is_plan) { Kind::Study } else { Kind::Search }
-}
-
-/// Refuses a file that another verb is for.
-pub(crate) fn refuse_other_kind(file: &Path, wanted: Kind) -> Result<(), Failure> {
-    let found = kind(file);
-    if found == wanted || !file.is_file() {
-        return Ok(());
-    }
-    let (shown, words, verb) = (file.display(), found.words(), found.verb());
-    let message = format!("error: {shown} is {words}\nhelp: `agglo {verb} {shown}` is for it");
-    Err(Failure::bad_input(message))
-}
-
-/// A checked search or study and the folder that its files are relative to.
-pub(crate) fn campaign(file: &Path, settings: &[String]) -> Result<(Campaign, PathBuf), Failure> {
-    let campaign = Campaign::load_with_overrides(file, settings).map_err(|error| refusal(&error))?;
-    Ok((campaign, file.parent().unwrap_or(Path::new("")).to_path_buf()))
-}
-
-/// A checked scenario and the folder that its tables are relative to.
-pub(crate) struct Read {
-    pub scenario: Scenario,
+/// A file that was read, once: what comes through a pipe is gone then.
+pub(crate) struct Source {
+    /// What messages call it.
+    pub shown: String,
+    /// The folder that files named in it are relative to.
     pub base: PathBuf,
+    text: String,
 }
 
-/// Reads and checks a scenario with its settings.
-pub(crate) fn scenario(file: &Path, settings: &[String]) -> Result<Read, Failure> {
-    let scenario = Scenario::load_with_overrides(file, settings).map_err(|error| refusal(&error))?;
-    Ok(Read { scenario, base: file.parent().unwrap_or(Path::new("")).to_path_buf() })
-}
-
-fn refusal(error: &LoadError) -> Failure {
-    match error {
-        LoadError::Faulty { path, faults, text } => {
-            Failure::bad_input(faults.render(text, path, wants_color()))
+impl Source {
+    /// Reads a file; `-` is the standard input, and the names that shells give to pipes are pipes.
+    pub(crate) fn read(file: &Path) -> Result<Self, Failure> {
+        let most = door::MOST_OF_A_TEXT;
+        let read = if file == Path::new("-") {
+            door::read_stream(io::stdin().lock(), most)
+        } else if is_of_a_shell(file) {
+            std::fs::File::open(file).and_then(|stream| door::read_stream(stream, most))
+        } else {
+            door::read_text(file, most)
+        };
+        let is_stream = file == Path::new("-") || is_of_a_shell(file);
+        let shown =
+            if file == Path::new("-") { "standard input".to_owned() } else { file.display().to_string() };
+        let base =
+            if is_stream { PathBuf::new() } else { file.parent().unwrap_or(Path::new("")).to_path_buf() };
+        match read {
+            Ok(text) => Ok(Self { shown, base, text }),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                let help = "`agglo new acoustic > my.toml` writes a scenario to start from";
+                Err(Failure::bad_input(format!("error: cannot read {shown}: {error}\nhelp: {help}")))
+            }
+            Err(error) => Err(Failure::bad_input(format!("error: cannot read {shown}: {error}"))),
         }
-        LoadError::Unreadable { cause, .. } if cause.kind() == io::ErrorKind::NotFound => {
-            let help = "`agglo new acoustic > my.toml` writes a scenario to start from";
-            Failure::bad_input(format!("error: {error}\nhelp: {help}"))
-        }
-        LoadError::Unreadable { .. } => Failure::bad_input(format!("error: {error}")),
     }
+
+    /// What it is meant to be, told from its text without reading it closely.
+    pub(crate) fn kind(&self) -> Kind {
+        if !Campaign::is_meant_by(&self.text) {
+            return Kind::Scenario;
+        }
+        let is_plan = |line: &str| {
+            let line = line.trim_start().trim_start_matches('[').trim_start();
+            line.strip_prefix("plan").is_some_and(|rest| rest.trim_start().starts_with([']', '.', '=']))
+        };
+        if self.text.lines().any(is_plan) { Kind::Study } else { Kind::Search }
+    }
+
+    /// Refuses a file that another verb is for.
+    pub(crate) fn refuse_other_kind(&self, wanted: Kind) -> Result<(), Failure> {
+        let found = self.kind();
+        if found == wanted {
+            return Ok(());
+        }
+        let (shown, words, verb) = (&self.shown, found.words(), found.verb());
+        let message = format!("error: {shown} is {words}\nhelp: `agglo {verb} {shown}` is for it");
+        Err(Failure::bad_input(message))
+    }
+
+    /// Checks a search or study with its settings.
+    pub(crate) fn campaign(&self, settings: &[String]) -> Result<Campaign, Failure> {
+        Campaign::from_source(&self.text, &self.base, settings).map_err(|faults| self.refusal(&faults))
+    }
+
+    /// Checks a scenario with its settings.
+    pub(crate) fn scenario(&self, settings: &[String]) -> Result<Scenario, Failure> {
+        Scenario::from_source(&self.text, &self.base, settings).map_err(|faults| self.refusal(&faults))
+    }
+
+    fn refusal(&self, faults: &Faults) -> Failure {
+        Failure::page(faults.render(&self.text, &self.shown, wants_color()))
+    }
+}
+
+/// Whether a file is the standard input by another name, or a pipe that a shell has made: `<(agglo new acoustic)`.
+fn is_of_a_shell(file: &Path) -> bool {
+    file == Path::new("/dev/stdin") || file.starts_with("/dev/fd") || file.starts_with("/proc/self/fd")
 }
 
 /// Colours on a terminal, unless the user has asked for none (no-color.org).

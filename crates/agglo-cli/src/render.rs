@@ -115,6 +115,7 @@ pub(crate) fn render(wishes: &Wishes) -> Result<(), Failure> {
     let refused = |error: agglo::render::RenderError| Failure {
         message: format!("error: {error}"),
         code: error.exit_code(),
+        is_page: false,
     };
     let (folder, path) = (&wishes.folder, wishes.output.display());
     if !folder.is_dir() {

@@ -24,7 +24,11 @@ pub(crate) fn at_the_end(folder: &Path, ear: &Ear) -> String {
         Ok(_) => "; report.html shows it".to_owned(),
         Err(error) => {
             // Nothing is left to do where even this warning cannot be written.
-            let _ = writeln!(io::stderr(), "warning: there is no report: {error}");
+            let _ = writeln!(
+                io::stderr(),
+                "warning: there is no report: {}",
+                agglo::record::visible(&error.to_string())
+            );
             String::new()
         }
     }

@@ -18,14 +18,14 @@ use crate::{Failure, print, progress, read, report};
 /// Runs a scenario into a folder.
 pub(crate) fn run(run_orders: &RunOrders) -> Result<(), Failure> {
     let orders = &run_orders.orders;
-    read::refuse_other_kind(&orders.scenario, read::Kind::Scenario)?;
-    let settings = settings(orders);
-    let read = read::scenario(&orders.scenario, &settings)?;
+    let source = read::Source::read(&orders.scenario)?;
+    source.refuse_other_kind(read::Kind::Scenario)?;
+    let scenario = source.scenario(&settings(orders))?;
     let folder = orders.output.clone().unwrap_or_else(|| default_folder(&orders.scenario));
     refuse_occupied(&folder)?;
     let beside = |stop| companion(run_orders, &folder, stop);
     go(&folder, beside, !orders.no_report, |observer| {
-        agglo::run::run(&read.scenario, &read.base, &folder, observer)
+        agglo::run::run(&scenario, &source.base, &folder, observer)
     })
 }
 
@@ -73,13 +73,17 @@ pub(crate) fn settings(orders: &Orders) -> Vec<String> {
 
 /// Where the results go if no folder is named.
 pub(crate) fn default_folder(scenario: &Path) -> PathBuf {
-    Path::new("out").join(scenario.file_stem().unwrap_or("run".as_ref()))
+    let stem = scenario.file_stem().filter(|stem| *stem != "-");
+    Path::new("out").join(stem.unwrap_or("stdin".as_ref()))
 }
 
 /// A folder that holds anything is left alone: it may be the only copy of another run.
 pub(crate) fn refuse_occupied(folder: &Path) -> Result<(), Failure> {
-    agglo::folder::vacant(folder)
-        .map_err(|error| Failure { message: format!("error: {error}"), code: error.exit_code() })
+    agglo::folder::vacant(folder).map_err(|error| Failure {
+        message: format!("error: {error}"),
+        code: error.exit_code(),
+        is_page: false,
+    })
 }
 
 /// Threads that can be asked for at the most.
@@ -154,9 +158,11 @@ fn go(
                 format!("stopped at t = {time} ({closing}); `agglo resume {shown}` goes on from there");
             Err(Failure::failed(message))
         }
-        Err(error) => {
-            Err(Failure { message: format!("error: {error}\n({closing})"), code: error.exit_code() })
-        }
+        Err(error) => Err(Failure {
+            message: format!("error: {error}\n({closing})"),
+            code: error.exit_code(),
+            is_page: false,
+        }),
     }
 }
 

@@ -9,15 +9,16 @@ use agglo::search::{Axis, Campaign, CampaignForecast, Ensemble, Problem, Scale, 
 
 use crate::arguments::{Orders, ResumeOrders};
 use crate::progress::Display;
-use crate::read::{self, Kind};
+use crate::read::{Kind, Source};
 use crate::run::{columns, default_folder, refuse_occupied, settings};
 use crate::signals::{Ear, Late};
 use crate::{Failure, print, report};
 
 /// Conducts a search or study into a folder.
 pub(crate) fn conduct(orders: &Orders, kind: Kind) -> Result<(), Failure> {
-    read::refuse_other_kind(&orders.scenario, kind)?;
-    let (campaign, base) = read::campaign(&orders.scenario, &settings(orders))?;
+    let source = Source::read(&orders.scenario)?;
+    source.refuse_other_kind(kind)?;
+    let (campaign, base) = (source.campaign(&settings(orders))?, source.base);
     let folder = orders.output.clone().unwrap_or_else(|| default_folder(&orders.scenario));
     refuse_occupied(&folder)?;
     let threads = threads(orders.threads);
@@ -65,9 +66,11 @@ fn go(
         Ok(CampaignEnding::Interrupted) => Err(Failure::failed(format!(
             "stopped ({closing}); all simulations that ended are kept, `agglo resume {shown}` goes on from there"
         ))),
-        Err(error) => {
-            Err(Failure { message: format!("error: {error}\n({closing})"), code: error.exit_code() })
-        }
+        Err(error) => Err(Failure {
+            message: format!("error: {error}\n({closing})"),
+            code: error.exit_code(),
+            is_page: false,
+        }),
     }
 }
 
@@ -84,16 +87,18 @@ fn finished(summary: &CampaignSummary, folder: &Path, reports: Option<&Ear>) -> 
 }
 
 /// Checks a search or study and says what it would do.
-pub(crate) fn check(file: &Path, settings: &[String]) -> Result<(), Failure> {
-    let (campaign, base) = read::campaign(file, settings)?;
-    let problem =
-        Problem::new(&campaign, &base).map_err(|faults| Failure::bad_input(format!("error: {faults}")))?;
-    let mut parts = vec![format!("{} is sound", file.display()), columns(&rows(&campaign, &problem))];
+pub(crate) fn check(source: &Source, settings: &[String]) -> Result<(), Failure> {
+    let campaign = source.campaign(settings)?;
+    let problem = Problem::new(&campaign, &source.base)
+        .map_err(|faults| Failure::bad_input(format!("error: {faults}")))?;
+    campaign::refuse_too_large(&problem, threads(None))
+        .map_err(|error| Failure::bad_input(format!("error: {}: {error}", source.shown)))?;
+    let mut parts = vec![format!("{} is sound", source.shown), columns(&rows(&campaign, &problem))];
     let notes = problem.notes().into_iter().chain(problem.refused_ends());
     parts.extend(notes.map(|note| format!("note: {note}")));
     if let Ok(scenario) = problem.scenario(&problem.centre()) {
         let plan = Plan::new(&scenario, problem.folder())
-            .map_err(|error| Failure::bad_input(format!("error: {}: {error}", file.display())))?;
+            .map_err(|error| Failure::bad_input(format!("error: {}: {error}", source.shown)))?;
         parts.push(format!("\nOne run, with all parameters in the middle of their ranges:\n{plan}"));
     }
     print(&parts.join("\n"))

@@ -11,6 +11,7 @@ mod disk;
 mod end;
 mod foreign;
 mod hard;
+mod hostile;
 mod killed;
 mod moved;
 mod output;

@@ -32,6 +32,27 @@ pub enum SimError {
         /// The laws that act on it.
         laws: String,
     },
+    /// An entry of the ledger of energy is infinite or not a number.
+    #[error(
+        "{at}: the ledger of energy is not finite under {laws}; make the step smaller, or the values less extreme"
+    )]
+    LedgerNotFinite {
+        /// When.
+        at: Moment,
+        /// The laws that act.
+        laws: String,
+    },
+    /// A figure of a run's end is infinite or not a number.
+    #[error(
+        "t = {time:.6e} s: {figure} of the summary is not finite, so there is no summary; the values of the scenario are too \
+         extreme"
+    )]
+    FigureNotFinite {
+        /// When [s].
+        time: f64,
+        /// Its key in the summary.
+        figure: String,
+    },
     /// A grain moves too far in one step.
     #[error(
         "{at}: grain {grain} moves {radii:.3} of its radius in one step under {laws}, more than limits.displacement = \
@@ -154,6 +175,12 @@ pub enum SimError {
         /// What counts as rest [m/s].
         limit: f64,
     },
+    /// A saved state that no run of this scenario can have come to.
+    #[error("the saved state is no state of such a run: {reason}")]
+    Forged {
+        /// What is wrong with it.
+        reason: String,
+    },
     /// A scenario of soft spheres was given to the engine of hard ones.
     #[error("hard spheres need engine.event_driven or engine.time_stepped, [volume] and [impact]")]
     NoImpact,
@@ -217,6 +244,16 @@ pub enum SimError {
         place: f64,
         /// Width of a cell [m].
         cell: f64,
+    },
+    /// An entry of the ledger of hard spheres is infinite or not a number.
+    #[error(
+        "t = {time:.6e} s: the ledger of energy is not finite under {laws}; make the values less extreme"
+    )]
+    ImpactLedgerNotFinite {
+        /// When [s].
+        time: f64,
+        /// The laws that act.
+        laws: String,
     },
     /// The books of impacts do not add up.
     #[error(

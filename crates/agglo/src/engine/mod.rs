@@ -3,6 +3,7 @@
 mod error;
 pub mod hard;
 pub mod soft;
+pub(crate) mod sound;
 mod types;
 mod warnings;
 

@@ -1,12 +1,12 @@
 //! How many grains, rays and pulses, and the memory that they take.
 
-use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 use super::Plan;
 use crate::domain::{Region, Volume};
 use crate::packing::{Lattice, LatticeKind, Placement, SATURATION};
+use crate::record::door;
 use crate::scenario::{GrainGroup, Scenario};
 use crate::units::Time;
 
@@ -21,11 +21,13 @@ const BYTES_PER_SHOWN_RAY: f64 = 56.0;
 const MOST_SHOWN: f64 = 1.3e6;
 /// Of the rays of a pulse, those that are in flight in the mean of its time.
 pub(super) const PART_IN_FLIGHT: f64 = 0.5;
-const BYTES_PER_GRAIN: f64 = 400.0;
-const BYTES_PER_CONTACT: f64 = 200.0;
-const BYTES_PER_RAY: f64 = 120.0;
+pub(super) const BYTES_PER_GRAIN: f64 = 400.0;
+pub(super) const BYTES_PER_CONTACT: f64 = 200.0;
+pub(super) const BYTES_PER_RAY: f64 = 120.0;
+/// A row of a table of grains has hardly fewer than this.
+const BYTES_PER_TABLE_ROW: f64 = 20.0;
 /// Contacts and bonds per grain: a random packing has about six neighbours each, shared by two.
-const CONTACTS_PER_GRAIN: f64 = 3.0;
+pub(super) const CONTACTS_PER_GRAIN: f64 = 3.0;
 
 /// Expected number of grains of each group.
 pub(super) fn grains(plan: &mut Plan, scenario: &Scenario, base: &Path) -> Vec<u64> {
@@ -41,7 +43,7 @@ pub(super) fn grains(plan: &mut Plan, scenario: &Scenario, base: &Path) -> Vec<u
         };
         counts.push(count);
     }
-    plan.grains = counts.iter().sum();
+    plan.grains = counts.iter().fold(0, |sum: u64, count| sum.saturating_add(*count));
     counts
 }
 
@@ -98,21 +100,34 @@ pub(super) fn count_of(group: &GrainGroup, volume: Option<&Volume>) -> u64 {
         Placement::Fill(law) => {
             volume.map_or(0, |volume| law.wanted(&group.size, volume).map_or(0, u64::from))
         }
-        Placement::Lattice(law) => lattice(law, group.size.largest()),
+        Placement::Lattice(law) => lattice(law, group.size.largest()) as u64,
         Placement::List(list) => list.positions.len() as u64,
         Placement::Table(_) => 0,
     }
 }
 
+/// The same however many they are, tables by the size of their files.
+pub(super) fn expected(group: &GrainGroup, volume: Option<&Volume>, base: &Path) -> f64 {
+    match &group.placement {
+        // A run works all lattice points out before it takes `count` of them.
+        Placement::Lattice(law) => lattice(&Lattice { count: None, ..law.clone() }, group.size.largest()),
+        Placement::Table(table) => {
+            let bytes = std::fs::metadata(base.join(&table.file)).map_or(0, |found| found.len());
+            bytes as f64 / BYTES_PER_TABLE_ROW
+        }
+        _ => count_of(group, volume) as f64,
+    }
+}
+
 /// Lattice points per volume, in a region smaller by a grain's radius on all sides.
-fn lattice(law: &Lattice, radius: f64) -> u64 {
+fn lattice(law: &Lattice, radius: f64) -> f64 {
     let points_per_cube = match law.kind {
         LatticeKind::Cubic => 1.0,
         LatticeKind::Fcc | LatticeKind::Hcp => std::f64::consts::SQRT_2,
         LatticeKind::Bcc => 0.75 * 3.0_f64.sqrt(),
     };
     let found = (volume_inside(&law.region, radius) * points_per_cube / law.spacing.si().powi(3)).round();
-    law.count.map_or(found as u64, |most| u64::from(most).min(found as u64)).max(1)
+    law.count.map_or(found, |most| f64::from(most).min(found)).max(1.0)
 }
 
 fn volume_inside(region: &Region, margin: f64) -> f64 {
@@ -132,7 +147,7 @@ fn volume_inside(region: &Region, margin: f64) -> f64 {
 /// Rows of a table below its header.
 fn rows(path: &Path) -> std::io::Result<u64> {
     let mut count = 0_u64;
-    for line in BufReader::new(File::open(path)?).lines() {
+    for line in BufReader::new(door::open(path)?).lines() {
         let line = line?;
         count += u64::from(!line.trim().is_empty() && !line.starts_with('#'));
     }

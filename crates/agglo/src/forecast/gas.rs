@@ -53,10 +53,10 @@ impl Gas {
     /// them, group after group, where they were placed.
     pub fn at_start(scenario: &Scenario, counts: &[u64], placed: Option<&Particles>) -> Option<Self> {
         let volume = scenario.volume.as_ref()?.volume();
-        let mut first = 0;
+        let mut first = 0_usize;
         let mut kinds = Vec::new();
         for (group, &count) in scenario.grains.iter().zip(counts) {
-            let range = first..first + count as usize;
+            let range = first..first.saturating_add(count as usize);
             first = range.end;
             kinds.push(match placed {
                 Some(grains) => Kind::of_grains(grains, range),

@@ -25,7 +25,12 @@ const FASTEST: f64 = 2.0;
 /// Impacts, steps and time of a run of hard spheres: as means have it, held to what the first moments came to.
 pub(super) fn estimate(plan: &mut Plan, scenario: &Scenario, gas: &Gas, tried: Option<&Rehearsal>) {
     let (grains, end) = (plan.grains as f64, scenario.time.end.si());
-    let found = means(scenario, gas, grains, end);
+    let Some(found) = means(scenario, gas, grains, end) else {
+        plan.notes.push(
+            "impacts, steps and time are not known: in the mean field they are beyond numbers".to_owned(),
+        );
+        return describe(plan, scenario, gas, grains);
+    };
     plan.impacts = found.impacts;
     let reckoned = Some((found.grains, ", reckoned as equal ones"));
     let whose = match tried.map(|tried| (tried, &tried.summary)) {
@@ -39,7 +44,7 @@ pub(super) fn estimate(plan: &mut Plan, scenario: &Scenario, gas: &Gas, tried: O
             Some((summary.grains_end as f64, ""))
         }
         Some((tried, Summary::Hard(summary))) => {
-            let part = means(scenario, gas, grains, tried.time);
+            let part = means(scenario, gas, grains, tried.time).unwrap_or_default();
             carry_on(plan, end, tried, summary.impacts, [&found, &part]);
             reckoned
         }
@@ -51,8 +56,8 @@ pub(super) fn estimate(plan: &mut Plan, scenario: &Scenario, gas: &Gas, tried: O
     describe(plan, scenario, gas, grains);
 }
 
-/// What becomes of the means until `end` [s].
-pub(super) fn means(scenario: &Scenario, gas: &Gas, grains: f64, end: f64) -> Forecast {
+/// What becomes of the means until `end` [s]; nothing where that is beyond numbers.
+pub(super) fn means(scenario: &Scenario, gas: &Gas, grains: f64, end: f64) -> Option<Forecast> {
     let stepped = match &scenario.engine {
         Engine::TimeStepped(law) => Some(law),
         _ => None,
@@ -62,7 +67,7 @@ pub(super) fn means(scenario: &Scenario, gas: &Gas, grains: f64, end: f64) -> Fo
         return field.run(end, &length);
     }
     let step = stepped.map_or(f64::INFINITY, |law| law.longest_step.si().min(end));
-    Forecast { grains, steps: end / step, ..Forecast::default() }
+    Some(Forecast { grains, steps: end / step, ..Forecast::default() })
 }
 
 /// Carries what was tried on to the end: as many more impacts and steps as the means have more until then.
@@ -71,6 +76,10 @@ fn carry_on(plan: &mut Plan, end: f64, tried: &Rehearsal, impacts: u64, [whole, 
     let is_known = impacts >= ENOUGH_IMPACTS && part.impacts > 0.0;
     if is_known {
         plan.impacts *= impacts as f64 / part.impacts;
+    }
+    // Nothing was tried that could be carried on.
+    if latest.time <= 0.0 {
+        return;
     }
     let more = if part.steps > 0.0 {
         so_far.steps * (whole.steps / part.steps - 1.0)
@@ -117,7 +126,7 @@ fn steps_to_an_impact(law: &TimeStepped, left: f64) -> f64 {
 
 fn describe(plan: &mut Plan, scenario: &Scenario, gas: &Gas, grains: f64) {
     plan.figures.push(("solid fraction".to_owned(), digits(gas.solid_fraction)));
-    if gas.rate > 0.0 && grains > 1.0 {
+    if gas.rate > 0.0 && grains > 1.0 && gas.free_path.is_finite() && gas.free_time.is_finite() {
         let way = format!("{}, {}", readable(gas.free_path, "m"), readable(gas.free_time, "s"));
         plan.figures.push(("from impact to impact".to_owned(), format!("{way} at the start")));
     }

@@ -99,10 +99,12 @@ impl<'a> MeanField<'a> {
     }
 
     /// Goes on to `end` [s]; `step` is the length of a step [s] of the engine at a moment.
-    pub fn run(mut self, end: f64, step: &dyn Fn(&Now) -> f64) -> Forecast {
+    ///
+    /// Nothing where it comes to what is no number: such a time would never be over.
+    pub fn run(mut self, end: f64, step: &dyn Fn(&Now) -> f64) -> Option<Forecast> {
         let mut forecast = Forecast::default();
         let mut time = 0.0;
-        for count in 0.. {
+        for count in 0..=STEPS {
             let slopes = self.slopes(self.state);
             let fastest = slopes[0].abs().max(slopes[1].abs());
             let rest = end - time;
@@ -115,6 +117,10 @@ impl<'a> MeanField<'a> {
             for (value, slope) in self.state.iter_mut().zip(slopes) {
                 *value += dt * slope;
             }
+            let is_known = [self.state[0], self.state[1], forecast.impacts, forecast.steps, dt];
+            if !is_known.iter().all(|figure| figure.is_finite()) {
+                return None;
+            }
             self.state[0] = self.state[0].max(0.0);
             if dt >= rest {
                 break;
@@ -122,7 +128,7 @@ impl<'a> MeanField<'a> {
             time += dt;
         }
         forecast.grains = self.state[0].exp();
-        forecast
+        Some(forecast)
     }
 
     fn at(&self, [grains, variance]: [f64; 2]) -> Now {

@@ -12,6 +12,7 @@ mod mean_field;
 mod notes;
 mod placed;
 mod push;
+mod room;
 
 use std::fmt;
 use std::path::Path;
@@ -24,6 +25,8 @@ use crate::run::{Rehearsal, RunError, rehearse};
 use crate::scenario::Scenario;
 use crate::scenario::figures::{digits, readable};
 use gas::Gas;
+pub use room::{Demand, Room};
+pub(crate) use room::{refuse_quiet, refuse_run};
 
 /// How much a forecast may try out.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,8 +86,12 @@ impl Plan {
     /// As [`Plan::new`], with no more effort than this.
     ///
     /// # Errors
-    /// [`PackingError`] where grains are placed and a run could not place them.
+    /// [`PackingError`] where grains are placed and a run could not place them, or where the machine cannot hold the run.
     pub fn with(scenario: &Scenario, base: &Path, effort: Effort) -> Result<Self, PackingError> {
+        let room = Room::at(Path::new(""));
+        let demand = Demand::of(scenario, base);
+        demand.refuse_memory(&room, 1)?;
+        demand.refuse_disk(&room)?;
         let mut plan = Self::default();
         let mut counts = counts::grains(&mut plan, scenario, base);
         counts::pulses(&mut plan, scenario);
@@ -99,7 +106,8 @@ impl Plan {
         let placed_s = began.elapsed().as_secs_f64();
         let gas =
             if scenario.engine.is_hard() { Gas::at_start(scenario, &counts, placed.as_ref()) } else { None };
-        let pushes = placed.as_ref().map_or_else(Vec::new, |grains| push::all(scenario, grains));
+        let mut pushes = placed.as_ref().map_or_else(Vec::new, |grains| push::all(scenario, grains));
+        pushes.retain(|push| plan.can_tell(push));
         let smallest = smallest(scenario, placed.as_ref());
         push::describe(&mut plan, &pushes);
         if let Some(grains) = &placed {
@@ -116,8 +124,32 @@ impl Plan {
         }
         plan.seconds = plan.seconds.map(|seconds| seconds + placed_s);
         counts::memory(&mut plan, scenario, cost::flights(scenario, &pushes));
+        plan.forget_what_is_no_number();
+        let of_room = room::judge(&room, plan.memory, plan.disk)?;
+        plan.notes.extend(of_room);
         notes::collect(&mut plan, scenario, &pushes, smallest);
         Ok(plan)
+    }
+
+    /// Whether a push came to numbers; a note where it did not.
+    fn can_tell(&mut self, push: &push::Push) -> bool {
+        if !push.is_known() {
+            self.notes.push(format!(
+                "beam {}: what its first pulse does is not known: it is beyond numbers",
+                push.beam
+            ));
+        }
+        push.is_known()
+    }
+
+    /// What is not finite is not known.
+    fn forget_what_is_no_number(&mut self) {
+        for figure in [&mut self.steps, &mut self.disk, &mut self.seconds] {
+            *figure = figure.filter(|value| value.is_finite() && *value >= 0.0);
+        }
+        if !self.impacts.is_finite() {
+            self.impacts = 0.0;
+        }
     }
 
     /// Tries the first steps; nothing where that would take too long, or where the start fails.
@@ -186,6 +218,10 @@ fn rounded(value: f64) -> f64 {
     format!("{value:.1e}").parse().unwrap_or(value)
 }
 
+/// A year [s], and a time that nobody waits for.
+const YEAR: f64 = 31_557_600.0;
+const LONGEST: f64 = 1000.0 * YEAR;
+
 /// A count in words: "1600", "3.2e6".
 fn about(value: f64) -> String {
     digits(rounded(value.max(1.0)))
@@ -194,6 +230,7 @@ fn about(value: f64) -> String {
 /// A time as people say it: "about 3 s", "about 12 min", "about 5 h".
 pub(crate) fn duration(seconds: f64) -> String {
     match seconds {
+        s if !(0.0..=LONGEST).contains(&s) => format!("more than {} years", digits(LONGEST / YEAR)),
         s if s < 1.0 => "less than 1 s".to_owned(),
         s if s < 120.0 => format!("about {s:.0} s"),
         s if s < 7200.0 => format!("about {:.0} min", s / 60.0),

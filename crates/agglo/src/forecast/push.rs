@@ -80,6 +80,15 @@ pub(super) fn power_and_pressure(strength: Strength, area: f64, impedance: f64) 
 }
 
 impl Push {
+    /// Whether all its figures are finite. A Reynolds number is not in a medium without viscosity.
+    pub fn is_known(&self) -> bool {
+        let speeds = [self.mean_speed, self.fastest, self.common_speed, self.meeting_speed];
+        let others = [self.power, self.pressure, self.duration, self.hits, self.absorbed, self.flight_s];
+        speeds.iter().chain(&others).all(|figure| figure.is_finite())
+            && self.strain.is_none_or(f64::is_finite)
+            && !self.reynolds.is_nan()
+    }
+
     fn with_pulse(self, scenario: &Scenario, grains: &Particles, pulse: &FirstPulse, rays: f64) -> Self {
         let count = &pulse.count;
         let mass: f64 = grains.mass.iter().sum();

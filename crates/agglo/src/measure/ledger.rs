@@ -146,6 +146,13 @@ pub struct Balance {
     pub drift_relative: f64,
 }
 
+impl Balance {
+    /// Whether every entry is a number. Each enters the drift, and none that is not finite can leave it finite.
+    pub fn is_finite(&self) -> bool {
+        self.drift.is_finite() && self.stores.total().is_finite()
+    }
+}
+
 /// Temperature [K] of the thermal energy below which no energy of a grain counts.
 const ROOM_TEMPERATURE: f64 = 300.0;
 
@@ -162,9 +169,13 @@ impl Ledger {
     }
 
     /// Takes note of the energies now and returns what of them is not explained, over the most energy so far: the
-    /// drift, and losses below zero, which would be gains from nothing.
+    /// drift, and losses below zero, which would be gains from nothing. Not a number where the balance has an entry that
+    /// is not finite.
     pub fn note(&mut self, stores: Stores) -> f64 {
         let balance = self.balance(stores);
+        if !balance.is_finite() {
+            return f64::NAN;
+        }
         self.scale = self.scale.max(self.explained(&balance));
         let gained = [balance.damping, balance.friction, balance.bond_damping].map(|lost| (-lost).max(0.0));
         let unexplained = balance.drift.abs() + gained.iter().sum::<f64>();
@@ -278,6 +289,35 @@ mod tests {
         let mut books = ledger(4.0);
         books.flows.damping = -2.0;
         assert_eq!(books.note(Stores { kinetic: 6.0, ..Stores::default() }), 0.5);
+    }
+
+    /// Whichever entry is spoiled: the balance is not finite, and neither is what is noted of it.
+    #[test]
+    fn what_is_not_finite_is_never_perfect() {
+        type Spoil = fn(&mut Ledger, &mut Stores, f64);
+        let entries: [Spoil; 13] = [
+            |_, stores, bad| stores.kinetic = bad,
+            |_, stores, bad| stores.spin = bad,
+            |_, stores, bad| stores.elastic = bad,
+            |_, stores, bad| stores.tangential_spring = bad,
+            |_, stores, bad| stores.bonds = bad,
+            |_, stores, bad| stores.near_field = bad,
+            |books, _, bad| books.flows.rays.power = bad,
+            |books, _, bad| books.flows.supplies.gravity.power = bad,
+            |books, _, bad| books.flows.supplies.drag.power = bad,
+            |books, _, bad| books.flows.supplies.field.power = bad,
+            |books, _, bad| books.flows.damping = bad,
+            |books, _, bad| books.flows.tangential = bad,
+            |books, _, bad| books.flows.broken_bonds = bad,
+        ];
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            for (entry, spoil) in entries.iter().enumerate() {
+                let (mut books, mut stores) = (ledger(1.0), Stores { kinetic: 1.0, ..Stores::default() });
+                spoil(&mut books, &mut stores, bad);
+                assert!(!books.balance(stores).is_finite(), "entry {entry}, {bad}");
+                assert!(books.note(stores).is_nan(), "entry {entry}, {bad}");
+            }
+        }
     }
 
     /// Rounding of a system at rest is far below k T for each grain.

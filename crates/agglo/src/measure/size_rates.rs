@@ -47,6 +47,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::size_classes::{SizeClass, class_of};
+use crate::engine::sound::{Fault, MOST_COUNTED, ensure, finite, length};
+
+/// Numbers of primaries have 32 binary digits.
+const MOST_CLASSES: usize = 32;
 
 /// Collisions, merges and pieces by classes of primary grains: class k has 2^k to 2^(k+1) - 1 of them.
 ///
@@ -98,6 +102,31 @@ fn place(a: usize, b: usize) -> usize {
 }
 
 impl SizeRates {
+    /// Whether they are ones that grains of these numbers of primaries can have come to.
+    ///
+    /// # Errors
+    /// What is wrong with them.
+    pub(crate) fn sound(&self, primaries: impl Iterator<Item = u32>) -> Result<(), Fault> {
+        let n = self.populations.len();
+        ensure(n > 0 && n <= MOST_CLASSES, || format!("sizes: {n} classes"))?;
+        length("sizes: pairs", self.pairs.len(), n * (n + 1) / 2)?;
+        length("sizes: daughters", self.daughters.len(), n * (n + 1) / 2)?;
+        finite("sizes", self)?;
+        let small = |counts: &[u64]| counts.iter().all(|count| *count < MOST_COUNTED);
+        let counted = self.pairs.iter().all(|pair| small(&[pair.impacts, pair.merges, pair.breaking]))
+            && self.daughters.iter().all(|daughters| small(&[daughters.pieces, daughters.primaries]))
+            && self.populations.iter().all(|one| small(&[one.breakages, one.broken]));
+        ensure(counted && self.volume > 0.0, || "sizes: a count is too large".to_owned())?;
+        let mut grains = vec![0_u64; n];
+        for class in primaries.map(class_of) {
+            ensure(class < n, || "sizes: a class is missing".to_owned())?;
+            grains[class] += 1;
+        }
+        let same =
+            self.populations.iter().zip(&grains).all(|(population, grains)| population.grains == *grains);
+        ensure(same, || "sizes: a class has another number of grains".to_owned())
+    }
+
     /// Starts with grains of these numbers of primaries at time zero, in a volume [m³].
     pub fn new(primaries: impl Iterator<Item = u32>, volume: f64) -> Self {
         let mut rates = Self { volume, ..Self::default() };

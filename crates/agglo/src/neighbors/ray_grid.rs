@@ -217,9 +217,14 @@ impl RayGrid {
         let extent = (self.upper - self.lower).to_array();
         let wanted = CELLS_PER_SPHERE * f64::from(count);
         self.cell = (extent.iter().product::<f64>() / wanted).cbrt();
+        if !(self.cell.is_finite() && self.cell > 0.0) {
+            // A space that is no number, or has no volume, is one cell: it could be widened for ever.
+            (self.cell, self.dims) = (f64::MAX, [1; 3]);
+            return;
+        }
         loop {
             self.dims = extent.map(|length| (length / self.cell).ceil().max(1.0) as usize);
-            if self.dims.iter().product::<usize>() as f64 <= 2.0 * wanted + 64.0 {
+            if self.dims.iter().map(|&count| count as f64).product::<f64>() <= 2.0 * wanted + 64.0 {
                 break;
             }
             self.cell *= 1.25;

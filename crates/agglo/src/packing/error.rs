@@ -12,6 +12,11 @@ fn apart(values: [f64; 2], unit: &str, which: usize) -> String {
     told_apart(values, unit)[which].clone()
 }
 
+/// Two significant digits.
+fn shortened(bytes: f64) -> f64 {
+    format!("{bytes:.1e}").parse().unwrap_or(bytes)
+}
+
 /// Why the grains could not be placed. `group` is the place in the scenario's list `grains`, from 0.
 #[derive(Debug, thiserror::Error)]
 pub enum PackingError {
@@ -59,6 +64,23 @@ pub enum PackingError {
         key: &'static str,
         /// What is wrong.
         reason: String,
+    },
+    /// The machine has less memory or disk than a run would take.
+    #[error(
+        "the run would take about {} of {what} ({who}), and {} are there: {help}",
+        readable(shortened(*.needed), "B"), readable(shortened(*.there), "B")
+    )]
+    NoRoom {
+        /// "memory" or "disk".
+        what: &'static str,
+        /// What it would take [B].
+        needed: f64,
+        /// What is there [B].
+        there: f64,
+        /// What takes it.
+        who: String,
+        /// What to do.
+        help: &'static str,
     },
     /// A table that cannot be opened or read.
     #[error("cannot read the table {file}: {source}", file = .file.display())]

@@ -18,6 +18,9 @@ use crate::math::Vec3;
 /// More points than this are refused: they would not fit into memory.
 const MOST_POINTS: f64 = 2e8;
 
+/// More points than this in the block around a slanting region are not tried: it would take minutes.
+const MOST_TRIED: f64 = 4e9;
+
 impl LatticeKind {
     /// Three edge vectors of the unit cell and the points in it, all in units of the nearest distance.
     fn cell(self) -> ([f64; 3], Vec<Vec3>) {
@@ -64,6 +67,14 @@ pub(super) fn points(lattice: &Lattice, largest: f64, group: usize) -> Result<Ve
         let reason = format!("makes about {expected:.1e} grains, above the limit of {MOST_POINTS:.0e}");
         return fault("placement.lattice.spacing", reason);
     }
+    let tried = box_points(lattice, spacing);
+    if tried > MOST_TRIED {
+        let reason = format!(
+            "makes {tried:.1e} lattice points in the block around the region, above the limit of {MOST_TRIED:.0e}; a region \
+             along the axes has a smaller block"
+        );
+        return fault("placement.lattice.spacing", reason);
+    }
     let mut found = inside(lattice, spacing, largest);
     let Some(count) = lattice.count.map(|count| count as usize) else { return Ok(found) };
     if count == 0 || count > found.len() {
@@ -75,6 +86,14 @@ pub(super) fn points(lattice: &Lattice, largest: f64, group: usize) -> Result<Ve
     found.sort_by_key(|&point| ((point - middle).norm_squared() / (spacing * spacing) * 1e6).round() as u64);
     found.truncate(count);
     Ok(found)
+}
+
+/// Lattice points in the block around the region, all of which are tried.
+fn box_points(lattice: &Lattice, spacing: f64) -> f64 {
+    let (edges, cell) = lattice.kind.cell();
+    let (lower, upper) = lattice.region.bounds();
+    let along = |axis: usize| (upper[axis] - lower[axis]) / (edges[axis] * spacing) + 3.0;
+    along(0) * along(1) * along(2) * cell.len() as f64
 }
 
 /// All points where the grain lies inside, ordered by z, then y, then x.

@@ -7,6 +7,8 @@ use std::path::Path;
 
 use super::error::PackingError;
 use crate::math::Vec3;
+use crate::record::{cell, door};
+use crate::units::{Dimension, Length, Temperature, Velocity, kind_of};
 
 /// A row of a table: what it does not say is `None`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,6 +24,11 @@ pub(super) struct TableGrain {
 }
 
 const COLUMNS: [&str; 8] = ["x_m", "y_m", "z_m", "radius_m", "vx_m_s", "vy_m_s", "vz_m_s", "temperature_K"];
+/// What the columns are, each with the range of its kind.
+const DIMENSIONS: [Dimension; COLUMNS.len()] = {
+    let (length, velocity) = (Length::DIMENSION, Velocity::DIMENSION);
+    [length, length, length, length, velocity, velocity, velocity, Temperature::DIMENSION]
+};
 /// Columns that every table has.
 const POSITION: std::ops::Range<usize> = 0..3;
 const RADIUS: usize = 3;
@@ -35,7 +42,7 @@ const TEMPERATURE: usize = 7;
 /// [`PackingError::Unreadable`] or [`PackingError::Table`] with line and column.
 pub(super) fn read(file: &Path) -> Result<Vec<TableGrain>, PackingError> {
     let unreadable = |source| PackingError::Unreadable { file: file.to_owned(), source };
-    parse(&std::fs::read_to_string(file).map_err(unreadable)?, file)
+    parse(&door::read_text(file, door::MOST_OF_A_TABLE).map_err(unreadable)?, file)
 }
 
 /// Reads a table; `file` is for messages.
@@ -80,9 +87,11 @@ fn columns(header: &[&str], file: &Path, line: u64) -> Result<[Option<usize>; CO
     for (at, name) in header.iter().enumerate() {
         match COLUMNS.iter().position(|known| known == name) {
             Some(known) if places[known].is_none() => places[known] = Some(at),
-            Some(_) => return fault((at + 1).to_string(), format!("the column `{name}` is there twice")),
+            Some(_) => {
+                return fault((at + 1).to_string(), format!("the column `{}` is there twice", cell(name)));
+            }
             None => {
-                let reason = format!("`{name}` is not known; known are {}", COLUMNS.join(", "));
+                let reason = format!("`{}` is not known; known are {}", cell(name), COLUMNS.join(", "));
                 return fault((at + 1).to_string(), reason);
             }
         }
@@ -111,6 +120,10 @@ impl Entries<'_> {
         };
         let above_zero = |column: usize, what: &str| match self.number(column)? {
             Some(value) if value <= 0.0 => Err(self.fault(column, format!("{what} must be above zero"))),
+            Some(value) if value < kind_of(DIMENSIONS[column]).smallest => {
+                let least = kind_of(DIMENSIONS[column]).smallest;
+                Err(self.fault(column, format!("{value:e} is below {least:e}, with which one can compute")))
+            }
             value => Ok(value),
         };
         Ok(TableGrain {
@@ -125,8 +138,16 @@ impl Entries<'_> {
     fn number(&self, column: usize) -> Result<Option<f64>, PackingError> {
         let Some(text) = self.places[column].and_then(|at| self.row.get(at)) else { return Ok(None) };
         match text.parse::<f64>() {
-            Ok(value) if value.is_finite() => Ok(Some(value)),
-            _ => Err(self.fault(column, format!("`{text}` is not a finite number"))),
+            // Adding zero takes the sign off a negative zero.
+            Ok(value) if kind_of(DIMENSIONS[column]).holds(value) => Ok(Some(value + 0.0)),
+            Ok(value) if value.is_finite() => {
+                let most = kind_of(DIMENSIONS[column]).largest;
+                Err(self.fault(
+                    column,
+                    format!("{value:e} is beyond what can be computed; at most {most:e} is allowed"),
+                ))
+            }
+            _ => Err(self.fault(column, format!("`{}` is not a finite number", cell(text)))),
         }
     }
 
@@ -167,6 +188,14 @@ mod tests {
         let cases = [
             ("x_m,y_m,z_m\n1,2,3\n1,two,3\n", "grains.csv, line 3, column y_m: `two` is not a finite number"),
             ("x_m,y_m,z_m\n1,2,nan\n", "line 2, column z_m"),
+            (
+                "x_m,y_m,z_m\n1,2,-1e300\n",
+                "column z_m: -1e300 is beyond what can be computed; at most 1e9 is allowed",
+            ),
+            ("x_m,y_m,z_m,radius_m\n1,2,3,1e300\n", "column radius_m: 1e300 is beyond"),
+            ("x_m,y_m,z_m,radius_m\n1,2,3,1e-300\n", "column radius_m: 1e-300 is below 1e-15"),
+            ("x_m,y_m,z_m,temperature_K\n1,2,3,1e30\n", "column temperature_K: 1e30 is beyond"),
+            ("x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s\n1,2,3,0,1e12,0\n", "column vy_m_s: 1e12 is beyond"),
             ("x_m,y_m,z_m,radius_m\n1,2,3,-1\n", "line 2, column radius_m: a radius must be above zero"),
             (
                 "x_m,y_m,z_m,temperature_K\n1,2,3,0\n",

@@ -42,6 +42,17 @@ pub enum ColumnValues<'a> {
     Vectors(&'a [Vec3]),
 }
 
+impl ColumnValues<'_> {
+    /// Whether all are finite.
+    fn are_finite(self) -> bool {
+        match self {
+            Self::Integers(_) => true,
+            Self::Scalars(values) => values.iter().all(|value| value.is_finite()),
+            Self::Vectors(values) => values.iter().all(|value| value.is_finite()),
+        }
+    }
+}
+
 impl<'a> From<&'a [u32]> for ColumnValues<'a> {
     fn from(values: &'a [u32]) -> Self {
         Self::Integers(values)
@@ -78,6 +89,25 @@ macro_rules! columns {
         ];
 
         impl Particles {
+            /// Whether all columns have one length and all their numbers are finite.
+            ///
+            /// # Errors
+            /// The column that is wrong.
+            pub(crate) fn sound(&self) -> Result<(), String> {
+                $(if self.$field.len() != self.id.len() {
+                    return Err(format!("grains: {} has {} values", stringify!($field), self.$field.len()));
+                }
+                if !ColumnValues::from(self.$field.as_slice()).are_finite() {
+                    return Err(format!("grains: {} is not finite", stringify!($field)));
+                })*
+                for (what, values) in [("radius", &self.radius), ("mass", &self.mass)] {
+                    if !values.iter().all(|value| *value > 0.0) {
+                        return Err(format!("grains: {what} is not above 0"));
+                    }
+                }
+                Ok(())
+            }
+
             /// Adds a grain at the end.
             pub fn push(&mut self, row: Row) {
                 $(self.$field.push(row.$field);)*

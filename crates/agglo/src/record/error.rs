@@ -31,6 +31,14 @@ pub enum RecordError {
         /// How many it should have.
         expected: usize,
     },
+    /// A figure of a row that is infinite, or not a number where one is due.
+    #[error("cannot write {path}: {column} is not finite; the values of the scenario are too extreme", path = .path.display())]
+    NotFinite {
+        /// The table.
+        path: PathBuf,
+        /// The column.
+        column: String,
+    },
     /// A table that ends before the place where a checkpoint left it.
     #[error(
         "cannot go on with {path}: it has {found} bytes, but the checkpoint was written when it had {expected}; \
@@ -53,10 +61,10 @@ pub enum RecordError {
         /// What is wrong with it.
         reason: String,
     },
-    /// A state that cannot be turned into bytes.
-    #[error("cannot write the checkpoint {path}: {reason}", path = .path.display())]
+    /// A state or summary that cannot be turned into bytes that read back as the same.
+    #[error("cannot write {path}: {reason}", path = .path.display())]
     Encode {
-        /// The checkpoint.
+        /// The checkpoint or summary.
         path: PathBuf,
         /// Why.
         reason: String,

@@ -4,13 +4,16 @@
 
 pub mod atomic;
 pub mod checkpoint;
+pub mod door;
 mod error;
 pub mod frames;
 mod number;
 mod series;
+mod visible;
 
 pub use error::RecordError;
 #[cfg(test)]
 pub(crate) use number::AWKWARD;
-pub use number::{Number, fractional, number};
+pub use number::{Number, fractional, json, not_finite, number};
 pub use series::{Cell, Opened, Series};
+pub use visible::{cell, visible};

@@ -192,7 +192,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("series.csv");
         let rows =
-            [[0.1, 1.0 / 3.0, f64::MIN_POSITIVE], [f64::MAX, -0.0, 5e-324], [1e22, 123_456_789.125, 2.5e-7]];
+            [[0.1, 1.0 / 3.0, f64::MIN_POSITIVE], [f64::MAX, 0.0, 5e-324], [1e22, 123_456_789.125, 2.5e-7]];
         let mut series = Series::create(&path, &["time_s", "kinetic_energy_j", "speed_m_s"]).unwrap();
         for row in &rows {
             series.row(row).unwrap();

@@ -6,8 +6,8 @@ use super::error::RenderError;
 use crate::domain::Volume;
 use crate::folder::{CampaignFolder, RunFolder};
 use crate::math::Vec3;
-use crate::record::RecordError;
 use crate::record::frames::{Collection, FieldValues, Frame};
+use crate::record::{RecordError, door};
 use crate::scenario::Scenario;
 
 /// The frames of a run.
@@ -140,7 +140,8 @@ impl Reel {
 /// The scenario of a run, or why it cannot be had.
 fn scenario(path: &Path) -> Result<Scenario, String> {
     let shown = path.display();
-    let text = std::fs::read_to_string(path).map_err(|error| format!("{shown} cannot be read: {error}"))?;
+    let text = door::read_text(path, door::MOST_OF_A_TEXT)
+        .map_err(|error| format!("{shown} cannot be read: {error}"))?;
     Scenario::from_toml(&text).map_err(|faults| format!("{shown} is none for this version: {faults}"))
 }
 

@@ -4,6 +4,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use crate::folder::names;
+use crate::record::door;
 use crate::run::Summary;
 use crate::scenario::Scenario;
 
@@ -69,7 +70,7 @@ impl Folder {
     }
 
     fn read_scenario(&mut self) {
-        let text = match std::fs::read_to_string(self.root.join(names::SCENARIO)) {
+        let text = match door::read_text(&self.root.join(names::SCENARIO), door::MOST_OF_A_TEXT) {
             Ok(text) => text,
             Err(error) => {
                 let reason = why(&error);
@@ -90,7 +91,7 @@ impl Folder {
     }
 
     fn read_summary(&mut self) {
-        let text = match std::fs::read_to_string(self.root.join(names::SUMMARY)) {
+        let text = match door::read_text(&self.root.join(names::SUMMARY), door::MOST_OF_A_TEXT) {
             Ok(text) => text,
             Err(error) if error.kind() == ErrorKind::NotFound => {
                 return self.notes.push("summary.json is missing: the run has not finished".to_owned());

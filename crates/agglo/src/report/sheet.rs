@@ -1,5 +1,6 @@
 //! Tables of numbers and words, read back.
 
+use crate::record::door;
 use std::path::Path;
 
 /// A table as it stands in its file.
@@ -28,7 +29,7 @@ impl Sheet {
     /// Why it cannot be read.
     pub fn read_with(path: &Path, quotes: bool) -> Result<Self, String> {
         // Bytes that are no text become entries that are no numbers.
-        let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
+        let bytes = door::read(path, door::MOST_OF_A_TABLE).map_err(|error| error.to_string())?;
         let text = String::from_utf8_lossy(&bytes);
         let mut reader =
             csv::ReaderBuilder::new().flexible(true).quoting(quotes).from_reader(text.as_bytes());

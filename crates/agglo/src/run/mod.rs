@@ -85,6 +85,7 @@ pub fn run(
 ) -> Result<Ending, RunError> {
     let sat_down = Instant::now();
     let scenario = scenario.resolved();
+    crate::forecast::refuse_run(&scenario, base, dir)?;
     let grains = placed(&scenario, base, observer)?;
     let folder = RunFolder::create(dir)?;
     let scenario = folder.with_tables(&scenario, base).inspect_err(|_| folder.abandon())?;
@@ -193,7 +194,7 @@ pub fn finished(dir: &Path) -> Option<Summary> {
 pub fn summary(dir: &Path) -> Result<Option<Summary>, RecordError> {
     let Ok(folder) = RunFolder::open(dir) else { return Ok(None) };
     let path = folder.summary();
-    let text = match std::fs::read_to_string(&path) {
+    let text = match crate::record::door::read_text(&path, crate::record::door::MOST_OF_A_TEXT) {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
         read => read.map_err(RecordError::file("read", &path))?,
     };
@@ -206,3 +207,6 @@ pub fn summary(dir: &Path) -> Result<Option<Summary>, RecordError> {
 fn on_a_worker<R: Send>(work: impl FnOnce() -> R + Send) -> R {
     rayon::scope(|_| work())
 }
+
+#[cfg(test)]
+mod forged_tests;

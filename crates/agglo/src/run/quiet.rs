@@ -29,6 +29,7 @@ const LOOKS: f64 = 200.0;
 pub fn quiet(scenario: &Scenario, base: &Path, stop: &AtomicBool) -> Result<Ending, RunError> {
     let sat_down = Instant::now();
     let scenario = scenario.resolved();
+    crate::forecast::refuse_quiet(&scenario, base, 1)?;
     let grains = match place_watched(&scenario, base, &mut || asked(stop)) {
         Err(PackingError::Stopped) => return Ok(Ending::Interrupted(0.0)),
         placed => placed?,
@@ -60,7 +61,8 @@ fn sit<J: Job>(
         job.advance(job.time() + end / LOOKS).map_err(RunError::Quiet)?;
         job.forget_events();
     }
-    Ok(Ending::Finished(job.summary(scenario, sat_down.elapsed().as_secs_f64())))
+    let summary = job.summary(scenario, sat_down.elapsed().as_secs_f64());
+    Ok(Ending::Finished(summary.sound(job.time()).map_err(RunError::Quiet)?))
 }
 
 #[cfg(test)]
@@ -68,6 +70,7 @@ mod tests {
     use super::*;
     use crate::run::run;
     use crate::scenario::template;
+    use crate::units::Quantity;
 
     /// The lines of a summary but for wall time.
     fn figures(ending: &Ending) -> Vec<String> {
@@ -100,6 +103,26 @@ mod tests {
     #[test]
     fn soft_spheres_come_to_the_same_as_in_a_folder() {
         assert_same_as_a_run(&small("acoustic", &["time.end=0.2 s", "acoustics.beams.0.rays=200"]));
+    }
+
+    /// Values that a library puts past the check come to an error, never to figures: heat and masses beyond doubles.
+    #[test]
+    fn what_overflows_is_an_error_and_no_summary() {
+        type Spoil = fn(&mut Scenario);
+        let spoils: [(&str, Spoil); 5] = [
+            ("reacting", |s| s.materials.values_mut().for_each(|m| m.heat_capacity = Some(Quantity(1e308)))),
+            ("reacting", |s| s.materials.values_mut().for_each(|m| m.density = Quantity(1e308))),
+            ("reacting", |s| s.grains[0].velocity[0] = Quantity(1e160)),
+            ("acoustic", |s| s.materials.values_mut().for_each(|m| m.density = Quantity(1e307))),
+            ("acoustic", |s| s.grains[0].velocity[0] = Quantity(1e160)),
+        ];
+        for (number, (name, spoil)) in spoils.into_iter().enumerate() {
+            let few = ["time.end=0.1 ms", "grains.0.placement.random.count=20", "acoustics.beams.0.rays=10"];
+            let mut scenario = small(name, if name == "acoustic" { &few } else { &few[..1] });
+            spoil(&mut scenario);
+            let ending = quiet(&scenario, Path::new(""), &AtomicBool::new(false));
+            assert!(ending.is_err(), "spoil {number}: {ending:?}");
+        }
     }
 
     #[test]

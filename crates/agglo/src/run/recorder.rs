@@ -76,7 +76,7 @@ impl Recorder {
     ///
     /// # Errors
     /// [`RecordError`] where a table cannot be cut.
-    pub fn resume(
+    pub fn resume<J: Job>(
         folder: &RunFolder,
         state: RecorderState,
         tables: Vec<Opened>,
@@ -85,7 +85,7 @@ impl Recorder {
             timers: state.timers,
             last_row: state.last_row,
             merged: state.merged,
-            tables: Tables::resume(tables)?,
+            tables: Tables::resume(J::TABLES, tables)?,
             frames: Frames::new(folder, state.frames),
         })
     }

@@ -112,7 +112,7 @@ impl<J: Job> Session<J> {
         let scenario = Scenario::from_toml(&saved.scenario).map_err(|faults| bad(faults.to_string()))?;
         let job = J::resume(&scenario, saved.state).map_err(|error| bad(error.to_string()))?;
         folder.sweep()?;
-        let recorder = Recorder::resume(&folder, saved.recorder, tables)?;
+        let recorder = Recorder::resume::<J>(&folder, saved.recorder, tables)?;
         let now = Instant::now();
         let unguarded = folder.warning().map(str::to_owned);
         let passed_over = |refused: &Refused| format!("a checkpoint was passed over: {refused}");
@@ -141,6 +141,8 @@ impl<J: Job> Session<J> {
         let dir = self.folder.root().to_owned();
         let folder = self.folder.clone();
         self.steps(observer).map_err(|error| match error {
+            // Going on would come to the same.
+            RunError::Record(error @ crate::record::RecordError::NotFinite { .. }) => RunError::Record(error),
             RunError::Record(error) if !folder.is_ours() || !folder.has_checkpoint() => {
                 RunError::Gone { dir, error }
             }
@@ -183,6 +185,9 @@ impl<J: Job> Session<J> {
         self.folder.hold_on()?;
         self.recorder.record_end(&mut self.job, &self.folder)?;
         let summary = self.job.summary(&self.scenario, self.wall_s()).that_went_on(&self.ends_before);
+        let checkpoints = self.folder.checkpoints();
+        let summary =
+            summary.sound(self.job.time()).map_err(|error| RunError::Step { error, checkpoints })?;
         let text = summary.to_json();
         self.notes.extend(self.recorder.merged());
         self.save()?;

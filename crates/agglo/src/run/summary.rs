@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use crate::engine::SimError;
+use crate::record::{json, not_finite};
 use crate::scenario::readable;
 
 use super::hard::HardSummary;
@@ -22,8 +24,19 @@ pub enum Summary {
 impl Summary {
     /// The text of `summary.json`.
     pub fn to_json(&self) -> String {
-        // A struct of numbers and strings always has a text; numbers that are not finite become null.
-        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+        // A struct of numbers and strings always has a text.
+        json(self).unwrap_or_default()
+    }
+
+    /// The summary itself, if all its figures are finite: no other is written or handed on. What is not known is `None`.
+    ///
+    /// # Errors
+    /// [`SimError::FigureNotFinite`] with the first figure that is not; `time` [s] is when.
+    pub(super) fn sound(self, time: f64) -> Result<Self, SimError> {
+        match not_finite(&self) {
+            Some(figure) => Err(SimError::FigureNotFinite { time, figure }),
+            None => Ok(self),
+        }
     }
 
     /// Warnings, with how often each came up.

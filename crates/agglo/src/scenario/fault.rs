@@ -5,6 +5,8 @@ use std::ops::Range;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
+use crate::record::visible;
+
 /// One thing that is wrong with a scenario.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
@@ -54,15 +56,14 @@ impl Fault {
             Some(setting) => (setting.as_str(), "--set"),
             None => (source, filename),
         };
-        let mut group = Group::with_title(Level::ERROR.primary_title(self.headline()));
+        let mut group = Group::with_title(Level::ERROR.primary_title(visible(&self.headline()).into_owned()));
         if let Some(span) = &self.span {
-            let end = span.end.min(text.len());
-            let span = span.start.min(end)..end;
+            let (lines, number, span) = window(text, span);
             let mark = AnnotationKind::Primary.span(span);
-            group = group.element(Snippet::source(text).path(path).annotation(mark));
+            group = group.element(Snippet::source(lines).line_start(number).path(path).annotation(mark));
         }
         match &self.help {
-            Some(help) => group.element(Level::HELP.message(help.as_str())),
+            Some(help) => group.element(Level::HELP.message(visible(help).into_owned())),
             None => group,
         }
     }
@@ -109,8 +110,10 @@ impl Faults {
         self.0.is_empty()
     }
 
-    /// All faults with the lines of `source` that they point to; `color` adds terminal colours.
+    /// All faults with the lines of `source` that they point to; `color` adds terminal colours. Nothing else in it acts on
+    /// a terminal.
     pub fn render(&self, source: &str, filename: &str, color: bool) -> String {
+        let filename = &*visible(filename);
         let renderer = if color { Renderer::styled() } else { Renderer::plain() };
         let pages: Vec<String> =
             self.iter().map(|fault| renderer.render(&[fault.group(source, filename)])).collect();
@@ -140,6 +143,29 @@ impl fmt::Display for Faults {
 
 impl std::error::Error for Faults {}
 
+/// The lines of a text that a span stands in, without what acts on a terminal: their text, the number of the first of them
+/// from 1, and the span in that text.
+fn window(text: &str, span: &Range<usize>) -> (String, usize, Range<usize>) {
+    let boundary =
+        |at: usize| (0..=at.min(text.len())).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0);
+    let (start, end) = (boundary(span.start), boundary(span.end.max(span.start)));
+    let first = text[..start].rfind('\n').map_or(0, |newline| newline + 1);
+    // A table goes on for many lines; its first says which it is.
+    let line_end = |from: usize| text[from..].find('\n').map_or(text.len(), |newline| from + newline);
+    let end = end.min(line_end(start));
+    let last = line_end(end);
+    let (first, cut) =
+        (boundary(first.max(start.saturating_sub(FARTHEST))), boundary(last.min(end + FARTHEST)));
+    let [before, marked, after] = [&text[first..start], &text[start..end], &text[end..cut]].map(visible);
+    let from = before.len();
+    let to = from + marked.len();
+    let number = text[..first].matches('\n').count() + 1;
+    (format!("{before}{marked}{after}"), number, from..to)
+}
+
+/// Bytes of a line that are shown before and after what is meant.
+const FARTHEST: usize = 200;
+
 /// Line and column, from 1, of a byte in a text.
 pub(super) fn line_and_column(text: &str, byte: usize) -> (usize, usize) {
     let mut at = byte.min(text.len());
@@ -151,8 +177,15 @@ pub(super) fn line_and_column(text: &str, byte: usize) -> (usize, usize) {
     (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
 }
 
+/// No word of ours is half as long.
+const LONGEST_WORD: usize = 100;
+
 /// The word of `words` that `word` most probably stands for.
 pub(crate) fn nearest<'a>(word: &str, words: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    // Nobody means a short word by a long text, and to compare them takes long.
+    if word.len() > LONGEST_WORD {
+        return None;
+    }
     let lower = word.to_lowercase().replace('-', "_");
     let close = |known: &str| {
         let edits = strsim::normalized_damerau_levenshtein(&lower, known);

@@ -11,6 +11,7 @@ use super::tree::{Node, Place};
 use super::types::Scenario;
 use super::walk::Walk;
 use super::{check, settings};
+use crate::record::door;
 use crate::units::Quantity;
 
 /// What a file is read as: a scenario, a search or a study.
@@ -99,6 +100,16 @@ impl Scenario {
         load(path, &overrides)
     }
 
+    /// As [`Scenario::with_overrides`], of a text that was read from somewhere; its tables are relative to `base` and must be
+    /// there.
+    ///
+    /// # Errors
+    /// As [`Scenario::with_overrides`].
+    pub fn from_source<S: AsRef<str>>(text: &str, base: &Path, overrides: &[S]) -> Result<Self, Faults> {
+        let overrides: Vec<&str> = overrides.iter().map(AsRef::as_ref).collect();
+        read(text, &overrides, Some(base))
+    }
+
     /// Holds a scenario that was not read from a text to the rules between keys.
     ///
     /// # Errors
@@ -132,7 +143,7 @@ impl Scenario {
 /// Reads a file with its settings; other files that it names must be there.
 pub(crate) fn load<D: Document>(path: &Path, overrides: &[&str]) -> Result<D, LoadError> {
     let shown = path.display().to_string();
-    let text = std::fs::read_to_string(path)
+    let text = door::read_text(path, door::MOST_OF_A_TEXT)
         .map_err(|cause| LoadError::Unreadable { path: shown.clone(), cause })?;
     let base = path.parent().unwrap_or(Path::new(""));
     read(&text, overrides, Some(base)).map_err(|faults| LoadError::Faulty { path: shown, faults, text })
@@ -141,7 +152,7 @@ pub(crate) fn load<D: Document>(path: &Path, overrides: &[&str]) -> Result<D, Lo
 /// Reads a text with its settings; with `base`, the folder that other files are relative to, those must be there.
 pub(crate) fn read<D: Document>(text: &str, overrides: &[&str], base: Option<&Path>) -> Result<D, Faults> {
     let placed = |faults: Vec<(Place, Fault)>| {
-        Faults::new(faults.into_iter().map(|(place, fault)| put_in(place, fault, text, overrides)).collect())
+        shortened(faults, |(place, fault)| put_in(place, fault, text, overrides))
     };
     let mut root = read_tree(text).map_err(placed)?;
     let mut faults = Vec::new();
@@ -159,7 +170,21 @@ pub(crate) fn read<D: Document>(text: &str, overrides: &[&str], base: Option<&Pa
     if broken.is_empty() {
         return Ok(document);
     }
-    Err(Faults::new(broken.into_iter().map(|fault| locate(fault, &root, text, overrides)).collect()))
+    Err(shortened(broken, |fault| locate(fault, &root, text, overrides)))
+}
+
+/// More faults than this are counted and not shown: nobody reads them, and each takes time to place.
+const MOST_FAULTS: usize = 200;
+
+/// The first faults, each placed, and how many more there are.
+fn shortened<T>(mut faults: Vec<T>, place: impl FnMut(T) -> Fault) -> Faults {
+    let more = faults.len().saturating_sub(MOST_FAULTS);
+    faults.truncate(MOST_FAULTS);
+    let mut shown: Vec<Fault> = faults.into_iter().map(place).collect();
+    if more > 0 {
+        shown.push(Fault::new("", format!("and {more} more faults, which are not shown")));
+    }
+    Faults::new(shown)
 }
 
 fn read_tree(text: &str) -> Result<Node, Vec<(Place, Fault)>> {

@@ -84,8 +84,10 @@ pub(super) fn walk_integer(walk: &mut Walk<'_>, node: &Node, schema: &Json, path
 /// A finite number.
 pub(super) fn walk_number(walk: &mut Walk<'_>, node: &Node, path: &str) {
     match &node.value {
-        Value::Integer(_) => {}
-        Value::Float(number) if number.is_finite() => {}
+        Value::Integer(number) if is_within(*number as f64) => {}
+        Value::Float(number) if is_within(*number) => {}
+        Value::Integer(_) => too_large(walk, node, path),
+        Value::Float(number) if number.is_finite() => too_large(walk, node, path),
         Value::Text(text) if text.trim().parse::<f64>().is_ok() => {
             let fault =
                 Fault::new(path, format!("found the string \"{text}\"; a number without unit is wanted"));
@@ -96,11 +98,23 @@ pub(super) fn walk_number(walk: &mut Walk<'_>, node: &Node, path: &str) {
     }
 }
 
+/// Whether one can compute with a number without a unit.
+fn is_within(number: f64) -> bool {
+    kind_of(Dimension::default()).holds(number)
+}
+
+fn too_large(walk: &mut Walk<'_>, node: &Node, path: &str) {
+    let most = kind_of(Dimension::default()).largest;
+    let message =
+        format!("{} is beyond what can be computed; at most {most:e} is allowed", node.value.found());
+    walk.push(&node.place, Fault::new(path, message));
+}
+
 /// A value whose kind depends on the key that it is for: a finite number, true or false, or a text.
 pub(super) fn walk_scalar(walk: &mut Walk<'_>, node: &Node, schema: &Json, path: &str) {
     match &node.value {
-        Value::Text(_) | Value::Flag(_) | Value::Integer(_) => {}
-        Value::Float(number) if number.is_finite() => {}
+        Value::Text(_) | Value::Flag(_) => {}
+        Value::Integer(_) | Value::Float(_) => walk_number(walk, node, path),
         _ => {
             let wanted = walk.wanted(schema);
             walk.wrong_kind(node, path, &wanted);

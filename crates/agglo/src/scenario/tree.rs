@@ -5,6 +5,8 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use crate::record::{Number, cell};
+
 /// Where a value stands: source 0 is the file, source k the k-th setting.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Place {
@@ -50,9 +52,9 @@ impl Value {
     /// What was found, with its kind, short enough for a message.
     pub fn found(&self) -> String {
         match self {
-            Self::Text(text) => format!("the string \"{text}\""),
+            Self::Text(text) => format!("the string \"{}\"", cell(text)),
             Self::Integer(number) => format!("the number {number}"),
-            Self::Float(number) => format!("the number {number}"),
+            Self::Float(number) => format!("the number {}", Number(*number)),
             Self::Flag(flag) => format!("the boolean {flag}"),
             Self::Date(date) => format!("the date {date}"),
             Self::List(items) => format!("a list of {}", items.len()),
@@ -70,7 +72,8 @@ impl Node {
             DeValue::Integer(number) => {
                 Value::Integer(i128::from_str_radix(number.as_str(), number.radix()).unwrap_or(i128::MAX))
             }
-            DeValue::Float(number) => Value::Float(number.as_str().parse().unwrap_or(f64::NAN)),
+            // A negative zero is a zero.
+            DeValue::Float(number) => Value::Float(number.as_str().parse().unwrap_or(f64::NAN) + 0.0),
             DeValue::Boolean(flag) => Value::Flag(*flag),
             DeValue::Datetime(date) => Value::Date(date.to_string()),
             DeValue::Array(items) => {

@@ -9,17 +9,23 @@ use super::enums::walk_enum;
 use super::fault::{Fault, nearest};
 use super::scalars::{walk_integer, walk_number, walk_scalar, walk_text};
 use super::tree::{Entry, Node, Place, Value};
+use crate::record::cell;
+
+/// Nearest words are looked for so often: the rest of a file of unknown keys is not understood either.
+const MOST_LOOKED: usize = 200;
 
 /// The walk: the schema's definitions, and what was found so far.
 pub(super) struct Walk<'a> {
     definitions: &'a Json,
     faults: Vec<(Place, Fault)>,
+    /// How many nearest words were looked for.
+    looked: usize,
 }
 
 impl<'a> Walk<'a> {
     /// All faults of form of a tree.
     pub fn faults(schema: &'a Json, root: &Node) -> Vec<(Place, Fault)> {
-        let mut walk = Self { definitions: &schema["$defs"], faults: Vec::new() };
+        let mut walk = Self { definitions: &schema["$defs"], faults: Vec::new(), looked: 0 };
         walk.node(root, schema, "");
         walk.faults
     }
@@ -117,7 +123,9 @@ impl<'a> Walk<'a> {
             [] => "unknown key; none is allowed here".to_owned(),
             _ => format!("unknown key; allowed are {}", known.join(", ")),
         };
-        let fault = Fault::new(join(path, &entry.key), message);
+        let fault = Fault::new(join(path, &cell(&entry.key)), message);
+        self.looked += 1;
+        let known = if self.looked <= MOST_LOOKED { known } else { &[] };
         let fault = match nearest(&entry.key, known.iter().copied()) {
             Some(word) => fault.with_help(format!("did you mean \"{word}\"?")),
             None => fault,

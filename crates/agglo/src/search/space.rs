@@ -87,7 +87,7 @@ impl Scale {
     pub fn levels(&self) -> Option<usize> {
         match self {
             Self::Linear(_) | Self::Log(_) => None,
-            Self::Whole([lower, upper]) => usize::try_from(upper - lower + 1).ok(),
+            Self::Whole([lower, upper]) => usize::try_from(i128::from(*upper) - i128::from(*lower) + 1).ok(),
             Self::Choices(choices) => Some(choices.len()),
         }
     }

@@ -2,7 +2,8 @@
 //!
 //! A scenario writes `"150 MPa"` or `"40 um"`; the program computes with plain `f64` in SI units. A
 //! [`Quantity`] carries its dimension in its type, so a pressure where a length belongs is refused while
-//! the file is read. This module does not do arithmetic with units.
+//! the file is read. So is one that is too large to compute with: each kind has one range ([`KINDS`]). This module
+//! does not do arithmetic with units.
 
 mod dimension;
 mod parse;
@@ -125,15 +126,15 @@ impl<const KG: i8, const M: i8, const S: i8, const K: i8, const A: i8> Visitor<'
     }
 
     fn visit_f64<E: Error>(self, si: f64) -> Result<Self::Value, E> {
-        Ok(Quantity(si))
+        parse::within(si, Self::Value::DIMENSION, &Number(si).to_string()).map(Quantity).map_err(E::custom)
     }
 
     fn visit_u64<E: Error>(self, si: u64) -> Result<Self::Value, E> {
-        Ok(Quantity(si as f64))
+        self.visit_f64(si as f64)
     }
 
     fn visit_i64<E: Error>(self, si: i64) -> Result<Self::Value, E> {
-        Ok(Quantity(si as f64))
+        self.visit_f64(si as f64)
     }
 }
 
@@ -154,6 +155,7 @@ impl<const KG: i8, const M: i8, const S: i8, const K: i8, const A: i8> JsonSchem
             "type": "string",
             "x-dimension": [KG, M, S, K, A],
             "x-kind": kind.name,
+            "x-largest": kind.largest,
             "examples": [kind.example],
         })
     }

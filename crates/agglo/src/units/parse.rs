@@ -9,6 +9,7 @@
 use thiserror::Error;
 
 use super::{Dimension, Kind, kind_of};
+use crate::record::cell;
 
 /// Why a text is not the quantity that was asked for.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -34,7 +35,10 @@ pub enum UnitError {
         example: &'static str,
     },
     /// A unit that is not known.
-    #[error("unknown unit \"{unit}\" in \"{text}\"; {expected} is wanted, such as \"{example}\"")]
+    #[error(
+        "unknown unit \"{unit}\" in \"{text}\"; {expected} is wanted, such as \"{example}\"{}",
+        advice(text)
+    )]
     UnknownUnit {
         /// What stood in the file.
         text: String,
@@ -69,12 +73,37 @@ pub enum UnitError {
         /// A value of that kind.
         example: &'static str,
     },
+    /// A value so large that its powers cannot be computed.
+    #[error(
+        "\"{text}\" is beyond what can be computed; {expected} of at most {largest:e} {symbol} is allowed"
+    )]
+    TooLarge {
+        /// What stood in the file.
+        text: String,
+        /// The kind that is wanted.
+        expected: &'static str,
+        /// The largest size [SI units].
+        largest: f64,
+        /// Its unit.
+        symbol: String,
+    },
     /// The value is infinite or not a number.
     #[error("\"{text}\" is not a finite number")]
     NotFinite {
         /// What stood in the file.
         text: String,
     },
+}
+
+/// What to write for signs that people know and files do not.
+fn advice(text: &str) -> &'static str {
+    if text.contains(['\u{b0}', '\u{2103}', '\u{2109}']) {
+        "; write temperatures in kelvin: 20 degrees Celsius are \"293.15 K\", and angles as deg"
+    } else if text.contains(['\u{b2}', '\u{b3}', '\u{b9}', '\u{207b}']) {
+        "; write powers as digits, such as kg/m3 or m^-1"
+    } else {
+        ""
+    }
 }
 
 struct Unit {
@@ -162,14 +191,14 @@ pub fn parse_quantity(text: &str, wanted: Dimension) -> Result<f64, UnitError> {
     let Kind { name: expected, example, .. } = kind_of(wanted);
     let bare = || split_number(text.trim()).is_some_and(|(_, _, rest)| rest.trim().is_empty());
     if wanted != Dimension::default() && bare() {
-        return Err(UnitError::NoUnit { text: text.to_owned(), expected, example });
+        return Err(UnitError::NoUnit { text: cell(text), expected, example });
     }
     let (value, dimension) = read(text, expected, example)?;
     if dimension == wanted {
-        return Ok(value);
+        return within(value, wanted, text);
     }
     let found = kind_of(dimension).name;
-    Err(UnitError::WrongDimension { text: text.to_owned(), found, dimension, expected, example })
+    Err(UnitError::WrongDimension { text: cell(text), found, dimension, expected, example })
 }
 
 /// The value of `text` in SI units, and its dimension.
@@ -177,16 +206,28 @@ pub fn parse_quantity(text: &str, wanted: Dimension) -> Result<f64, UnitError> {
 /// # Errors
 /// [`UnitError`] where the number is missing, the unit is unknown, or the value is not finite.
 pub fn parse_any(text: &str) -> Result<(f64, Dimension), UnitError> {
-    read(text, "a number or a quantity", "40 um")
+    let (value, dimension) = read(text, "a number or a quantity", "40 um")?;
+    Ok((within(value, dimension, text)?, dimension))
+}
+
+/// The value, if it is no larger than its kind allows.
+pub(super) fn within(value: f64, dimension: Dimension, text: &str) -> Result<f64, UnitError> {
+    let kind = kind_of(dimension);
+    if kind.holds(value) {
+        // A negative zero is a zero.
+        return Ok(value + 0.0);
+    }
+    let (text, symbol) = (cell(text), dimension.symbol());
+    Err(UnitError::TooLarge { text, expected: kind.name, largest: kind.largest, symbol })
 }
 
 fn read(text: &str, expected: &'static str, example: &'static str) -> Result<(f64, Dimension), UnitError> {
-    let owned = || text.to_owned();
+    let owned = || cell(text);
     let (mantissa, exponent, rest) =
         split_number(text.trim()).ok_or_else(|| UnitError::NoNumber { text: owned(), expected, example })?;
     let product = read_units(rest).map_err(|word| match word.as_str() {
         "(" | ")" => UnitError::Parentheses { text: owned(), expected, example },
-        _ => UnitError::UnknownUnit { text: owned(), unit: word, expected, example },
+        _ => UnitError::UnknownUnit { text: owned(), unit: cell(&word), expected, example },
     })?;
     let shifted = format!("{mantissa}e{}", exponent.saturating_add(product.decimal));
     let value = shifted.parse::<f64>().unwrap_or(f64::NAN) * product.factor;
@@ -338,6 +379,27 @@ mod tests {
         }
     }
 
+    /// The largest of each kind is taken, twice as much is not. Cubes of a product of any two, and the fourth power of a
+    /// temperature, are numbers; so are those of the smallest.
+    #[test]
+    fn ranges_hold_what_can_be_cubed() {
+        for kind in KINDS {
+            let read = |value: f64| parse_quantity(&format!("{value:e} {}", kind.symbol), kind.dimension);
+            assert_eq!(read(-kind.largest), Ok(-kind.largest), "{}", kind.name);
+            assert!(matches!(read(2.0 * kind.largest), Err(UnitError::TooLarge { .. })), "{}", kind.name);
+            assert!(kind.smallest > 0.0 && kind.smallest < kind.largest);
+            for other in KINDS {
+                assert!((kind.largest * other.largest).powi(3).is_finite(), "{}, {}", kind.name, other.name);
+                assert!((kind.smallest * other.smallest).powi(2) > 0.0, "{}, {}", kind.name, other.name);
+            }
+        }
+    }
+
+    #[test]
+    fn zero_has_no_sign() {
+        assert_eq!(si("-0 m", [0, 1, 0, 0, 0]).to_bits(), 0);
+    }
+
     #[test]
     fn what_is_wrong_is_said() {
         let length = Dimension([0, 1, 0, 0, 0]);
@@ -346,7 +408,11 @@ mod tests {
         assert!(message("3 Pa").contains("is a pressure"));
         assert!(message("3 metres").contains("unknown unit \"metres\""));
         assert!(message("wide").contains("does not begin with a number"));
+        assert!(message("1000 kg/m\u{b3}").ends_with("write powers as digits, such as kg/m3 or m^-1"));
+        assert!(message("20 \u{b0}C").contains("20 degrees Celsius are \"293.15 K\""));
         assert!(message("1e999 m").contains("not a finite number"));
+        let beyond = "\"2e9 m\" is beyond what can be computed; a length of at most 1e9 m is allowed";
+        assert_eq!(message("2e9 m"), beyond);
         assert!(message("3 m^200").contains("unknown unit"));
         assert!(message("").contains("does not begin"));
         for text in ["3 J/(kg K", "3 J/kg K)", "3 )m(", "3 m/(s/)"] {

@@ -77,7 +77,8 @@ impl Follower {
         if !path.is_file() {
             return Err(WatchError::NoRun { dir: dir.to_owned(), missing: path });
         }
-        let text = std::fs::read_to_string(&path).map_err(RecordError::file("read", &path))?;
+        let text = crate::record::door::read_text(&path, crate::record::door::MOST_OF_A_TEXT)
+            .map_err(RecordError::file("read", &path))?;
         let scenario = Scenario::from_toml(&text)
             .map_err(|faults| WatchError::Scenario { path, reason: faults.to_string() })?;
         let is_hard = scenario.engine.is_hard();

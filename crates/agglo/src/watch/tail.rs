@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
-use crate::record::RecordError;
+use crate::record::{RecordError, door};
 
 /// The rows of a table so far.
 #[derive(Debug)]
@@ -24,7 +24,7 @@ impl Tail {
 
     /// Reads the lines that are new; half a line is left for the next time.
     pub fn read(&mut self) -> Result<(), RecordError> {
-        let mut file = match File::open(&self.path) {
+        let mut file = match door::open(&self.path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
             opened => opened.map_err(RecordError::file("read", &self.path))?,
         };
@@ -49,7 +49,7 @@ impl Tail {
             *self = Self::new(&self.path);
         }
         file.seek(SeekFrom::Start(self.read))?;
-        file.read_to_string(text)?;
+        file.take(door::MOST_OF_A_TABLE).read_to_string(text)?;
         Ok(())
     }
 

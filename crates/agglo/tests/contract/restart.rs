@@ -10,7 +10,7 @@ fn assert_resumes(text: &str, before: usize, after: usize) {
     common::steps(&mut whole, before);
     crowd::assert_busy(&whole);
     let scenario = common::scenario(text);
-    let mut resumed = Simulation::resume(&scenario, common::written_and_read(&whole));
+    let mut resumed = Simulation::resume(&scenario, common::written_and_read(&whole)).unwrap();
     assert!(common::bytes(&resumed) == common::bytes(&whole), "reading changes the state");
     for step in 0..after {
         common::steps(&mut whole, 1);
@@ -43,7 +43,7 @@ fn resumes_at_any_step() {
     let scenario = common::scenario(&crowd::text(crowd::ADAPTIVE, 60));
     let mut whole = crowd::start(crowd::ADAPTIVE, 60);
     for step in 0..300 {
-        let mut resumed = Simulation::resume(&scenario, common::written_and_read(&whole));
+        let mut resumed = Simulation::resume(&scenario, common::written_and_read(&whole)).unwrap();
         common::steps(&mut whole, 1);
         common::steps(&mut resumed, 1);
         assert!(common::bytes(&resumed) == common::bytes(&whole), "differs from step {step}");

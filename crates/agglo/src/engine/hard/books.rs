@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::engine::sound::{Fault, MOST_COUNTED, ensure};
 use crate::impact::ImpactEnergy;
 use crate::math::Vec3;
 
@@ -34,6 +35,21 @@ pub struct Counts {
     pub most_iterations: u32,
     /// Solves that did not end within their tolerance.
     pub not_converged: u64,
+}
+
+impl Counts {
+    /// Whether none is about to overflow.
+    ///
+    /// # Errors
+    /// That one is.
+    pub(super) fn sound(&self) -> Result<(), Fault> {
+        let Self { impacts, bounces, merges, fragmentations, guarded, events, no_room, .. } = *self;
+        let Self { overlapping, walls, iterations, not_converged, .. } = *self;
+        let counts = [impacts, bounces, merges, fragmentations, guarded, events, no_room];
+        let others = [overlapping, walls, iterations, not_converged];
+        let holds = counts.iter().chain(&others).all(|count| *count < MOST_COUNTED);
+        ensure(holds, || "a count is too large".to_owned())
+    }
 }
 
 /// Energy in the stores [J].
@@ -126,6 +142,25 @@ pub struct Balance {
 const ROUNDING: f64 = 1e-12;
 
 impl Balance {
+    /// Whether every entry is a number.
+    pub fn is_finite(&self) -> bool {
+        let entries = [
+            self.stores.kinetic,
+            self.stores.thermal,
+            self.normal,
+            self.tangential,
+            self.reaction,
+            self.surface,
+            self.heat,
+            self.unbalanced,
+            self.cooled,
+            self.kinetic_drift_relative,
+            self.drift,
+            self.drift_relative,
+        ];
+        entries.iter().all(|entry| entry.is_finite())
+    }
+
     /// The larger of the two drifts, without its sign.
     pub fn unexplained(&self) -> f64 {
         self.drift_relative.abs().max(self.kinetic_drift_relative.abs())
@@ -264,6 +299,20 @@ mod tests {
         assert_eq!(balance.false_heat(), Some(2.0));
         assert_eq!(Balance { unbalanced: 1e-12, ..balance }.false_heat(), None);
         assert_eq!(Balance::default().false_heat(), None);
+    }
+
+    #[test]
+    fn what_is_not_finite_is_never_perfect() {
+        let spoiled = |normal, heat, thermal| {
+            let mut books =
+                Books { stores_at_start: Stores { kinetic: 2.0, thermal: 3.0 }, ..Books::default() };
+            books.add(&ImpactEnergy { normal, heat, ..ImpactEnergy::default() });
+            books.balance(Stores { kinetic: 1.0, thermal }, 0.0).is_finite()
+        };
+        assert!(spoiled(1.0, 1.0, 4.0));
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert!(!spoiled(bad, 1.0, 4.0) && !spoiled(1.0, bad, 4.0) && !spoiled(1.0, 1.0, bad));
+        }
     }
 
     /// The drift is relative to all energy that was there or came in, that from nothing included: 1.1 J of 11 J.

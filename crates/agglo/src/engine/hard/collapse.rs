@@ -25,6 +25,8 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use crate::engine::sound::{Fault, ensure};
+
 /// So many bounces of a pair in succession lose energy.
 const BEFORE: u32 = 4;
 /// From so many remembered pairs on, those of long ago are forgotten.
@@ -50,6 +52,19 @@ struct Succession {
 }
 
 impl Collapse {
+    /// Whether it is one that a run can have come to.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub(super) fn sound(&self) -> Result<(), Fault> {
+        let holds = |(names, succession): (&[u32; 2], &Succession)| {
+            names[0] <= names[1] && succession.last.is_finite() && succession.bounces < u32::MAX / 2
+        };
+        ensure(self.pairs.iter().all(holds) && self.most < usize::MAX / 4, || {
+            "a pair that bounces is none".to_owned()
+        })
+    }
+
     /// Takes note of a bounce at `time` [s] of two that both bounced less than `duration` [s] before, and says whether it
     /// belongs to a collapse.
     pub fn has_come(&mut self, mut names: [u32; 2], time: f64, duration: f64) -> bool {

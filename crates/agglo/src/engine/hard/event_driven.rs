@@ -66,36 +66,36 @@ const ONE_WAY: f64 = 1e-24;
 /// What the driver has to remember.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct EventsState<'a> {
-    agendas: Cow<'a, [Agenda]>,
-    filed: Filed,
-    frame: Frame,
+    pub(super) agendas: Cow<'a, [Agenda]>,
+    pub(super) filed: Filed,
+    pub(super) frame: Frame,
     /// Bounds of the velocities that each level has seen [m/s]: how far it is looked ahead hangs on them.
-    velocities: Vec<[Vec3; 2]>,
+    pub(super) velocities: Vec<[Vec3; 2]>,
 }
 
 /// What the grid was made for, and what has happened since.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-struct Filed {
+pub(super) struct Filed {
     /// Smallest diameter when the grid was made [m].
-    smallest: f64,
+    pub(super) smallest: f64,
     /// Spheres when the grid was made.
-    spheres: u64,
+    pub(super) spheres: u64,
     /// Events since spheres were sorted.
     events: u64,
     /// The moment of the last one [s].
-    moment: f64,
+    pub(super) moment: f64,
     watch: Watch,
 }
 
 impl Filed {
     /// The same with a grid for the spheres as they are.
-    fn renewed(self, spheres: &Spheres) -> Self {
+    pub(super) fn renewed(self, spheres: &Spheres) -> Self {
         let diameter = |at: u32| 2.0 * spheres.motion[at as usize].radius;
         let smallest = spheres.living().map(diameter).fold(f64::MAX, f64::min);
         Self { smallest, spheres: spheres.len() as u64, ..self }
     }
 
-    fn grid(&self, volume: &Volume) -> Grid {
+    pub(super) fn grid(&self, volume: &Volume) -> Grid {
         Grid::new(volume, self.smallest, self.spheres as usize)
     }
 }
@@ -292,8 +292,10 @@ impl Events {
     fn shift_images(&mut self, sphere: u32, axis: usize, edges: i8) {
         let partner = self.agendas[sphere as usize].partner;
         if partner != NONE {
-            self.agendas[sphere as usize].image[axis] += edges;
-            self.agendas[partner as usize].image[axis] -= edges;
+            let own = &mut self.agendas[sphere as usize].image[axis];
+            *own = own.saturating_add(edges);
+            let its = &mut self.agendas[partner as usize].image[axis];
+            *its = its.saturating_sub(edges);
         }
     }
 
@@ -400,7 +402,7 @@ impl Events {
         let due = other.due();
         other.collision = meeting.time;
         other.partner = sphere;
-        other.image = meeting.image.map(|along| -along);
+        other.image = meeting.image.map(i8::saturating_neg);
         (other.due() != due).then_some(meeting.partner)
     }
 

@@ -22,6 +22,7 @@ mod pieces;
 mod queue;
 mod search;
 mod simulation;
+mod sound;
 mod spans;
 mod spheres;
 mod standstill;

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::domain::Boundary;
 use crate::engine::soft::Limits;
+use crate::engine::sound::{Fault, MOST_COUNTED, ensure, finite};
 use crate::engine::{Engine, SimError, Warnings};
 use crate::impact::ImpactLaws;
 use crate::math::Vec3;
@@ -61,6 +62,29 @@ pub struct SimulationState<'a> {
 }
 
 impl SimulationState<'_> {
+    /// Whether a run of the scenario can have come to it, but for its driver.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    fn sound(&self, scenario: &Scenario) -> Result<(), Fault> {
+        let (clock, cloud) = (&self.clock, &*self.cloud);
+        finite("clock", clock)?;
+        let times = [clock.time, clock.last_step, self.contact_duration];
+        ensure(times.iter().all(|time| *time >= 0.0 && time.is_finite()), || {
+            "clock: a time is below 0".to_owned()
+        })?;
+        ensure(clock.step < MOST_COUNTED, || "clock: too many steps".to_owned())?;
+        cloud.spheres.sound(scenario.materials.len(), clock.time)?;
+        let living = cloud.spheres.bulk.iter().filter(|bulk| bulk.lives()).map(|bulk| bulk.primaries);
+        let primaries: u64 = living.clone().map(u64::from).sum();
+        ensure(primaries == self.grains_at_start, || "there are other grains than at the start".to_owned())?;
+        cloud.rates.sound(living)?;
+        cloud.collapse.sound()?;
+        finite("ledger", &cloud.books)?;
+        finite("counts", &cloud.counts)?;
+        cloud.counts.sound()
+    }
+
     /// Where the simulation stands in time.
     pub fn clock(&self) -> &Clock {
         &self.clock
@@ -147,10 +171,13 @@ impl Simulation {
     /// # Errors
     /// [`SimError::NoImpact`] where the scenario is not one of hard spheres.
     pub fn resume(scenario: &Scenario, state: SimulationState<'_>) -> Result<Self, SimError> {
+        let forged = |reason| SimError::Forged { reason };
+        state.sound(scenario).map_err(forged)?;
         let mut cloud = Self::cloud_of(scenario, state.cloud.into_owned())?;
         cloud.contact_duration = state.contact_duration;
         let driver = match (&scenario.engine, state.driver) {
             (Engine::EventDriven(_), DriverState::Events(saved)) => {
+                saved.sound(&cloud, state.clock.time).map_err(forged)?;
                 Driver::Events(Box::new(Events::resume(&cloud, saved)))
             }
             (Engine::TimeStepped(options), DriverState::Steps) => {
@@ -245,7 +272,12 @@ impl Simulation {
     /// Energy that the books do not explain is a warning at the end, and soon an error where it is much.
     fn look_at_the_energy(&mut self) -> Result<(), SimError> {
         let limits = Limits::default();
-        let part = self.balance().unexplained();
+        let balance = self.balance();
+        if !balance.is_finite() {
+            let laws = self.cloud.laws.names().join(", ");
+            return Err(SimError::ImpactLedgerNotFinite { time: self.clock.time, laws });
+        }
+        let part = balance.unexplained();
         if self.is_finished() && part > limits.drift_warning {
             self.cloud.state.warnings.add(UNEXPLAINED);
         }

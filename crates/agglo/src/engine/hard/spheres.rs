@@ -5,7 +5,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::agenda::NONE;
 use crate::domain::resolution;
+use crate::engine::sound::{Fault, ensure, length};
 use crate::math::Vec3;
 use crate::particles::{Particles, Row};
 
@@ -89,6 +91,39 @@ pub struct Spheres {
 }
 
 impl Spheres {
+    /// Whether they are ones that a run with so many materials can have come to by `time` [s].
+    ///
+    /// # Errors
+    /// What is wrong with them.
+    pub(super) fn sound(&self, materials: usize, time: f64) -> Result<(), Fault> {
+        length("spheres", self.bulk.len(), self.motion.len())?;
+        ensure(!self.motion.is_empty() && self.motion.len() < NONE as usize, || {
+            "there are no spheres".to_owned()
+        })?;
+        let mut names = Vec::new();
+        for (motion, bulk) in self.motion.iter().zip(&self.bulk).filter(|(_, bulk)| bulk.lives()) {
+            let vectors = motion.position.is_finite() && motion.velocity.is_finite();
+            let sizes = [motion.radius, bulk.mass].iter().all(|value| value.is_finite() && *value > 0.0);
+            let heat =
+                [bulk.heat_capacity, bulk.temperature].iter().all(|value| value.is_finite() && *value >= 0.0);
+            let past = [motion.time, bulk.heated_at].iter().all(|at| (0.0..=time).contains(at));
+            let bounced = bulk.bounced_at <= time;
+            let known = (bulk.material as usize) < materials && bulk.id < self.next_id;
+            ensure(vectors && sizes && heat && past && bounced && known, || {
+                format!("grain {} is none", bulk.id)
+            })?;
+            names.push(bulk.id);
+        }
+        names.sort_unstable();
+        ensure(!names.is_empty(), || "no grain is left".to_owned())?;
+        ensure(names.windows(2).all(|pair| pair[0] != pair[1]), || "a grain is there twice".to_owned())?;
+        ensure(self.next_id < NONE - (1 << 24), || "the names are used up".to_owned())?;
+        let mut free = self.free.clone();
+        free.sort_unstable();
+        let empty = (0_u32..).zip(&self.bulk).filter(|(_, bulk)| !bulk.lives()).map(|(at, _)| at);
+        ensure(empty.eq(free), || "the list of free places is another".to_owned())
+    }
+
     /// Takes grains at time zero; `heat_capacity` gives that of a material [J/(kg K)] by its number.
     pub fn new(grains: &Particles, heat_capacity: impl Fn(u32) -> f64) -> Self {
         let mut spheres = Self {

@@ -23,7 +23,7 @@ impl Simulation {
     /// Looks, if it is time to.
     ///
     /// # Errors
-    /// [`SimError::Unexplained`] where more energy is unexplained than limits allow.
+    /// [`SimError::LedgerNotFinite`] where an entry of the ledger is not finite, [`SimError::Unexplained`] where more energy is unexplained than limits allow.
     pub(super) fn look_when_due(&mut self) -> Result<(), SimError> {
         let is_due = self.clock().step.is_multiple_of(self.look_every()) || self.is_finished();
         if is_due { self.look() } else { Ok(()) }
@@ -66,12 +66,15 @@ impl Simulation {
     fn look_at_the_energy(&mut self) -> Result<(), SimError> {
         let stores = self.stores();
         let part = self.ledger.note(stores);
-        if part.is_nan() || part > self.limits.drift_warning {
+        let clock = self.clock();
+        let at = Moment { step: clock.step, time: clock.time, dt: clock.last_step };
+        if part.is_nan() {
+            return Err(SimError::LedgerNotFinite { at, laws: self.acting_laws() });
+        }
+        if part > self.limits.drift_warning {
             self.warnings.add(UNEXPLAINED);
         }
         if part > self.limits.drift_error && !self.is_published() {
-            let clock = self.clock();
-            let at = Moment { step: clock.step, time: clock.time, dt: clock.last_step };
             let limit = self.limits.drift_error;
             return Err(SimError::Unexplained { at, part, limit, laws: self.acting_laws() });
         }

@@ -11,6 +11,7 @@ mod relax;
 mod response;
 mod simulation;
 mod skin;
+mod sound;
 pub mod staggered;
 pub mod step_size;
 #[cfg(test)]

@@ -9,6 +9,7 @@ use crate::acoustics::fresnel::Interface;
 use crate::acoustics::{
     ALLOWANCE, Acoustics, Beam, Flight, Impedance, Medium, PulseCount, RayForce, Targets, Tracer,
 };
+use crate::engine::sound::{Fault, ensure, length};
 use crate::engine::{Moment, SimError, Warnings};
 use crate::math::Vec3;
 use crate::particles::Particles;
@@ -16,6 +17,7 @@ use crate::scenario::Scenario;
 use crate::units::Velocity;
 
 use super::loads::Supply;
+use super::sound::sound_flight;
 use super::system::System;
 
 /// A pulse that starts at a time.
@@ -60,6 +62,24 @@ struct Setup {
 /// Grains that were hit are made a list without doubles whenever it is as long as this.
 const MANY_HITS: usize = 1 << 16;
 
+impl PulseState {
+    /// Whether it is one that a scenario's pulses among `n` grains can have come to.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub(super) fn sound(&self, scenario: &Scenario, n: usize) -> Result<(), Fault> {
+        let times = [self.ray_time, self.mean_radius];
+        ensure(times.iter().all(|value| value.is_finite() && *value >= 0.0), || {
+            "pulses: not finite".to_owned()
+        })?;
+        let pulses = self.flight.pulses().len();
+        length("pulses that have started", self.launched, pulses)?;
+        sound_flight(&self.flight, scenario, n)?;
+        let due = schedule(scenario).len();
+        ensure(self.launched <= due, || format!("{} pulses have started of {due}", self.launched))
+    }
+}
+
 impl Setup {
     fn new(scenario: &Scenario, radius: f64) -> Option<Self> {
         let acoustics = scenario.acoustics.clone()?;
@@ -86,6 +106,19 @@ impl Setup {
     }
 }
 
+/// All launches before the end of the run, in the order of time.
+fn schedule(scenario: &Scenario) -> Vec<Launch> {
+    let mut schedule: Vec<Launch> = Vec::new();
+    for (acoustics, beam) in scenario.acoustics.iter().flat_map(|a| a.beams.iter()).zip(0..) {
+        // Those after the end never fly, however many there are.
+        let end = scenario.time.end.si();
+        let starts = acoustics.pulses.start_times().take_while(|start| *start < end);
+        schedule.extend(starts.zip(0..).map(|(time, pulse)| Launch { time, beam, pulse }));
+    }
+    schedule.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.beam.cmp(&b.beam)));
+    schedule
+}
+
 /// The grains as rays see them.
 fn targets<'a>(grains: &'a Particles, medium: &Medium) -> Targets<'a> {
     let fastest = grains.velocity.iter().map(|velocity| velocity.norm()).fold(0.0, f64::max);
@@ -105,13 +138,10 @@ impl Pulses {
     }
 
     /// The pulses of a scenario as they were saved.
+    ///
+    /// The state has been held to the scenario: [`PulseState::sound`].
     pub fn resume(scenario: &Scenario, state: PulseState) -> Self {
-        let mut schedule: Vec<Launch> = Vec::new();
-        for (acoustics, beam) in scenario.acoustics.iter().flat_map(|a| a.beams.iter()).zip(0..) {
-            let starts = acoustics.pulses.start_times();
-            schedule.extend(starts.zip(0..).map(|(time, pulse)| Launch { time, beam, pulse }));
-        }
-        schedule.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.beam.cmp(&b.beam)));
+        let schedule = schedule(scenario);
         let setup = Setup::new(scenario, state.mean_radius);
         Self { setup, state, schedule, hit_grains: Vec::new() }
     }

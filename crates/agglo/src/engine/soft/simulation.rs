@@ -54,19 +54,19 @@ pub struct Clock {
 /// All that a simulation needs to go on with the same bits; borrowed where it is written, owned where it is read.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SimulationState<'a> {
-    clock: Clock,
-    grains: Cow<'a, Particles>,
-    loads: Cow<'a, Loads>,
-    rates: Rates,
-    contacts: Vec<Remembered>,
-    bonds: Vec<Bond>,
-    bonds_made_at_start: usize,
-    pulses: PulseState,
-    ledger: Ledger,
-    warnings: Warnings,
-    tempo: Option<Tempo>,
-    paces: Paces,
-    truncation: Option<Truncation>,
+    pub(super) clock: Clock,
+    pub(super) grains: Cow<'a, Particles>,
+    pub(super) loads: Cow<'a, Loads>,
+    pub(super) rates: Rates,
+    pub(super) contacts: Vec<Remembered>,
+    pub(super) bonds: Vec<Bond>,
+    pub(super) bonds_made_at_start: usize,
+    pub(super) pulses: PulseState,
+    pub(super) ledger: Ledger,
+    pub(super) warnings: Warnings,
+    pub(super) tempo: Option<Tempo>,
+    pub(super) paces: Paces,
+    pub(super) truncation: Option<Truncation>,
 }
 
 impl SimulationState<'_> {
@@ -177,7 +177,11 @@ impl Simulation {
     }
 
     /// Goes on from a saved state.
-    pub fn resume(scenario: &Scenario, state: SimulationState<'_>) -> Self {
+    ///
+    /// # Errors
+    /// [`SimError::Forged`] where the state is none that a run of this scenario can have come to.
+    pub fn resume(scenario: &Scenario, state: SimulationState<'_>) -> Result<Self, SimError> {
+        state.sound(scenario).map_err(|reason| SimError::Forged { reason })?;
         let n = state.grains.len();
         let network = Network::restored(beam_of(scenario), state.bonds, state.bonds_made_at_start, n);
         let pulses = Pulses::resume(scenario, state.pulses);
@@ -186,7 +190,7 @@ impl Simulation {
         system.loads = state.loads.into_owned();
         system.rates = state.rates;
         system.remember(&state.contacts);
-        Self {
+        Ok(Self {
             tempo: state.tempo.map(|tempo| tempo.up_to(step_size::longest(scenario))),
             truncation: state.truncation,
             paces: state.paces,
@@ -199,7 +203,7 @@ impl Simulation {
             scheme: scheme_of(scenario),
             limits: scenario.limits.clone(),
             end: scenario.time.end.si(),
-        }
+        })
     }
 
     /// All that is needed to go on with the same bits.
@@ -404,7 +408,8 @@ impl Simulation {
     }
 
     pub(super) fn acting_laws(&self) -> String {
-        self.system.laws.names().join(", ")
+        let names = self.system.laws.names();
+        if names.is_empty() { "no law at all".to_owned() } else { names.join(", ") }
     }
 
     pub(super) fn open_books(&mut self) {

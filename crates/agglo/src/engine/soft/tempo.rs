@@ -5,6 +5,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::engine::sound::{Fault, ensure};
+
 /// Steps after which the step may grow to what the last two such windows asked for.
 const WINDOW: u64 = 500;
 /// A step this many times as long as wanted is tried again.
@@ -30,6 +32,16 @@ impl Tempo {
     /// The same with another longest step [s]: a run may have got another end.
     pub fn up_to(self, longest: f64) -> Self {
         Self { longest, ..self }
+    }
+
+    /// Whether it is one that [`Tempo::next`] can have come to.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub(super) fn sound(&self) -> Result<(), Fault> {
+        let positive = |value: f64| value > 0.0 && !value.is_nan();
+        let holds = positive(self.safety) && self.safety.is_finite() && positive(self.longest);
+        ensure(holds && self.shortest.into_iter().all(positive), || "tempo: a step is not above 0".to_owned())
     }
 
     /// The step [s] that a critical step [s] asks for.

@@ -6,7 +6,7 @@ use std::path::{Component, Path};
 use serde::{Deserialize, Serialize};
 
 use super::polydata::escaped;
-use crate::record::{Number, RecordError, atomic};
+use crate::record::{Number, RecordError, atomic, door};
 
 /// The frames written so far. It belongs into checkpoints, so that a resumed run goes on with the same list.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -25,7 +25,7 @@ impl Collection {
     /// # Errors
     /// [`RecordError::File`] where it cannot be read, [`RecordError::Damaged`] where it is not a whole list.
     pub fn read(path: &Path) -> Result<Self, RecordError> {
-        let bytes = std::fs::read(path).map_err(RecordError::file("read", path))?;
+        let bytes = door::read(path, door::MOST_OF_A_TABLE).map_err(RecordError::file("read", path))?;
         let text = String::from_utf8_lossy(&bytes);
         let entry = |row: &str| {
             let value =

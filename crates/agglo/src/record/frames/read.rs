@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::record::RecordError;
+use crate::record::{RecordError, door};
 
 /// What a `.vtp` file of ours holds.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -42,7 +42,7 @@ impl Frame {
     /// # Errors
     /// [`RecordError::File`] where it cannot be read, [`RecordError::Damaged`] where it is not whole.
     pub fn read(path: &Path) -> Result<Self, RecordError> {
-        let bytes = std::fs::read(path).map_err(RecordError::file("read", path))?;
+        let bytes = door::read(path, door::MOST_OF_A_TABLE).map_err(RecordError::file("read", path))?;
         Self::parse(&bytes)
             .map_err(|reason| RecordError::Damaged { path: path.to_owned(), reason: reason.to_owned() })
     }

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::folder::names;
+use crate::record::door;
 use crate::report::folder::{not_understood, why};
 use crate::report::sheet::Sheet;
 use crate::scenario::{LoadError, Scenario};
@@ -130,7 +131,7 @@ impl Folder {
     fn read_campaign(&mut self) {
         let path = self.root.join("search.toml");
         let loaded = Campaign::load(&path);
-        let text = std::fs::read(&path).unwrap_or_default();
+        let text = door::read(&path, door::MOST_OF_A_TABLE).unwrap_or_default();
         self.campaign_text = String::from_utf8_lossy(&text).into_owned();
         match loaded {
             Ok(campaign) => self.campaign = Some(campaign),
@@ -153,7 +154,7 @@ impl Folder {
     }
 
     fn read_summary(&mut self) {
-        match std::fs::read_to_string(self.root.join(names::SUMMARY)) {
+        match door::read_text(&self.root.join(names::SUMMARY), door::MOST_OF_A_TEXT) {
             Ok(text) => match serde_json::from_str(&text) {
                 Ok(summary) => self.summary = Some(summary),
                 Err(_) => self.notes.push(not_understood(&text)),

@@ -13,6 +13,7 @@ use super::cite::{citations, methods};
 use super::listing::{listing, plain};
 use super::{Listing, Report};
 use crate::folder::CampaignFolder;
+use crate::record::door;
 use crate::scenario::Scenario;
 use crate::search::campaign::CampaignSummary as Summary;
 use folder::Folder;
@@ -77,7 +78,9 @@ fn files(folder: &Folder) -> Vec<Listing> {
         title: if folder.is_study() { "The study" } else { "The search" }.to_owned(),
         lines: plain(&folder.campaign_text),
     }];
-    if let Ok(text) = std::fs::read_to_string(CampaignFolder::at(&folder.root).best_run().scenario()) {
+    if let Ok(text) =
+        door::read_text(&CampaignFolder::at(&folder.root).best_run().scenario(), door::MOST_OF_A_TEXT)
+    {
         let lines = match Scenario::from_toml(&text) {
             Ok(scenario) => listing(&scenario, &text),
             Err(_) => plain(&text),

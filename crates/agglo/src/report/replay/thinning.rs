@@ -1,11 +1,11 @@
 //! What of a run's frames is shown, so that the page stays small.
 
-use std::fs::File;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use super::pack;
 use super::scene::{Scene, beside};
+use crate::record::door;
 
 /// Bytes of the packed block in the page, at the most. The page has 25 MB: charts take up to 4 MB beside it.
 pub const MOST_BYTES: usize = 19_000_000;
@@ -100,7 +100,7 @@ fn things(path: &Path) -> f64 {
 fn counts(path: &Path) -> [f64; 2] {
     let mut head = Vec::new();
     // What is announced stands in the first lines.
-    let read = File::open(path).and_then(|file| file.take(2_000).read_to_end(&mut head));
+    let read = door::open(path).and_then(|file| file.take(2_000).read_to_end(&mut head));
     let text = String::from_utf8_lossy(&head);
     let count = |key: &str| -> Option<f64> {
         text.split_once(&format!("{key}=\""))?.1.split_once('"')?.0.parse::<u32>().ok().map(f64::from)

@@ -72,7 +72,7 @@ impl Job for Soft {
     }
 
     fn resume(scenario: &Scenario, state: SoftState<'_>) -> Result<Self, SimError> {
-        Ok(Self::with(scenario, Simulation::resume(scenario, state.simulation), state.start))
+        Ok(Self::with(scenario, Simulation::resume(scenario, state.simulation)?, state.start))
     }
 
     fn save(&self, rest: Saved<()>) -> AnySaved<'_> {

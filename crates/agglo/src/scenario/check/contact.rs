@@ -46,7 +46,7 @@ fn normal(check: &mut Check, scenario: &Scenario, law: &Normal) {
         Normal::Hertz(_) => elastic_constants(check, scenario, "contact.normal.hertz"),
         Normal::Hooke(law) => check.positive("contact.normal.hooke.stiffness", law.stiffness),
         Normal::StrainPower(law) => {
-            check.above_zero("contact.normal.strain_power.exponent", law.exponent);
+            check.exponent("contact.normal.strain_power.exponent", law.exponent);
             let who = "contact.normal.strain_power";
             needs(check, scenario, who, ("contact_stiffness", "\"10 MPa\""), |m| {
                 m.contact_stiffness.is_some()
@@ -103,7 +103,7 @@ fn bonds(check: &mut Check, law: &Bonds) {
             let key = |name: &str| format!("bonds.strain_bond.{name}");
             check.not_negative(&key("stiffness"), law.stiffness);
             check.not_negative(&key("tangential_stiffness"), law.tangential_stiffness);
-            check.above_zero(&key("exponent"), law.exponent);
+            check.exponent(&key("exponent"), law.exponent);
             check.within(&key("threshold_strain"), law.threshold_strain, 0.0, 1.0);
         }
         Bonds::Beam(law) => {

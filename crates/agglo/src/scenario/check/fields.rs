@@ -1,6 +1,6 @@
 //! Rules of the fields.
 
-use super::Check;
+use super::{Check, HIGHEST_EXPONENT};
 use crate::fields::near_field::NearFieldLaw;
 use crate::fields::{Drag, NearField};
 use crate::scenario::figures::told_apart;
@@ -51,7 +51,16 @@ fn near_field(check: &mut Check, scenario: &Scenario, law: &NearField) {
     }
     check.above_zero("fields.near_field.truncation", law.truncation);
     match &law.law {
-        NearFieldLaw::PowerPair(_) => {}
+        NearFieldLaw::PowerPair(law) => {
+            let exponents = [
+                ("attraction_exponent", law.attraction_exponent),
+                ("repulsion_exponent", law.repulsion_exponent),
+            ];
+            for (name, exponent) in exponents {
+                let key = format!("fields.near_field.law.power_pair.{name}");
+                check.within(&key, exponent, -HIGHEST_EXPONENT, HIGHEST_EXPONENT);
+            }
+        }
         NearFieldLaw::Coulomb(law) => {
             check
                 .above_zero("fields.near_field.law.coulomb.relative_permittivity", law.relative_permittivity);

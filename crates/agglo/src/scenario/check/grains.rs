@@ -7,9 +7,12 @@ use super::materials::named;
 use super::{Check, placement};
 use crate::domain::Volume;
 use crate::packing::{GrainList, LengthRatio, Placement, Size, VelocitySpread};
-use crate::scenario::figures::told_apart;
+use crate::scenario::figures::{readable, told_apart};
 use crate::scenario::types::{GrainGroup, Scenario};
 use crate::units::Length;
+
+/// Moments of a lognormal distribution go with the square of the logarithm of this.
+const WIDEST_DEVIATION: f64 = 100.0;
 
 pub(super) fn check(check: &mut Check, scenario: &Scenario) {
     if scenario.grains.is_empty() {
@@ -46,7 +49,7 @@ pub(super) fn check(check: &mut Check, scenario: &Scenario) {
 pub(super) fn tables(check: &mut Check, scenario: &Scenario, base: &Path) {
     for (index, group) in scenario.grains.iter().enumerate() {
         let Placement::Table(table) = &group.placement else { continue };
-        if let Err(error) = std::fs::File::open(base.join(&table.file)) {
+        if let Err(error) = crate::record::door::open(&base.join(&table.file)) {
             let key = format!("grains.{index}.placement.table.file");
             let message = format!("cannot open \"{}\": {error}", table.file.display());
             check.fail_with(&key, message, "the path is relative to the scenario's folder");
@@ -70,8 +73,10 @@ fn size(check: &mut Check, key: &str, size: &Size) -> bool {
             check.positive(&format!("{key}.lognormal.smallest"), law.smallest);
             let bounds = [("smallest", law.smallest), ("median", law.median), ("largest", law.largest)];
             ordered(check, &format!("{key}.lognormal"), &bounds);
-            if law.geometric_deviation <= 1.0 {
-                let message = format!("found {}; a number above 1 is wanted", law.geometric_deviation);
+            if law.geometric_deviation <= 1.0 || law.geometric_deviation > WIDEST_DEVIATION {
+                let found = readable(law.geometric_deviation, "");
+                let message =
+                    format!("found {found}; a number above 1 and up to {WIDEST_DEVIATION} is wanted");
                 let help = "it is a factor: 1.3 puts two thirds of the grains within 30 % of the median";
                 check.fail_with(&format!("{key}.lognormal.geometric_deviation"), message, help);
             }

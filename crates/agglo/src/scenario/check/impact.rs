@@ -114,9 +114,16 @@ fn hardness(check: &mut Check, scenario: &Scenario, law: &Hardness) {
     needs(check, scenario, who, ("hardness", "\"1 MPa\""), |m| m.hardness.is_some());
 }
 
+/// An impact that takes longer than this never ends.
+const MOST_ITERATIONS: u32 = 10_000;
+
 fn fixed_point(check: &mut Check, law: &FixedPoint) {
     let key = |name: &str| format!("impact.restitution.hardness.solver.fixed_point.{name}");
     check.at_least_one(&key("most_iterations"), law.most_iterations);
+    if law.most_iterations > MOST_ITERATIONS {
+        let message = format!("found {}; at most {MOST_ITERATIONS} are allowed", law.most_iterations);
+        check.fail(&key("most_iterations"), message);
+    }
     if law.tolerance <= 0.0 || law.tolerance >= 1.0 {
         let message = format!("found {}; a number above 0 and below 1 is wanted", law.tolerance);
         check.fail(&key("tolerance"), message);
@@ -132,7 +139,7 @@ fn fragmentation(check: &mut Check, scenario: &Scenario, law: &Fragmentation) {
         check.fail_with("impact.fragmentation", message, help);
     }
     if let Pieces::PowerLaw(law) = &law.pieces {
-        check.above_zero("impact.fragmentation.pieces.power_law.exponent", law.exponent);
+        check.exponent("impact.fragmentation.pieces.power_law.exponent", law.exponent);
     }
 }
 

@@ -4,8 +4,9 @@ use super::Check;
 use crate::contact::{Damping, Friction};
 use crate::particles::{Material, Mixture};
 use crate::scenario::fault::nearest;
-use crate::scenario::figures::{readable, told_apart};
+use crate::scenario::figures::told_apart;
 use crate::scenario::types::Scenario;
+use crate::units::{Kind, Stiffness, kind_of};
 
 pub(super) fn check(check: &mut Check, scenario: &Scenario) {
     if scenario.materials.is_empty() {
@@ -82,17 +83,12 @@ fn thermal(check: &mut Check, key: &str, material: &Material) {
         check.not_negative(&format!("{key}.activation_energy"), energy);
     }
     // Both have the dimension of a stiffness, whose unit would not be understood here.
-    if let Some(heat) = material.reaction_heat
-        && heat.si() < 0.0
-    {
-        let found = readable(heat.si(), "J/m^2");
-        check.fail(&format!("{key}.reaction_heat"), format!("found {found}; 0 or more is wanted"));
+    let by_area = Kind { symbol: "J/m^2", ..kind_of(Stiffness::DIMENSION) };
+    if let Some(heat) = material.reaction_heat {
+        check.size(&format!("{key}.reaction_heat"), heat.si(), &by_area, true);
     }
-    if let Some(energy) = material.surface_energy
-        && energy.si() <= 0.0
-    {
-        let found = readable(energy.si(), "J/m^2");
-        check.fail(&format!("{key}.surface_energy"), format!("found {found}; more than 0 is wanted"));
+    if let Some(energy) = material.surface_energy {
+        check.size(&format!("{key}.surface_energy"), energy.si(), &by_area, false);
     }
     if let Some(emissivity) = material.emissivity {
         check.within(&format!("{key}.emissivity"), emissivity, 0.0, 1.0);
@@ -165,6 +161,9 @@ fn friction(check: &mut Check, scenario: &Scenario, key: &str, mixture: &Mixture
     }
 }
 
+/// More materials than this are not listed in a message.
+const MOST_NAMED: usize = 20;
+
 /// A name that a material must have.
 pub(super) fn named(check: &mut Check, scenario: &Scenario, key: &str, name: &str) {
     if scenario.materials.contains_key(name) {
@@ -173,6 +172,9 @@ pub(super) fn named(check: &mut Check, scenario: &Scenario, key: &str, name: &st
     let known: Vec<&str> = scenario.materials.keys().map(String::as_str).collect();
     let message = match known.as_slice() {
         [] => format!("there is no material \"{name}\""),
+        _ if known.len() > MOST_NAMED => {
+            format!("there is no material \"{name}\"; there are {}, ...", known[..MOST_NAMED].join(", "))
+        }
         _ => format!("there is no material \"{name}\"; there are {}", known.join(", ")),
     };
     match nearest(name, known) {

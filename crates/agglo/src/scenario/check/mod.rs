@@ -18,7 +18,7 @@ use super::figures::{readable, told_apart};
 use super::types::Scenario;
 use crate::domain::Region;
 use crate::math::Vec3;
-use crate::units::{Dimension, Length, Quantity, Triple};
+use crate::units::{Dimension, KINDS, Kind, Length, Quantity, Triple, kind_of};
 
 /// Everything that is wrong with a scenario whose form is right; the keys are paths in it.
 ///
@@ -54,16 +54,13 @@ impl Check {
         self.faults.push(Fault::new(key, message).with_help(help));
     }
 
-    /// A quantity above zero.
+    /// A quantity above zero, and not so near to it that its powers vanish.
     fn positive<const KG: i8, const M: i8, const S: i8, const K: i8, const A: i8>(
         &mut self,
         key: &str,
         value: Quantity<KG, M, S, K, A>,
     ) {
-        if value.si() <= 0.0 {
-            let found = shown(value.si(), Quantity::<KG, M, S, K, A>::DIMENSION);
-            self.fail(key, format!("found {found}; more than 0 is wanted"));
-        }
+        self.size(key, value.si(), &kind_of(Quantity::<KG, M, S, K, A>::DIMENSION), false);
     }
 
     /// A quantity not below zero.
@@ -72,23 +69,46 @@ impl Check {
         key: &str,
         value: Quantity<KG, M, S, K, A>,
     ) {
-        if value.si() < 0.0 {
-            let found = shown(value.si(), Quantity::<KG, M, S, K, A>::DIMENSION);
-            self.fail(key, format!("found {found}; 0 or more is wanted"));
-        }
+        self.size(key, value.si(), &kind_of(Quantity::<KG, M, S, K, A>::DIMENSION), true);
     }
 
     /// A pure number above zero.
     fn above_zero(&mut self, key: &str, value: f64) {
-        if value <= 0.0 {
-            self.fail(key, format!("found {value}; more than 0 is wanted"));
-        }
+        self.size(key, value, &PURE, false);
     }
 
     /// A pure number not below zero.
     fn zero_or_more(&mut self, key: &str, value: f64) {
-        if value < 0.0 {
-            self.fail(key, format!("found {value}; 0 or more is wanted"));
+        self.size(key, value, &PURE, true);
+    }
+
+    /// The exponent of a power law: above zero, and no higher than powers of lengths can be computed.
+    fn exponent(&mut self, key: &str, value: f64) {
+        if value > HIGHEST_EXPONENT {
+            let found = readable(value, "");
+            self.fail(key, format!("found {found}; more than 0 and at most {HIGHEST_EXPONENT} is wanted"));
+        } else {
+            self.above_zero(key, value);
+        }
+    }
+
+    /// A size within the range of its kind; `or_zero` where it may be 0.
+    fn size(&mut self, key: &str, value: f64, kind: &Kind, or_zero: bool) {
+        let symbol = if kind.dimension == Dimension::default() { "" } else { kind.symbol };
+        let found = readable(value, symbol);
+        if value < 0.0 && or_zero {
+            self.fail(key, format!("found {found}; 0 or more is wanted"));
+        } else if value <= 0.0 && !or_zero {
+            self.fail(key, format!("found {found}; more than 0 is wanted"));
+        } else if value != 0.0 && !(kind.smallest..=kind.largest).contains(&value) {
+            let [least, most] = [kind.smallest, kind.largest].map(|bound| format!("{bound:e} {symbol}"));
+            let zero = if or_zero { "0, or " } else { "" };
+            let message = format!(
+                "found {found}, with which one cannot compute; {zero}{} to {} is allowed",
+                least.trim_end(),
+                most.trim_end()
+            );
+            self.fail(key, message);
         }
     }
 
@@ -140,6 +160,12 @@ impl Check {
         self.faults.len() == before
     }
 }
+
+/// Powers higher than this of lengths and strains are beyond numbers.
+const HIGHEST_EXPONENT: f64 = 64.0;
+
+/// Numbers without a unit.
+const PURE: Kind = KINDS[0];
 
 /// A quantity as a message shows it.
 fn shown(value: f64, dimension: Dimension) -> String {

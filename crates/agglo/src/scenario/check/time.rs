@@ -30,6 +30,9 @@ pub(super) fn check(check: &mut Check, scenario: &Scenario) {
     medium(check, scenario);
 }
 
+/// Part of the run's length below which turns can neither be counted nor told apart.
+const SHORTEST_INTERVAL: f64 = 1e-12;
+
 fn output(check: &mut Check, scenario: &Scenario) {
     let output = &scenario.output;
     let pulses = output.pulses.clone().unwrap_or_default();
@@ -43,6 +46,14 @@ fn output(check: &mut Check, scenario: &Scenario) {
     for (name, interval) in intervals {
         if let Some(interval) = interval {
             check.positive(&format!("output.{name}"), interval);
+            let least = SHORTEST_INTERVAL * scenario.time.end.si();
+            if interval.si() > 0.0 && interval.si() < least {
+                let [found, least] = told_apart([interval.si(), least], "s");
+                check.fail(
+                    &format!("output.{name}"),
+                    format!("found {found}; at least {least}, a trillionth of time.end, is wanted"),
+                );
+            }
         }
     }
     if output.pulses.is_some() && scenario.acoustics.is_none() {

@@ -209,7 +209,13 @@ impl<'a, M: Model> Conductor<'a, M> {
         }
         summary.wall_s = wall_s();
         self.folder.hold_on()?;
-        atomic::write(&self.folder.summary(), summary.to_json().as_bytes())?;
+        let text = summary.to_json();
+        // What could not be read back, since a figure is not finite, is not written.
+        if let Err(error) = serde_json::from_str::<CampaignSummary>(&text) {
+            let (path, reason) = (self.folder.summary(), format!("a figure is not finite: {error}"));
+            return Err(Stop::from(RecordError::Encode { path, reason }));
+        }
+        atomic::write(&self.folder.summary(), text.as_bytes())?;
         remove(&self.folder.journal())?;
         Ok(summary)
     }

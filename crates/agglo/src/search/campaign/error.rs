@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use crate::folder::FolderError;
+use crate::packing::PackingError;
 use crate::record::RecordError;
 use crate::run::RunError;
 use crate::scenario::Faults;
@@ -57,6 +58,9 @@ pub enum CampaignError {
     /// The campaign or its base has faults.
     #[error("the campaign has faults:\n{0}")]
     Faulty(#[from] Faults),
+    /// The machine cannot hold the simulations.
+    #[error("{0}")]
+    TooLarge(PackingError),
     /// The run of the best candidate failed.
     #[error("the run of the best candidate failed: {0}")]
     BestRun(#[from] RunError),
@@ -67,7 +71,7 @@ impl CampaignError {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Folder(error) => error.exit_code(),
-            Self::Faulty(_) => 2,
+            Self::Faulty(_) | Self::TooLarge(_) => 2,
             Self::Record(_)
             | Self::CutShort { .. }
             | Self::Gone { .. }

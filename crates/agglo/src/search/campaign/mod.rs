@@ -25,7 +25,7 @@ pub use course::{Ask, Closing, Course, Polish, Results};
 pub use error::CampaignError;
 pub use progress::{CampaignObserver, CampaignProgress};
 pub use summary::{Best, CampaignSummary, FrontPoint, Goal, LimitKept, Named, Noise, Spent};
-pub use verbs::{planned, resume, run, way_of};
+pub use verbs::{planned, refuse_too_large, resume, run, way_of};
 
 use std::path::Path;
 
@@ -52,7 +52,11 @@ pub fn finished(dir: &Path) -> Option<CampaignSummary> {
     if !is_one(dir) {
         return None;
     }
-    let text = std::fs::read_to_string(CampaignFolder::at(dir).summary()).ok()?;
+    let text = crate::record::door::read_text(
+        &CampaignFolder::at(dir).summary(),
+        crate::record::door::MOST_OF_A_TEXT,
+    )
+    .ok()?;
     serde_json::from_str(&text).ok()
 }
 

@@ -6,6 +6,7 @@ use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::Value as Json;
 
+use crate::record::json;
 use crate::scenario::{readable, with_error};
 
 /// What a campaign came to; `summary.json` holds the same.
@@ -185,7 +186,7 @@ impl CampaignSummary {
     /// The text of `summary.json`.
     pub fn to_json(&self) -> String {
         // A struct of numbers and strings always has a text; numbers that are not finite become null.
-        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+        json(self).unwrap_or_default()
     }
 
     /// The summary as rows of a table: what, how much.

@@ -11,7 +11,7 @@ use super::summary::Goal;
 use super::{CampaignEnding, CampaignError, pictures};
 use crate::engine::SimError;
 use crate::folder::{CampaignFolder, FolderError};
-use crate::record::RecordError;
+use crate::record::{RecordError, door};
 use crate::run::{self, Ending, RunError};
 use crate::scenario::{LoadError, Scenario};
 use crate::search::optimiser::{Method, NelderMead, Optimiser};
@@ -29,6 +29,7 @@ pub fn run(
     observer: &mut CampaignObserver<'_>,
 ) -> Result<CampaignEnding, CampaignError> {
     let problem = Problem::new(campaign, base)?;
+    refuse_too_large(&problem, threads)?;
     let head = |what: &str| {
         format!("# {what} of agglo {}: every default is written out.\n", env!("CARGO_PKG_VERSION"))
     };
@@ -40,6 +41,15 @@ pub fn run(
     let campaign = head("Resolved search or study") + &resolved.to_toml()?;
     folder.put(&campaign, &scenario)?;
     go_on(&folder, threads, observer)
+}
+
+/// Refuses simulations that the memory cannot hold, so many at a time as there are threads.
+///
+/// # Errors
+/// [`CampaignError::TooLarge`] with the figures.
+pub fn refuse_too_large(problem: &Problem, threads: usize) -> Result<(), CampaignError> {
+    let refused = crate::forecast::refuse_quiet(problem.base(), problem.folder(), threads);
+    refused.map_err(CampaignError::TooLarge)
 }
 
 /// Takes the tables of grains into the folder, those of the scenario and those that parameters choose from.
@@ -94,7 +104,9 @@ fn go_on(
     observer: &mut CampaignObserver<'_>,
 ) -> Result<CampaignEnding, CampaignError> {
     let dir = folder.root();
-    let read = |path: PathBuf| std::fs::read_to_string(&path).map_err(RecordError::file("read", &path));
+    let read = |path: PathBuf| {
+        door::read_text(&path, door::MOST_OF_A_TEXT).map_err(RecordError::file("read", &path))
+    };
     let text = read(folder.campaign())? + &read(folder.scenario())? + &folder.told_of_tables()?;
     let unreadable = |error: LoadError| {
         let reason = format!("its search.toml cannot be read: {error}");

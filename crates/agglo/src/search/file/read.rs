@@ -57,6 +57,15 @@ impl Campaign {
         load(path, &overrides)
     }
 
+    /// As [`Campaign::with_overrides`], of a text that was read from somewhere; files that it names are relative to `base`.
+    ///
+    /// # Errors
+    /// As [`Campaign::with_overrides`].
+    pub fn from_source<S: AsRef<str>>(text: &str, base: &Path, overrides: &[S]) -> Result<Self, Faults> {
+        let overrides: Vec<&str> = overrides.iter().map(AsRef::as_ref).collect();
+        read(text, &overrides, Some(base))
+    }
+
     /// The campaign as TOML with every default written out; reads back as the same campaign.
     ///
     /// # Errors

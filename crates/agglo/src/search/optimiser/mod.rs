@@ -67,6 +67,9 @@ impl Default for Method {
     }
 }
 
+/// Most evaluations of a search.
+const MOST: usize = 100_000_000;
+
 impl Method {
     /// An optimiser over `dimensions` parameters for `objectives` costs; its parameters have no faults.
     pub fn start(&self, dimensions: usize, objectives: usize, seed: u64) -> Box<dyn Optimiser> {
@@ -84,9 +87,10 @@ impl Method {
     pub fn evaluations(&self) -> usize {
         match self {
             Self::CmaEs(method) => method.evaluations,
-            Self::Genetic(method) => method.population * (1 + method.generations),
+            Self::Genetic(method) => method.population.saturating_mul(method.generations.saturating_add(1)),
             Self::PublishedGenetic(method) => {
-                method.population + method.generations * (method.population - method.parents)
+                let young = method.population.saturating_sub(method.parents);
+                method.population.saturating_add(method.generations.saturating_mul(young))
             }
             Self::NelderMead(method) => method.evaluations,
             Self::Random(method) => method.points,
@@ -108,6 +112,10 @@ impl Method {
             let message =
                 format!("this method makes 1 cost small, not {objectives}; `genetic` finds fronts of 2");
             faults.push(("objectives", message));
+        }
+        if self.evaluations() > MOST {
+            let message = format!("{} evaluations are more than {MOST}", self.evaluations());
+            faults.push(("evaluations", message));
         }
         if dimensions == 0 {
             faults.push(("parameters", "there is nothing to vary".into()));

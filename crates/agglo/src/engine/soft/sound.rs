@@ -1,0 +1,105 @@
+//! Whether a saved state is one that a run of soft spheres can have come to.
+
+use super::simulation::SimulationState;
+use crate::acoustics::Flight;
+use crate::contact::network::Bond;
+use crate::engine::sound::{Fault, MOST_COUNTED, ensure, finite, finite_vectors, length};
+use crate::neighbors::ray_grid::NO_SPHERE;
+use crate::particles::Particles;
+use crate::scenario::Scenario;
+
+impl SimulationState<'_> {
+    /// # Errors
+    /// What is wrong with it.
+    pub(super) fn sound(&self, scenario: &Scenario) -> Result<(), Fault> {
+        let clock = &self.clock;
+        finite("clock", clock)?;
+        let steps = [clock.step, clock.iterations, clock.rejected];
+        ensure(steps.iter().all(|count| *count < MOST_COUNTED), || "clock: a count is too large".to_owned())?;
+        let times = [clock.time, clock.next_step, clock.last_step];
+        ensure(times.iter().all(|time| *time >= 0.0), || "clock: a time is below 0".to_owned())?;
+        let grains = &*self.grains;
+        let n = grains.len();
+        sound_grains(grains, scenario)?;
+        for (what, loads) in [("forces", &self.loads.force), ("moments", &self.loads.moment)] {
+            length(what, loads.len(), n)?;
+            finite_vectors(what, loads)?;
+        }
+        finite("rates", &self.rates)?;
+        finite("ledger", &self.ledger)?;
+        finite("paces", &self.paces)?;
+        if let Some(truncation) = &self.truncation {
+            finite("truncation", truncation)?;
+        }
+        if let Some(tempo) = &self.tempo {
+            tempo.sound()?;
+        }
+        for (a, b, spring) in &self.contacts {
+            let holds = *a != *b && (*a as usize) < n && (*b as usize) < n;
+            ensure(holds, || format!("contact of {a} and {b} of {n} grains"))?;
+            finite("contact", spring)?;
+        }
+        sound_bonds(&self.bonds, grains)?;
+        ensure(self.bonds_made_at_start < MOST_COUNTED as usize, || "too many bonds".to_owned())?;
+        self.pulses.sound(scenario, n)
+    }
+}
+
+fn sound_grains(grains: &Particles, scenario: &Scenario) -> Result<(), Fault> {
+    let n = grains.len();
+    ensure(n > 0, || "there are no grains".to_owned())?;
+    grains.sound()?;
+    let mut names = grains.id.clone();
+    names.sort_unstable();
+    ensure(names.iter().zip(0_u32..).all(|(name, due)| *name == due), || {
+        "grains: names are not 0, 1, 2 ...".to_owned()
+    })?;
+    let materials = scenario.materials.len();
+    let holds = grains.material.iter().all(|number| (*number as usize) < materials);
+    ensure(holds, || format!("grains: there are {materials} materials"))
+}
+
+/// Bonds stand in the order of the names that they join, the lower name first.
+fn sound_bonds(bonds: &[Bond], grains: &Particles) -> Result<(), Fault> {
+    for bond in bonds {
+        let [a, b] = bond.ids;
+        let places = bond.grains.map(|place| place as usize);
+        let holds = a < b && places.iter().all(|place| *place < grains.len());
+        ensure(holds && places.map(|place| grains.id[place]) == bond.ids, || format!("bond of {a} and {b}"))?;
+        finite("bond", bond)?;
+        ensure(bond.state.length > 0.0 && bond.state.radius > 0.0, || {
+            format!("bond of {a} and {b}: its size")
+        })?;
+    }
+    ensure(bonds.windows(2).all(|pair| pair[0].ids < pair[1].ids), || "bonds are out of order".to_owned())
+}
+
+/// Rays in flight with their pulses, among `n` grains.
+pub(super) fn sound_flight(flight: &Flight, scenario: &Scenario, n: usize) -> Result<(), Fault> {
+    let beams = scenario.acoustics.as_ref().map_or(0, |acoustics| acoustics.beams.len());
+    for pulse in flight.pulses() {
+        finite("pulse", pulse)?;
+        let counts = [pulse.reflections, pulse.segments].iter().all(|count| *count < MOST_COUNTED);
+        let rays = [pulse.capped, pulse.crushed, pulse.blocked, pulse.in_flight]
+            .iter()
+            .all(|rays| *rays <= pulse.rays);
+        let longest = pulse.longest_chain < u32::MAX / 2;
+        ensure(counts && rays && longest && (pulse.beam as usize) < beams, || {
+            "pulse: a count is too large".to_owned()
+        })?;
+    }
+    let pulses = flight.pulses().len();
+    let mut flying = vec![0_u32; pulses];
+    for ray in flight.rays() {
+        let hit = ray.last_hit == NO_SPHERE || (ray.last_hit as usize) < n;
+        let bounces = ray.bounces < u32::MAX / 2;
+        ensure(hit && bounces && (ray.pulse as usize) < pulses, || "ray: an index is too large".to_owned())?;
+        flying[ray.pulse as usize] += 1;
+        let numbers = [ray.travelled, ray.power, ray.first_power, ray.area];
+        let holds = ray.origin.is_finite() && numbers.iter().all(|value| value.is_finite() && *value >= 0.0);
+        // Directions are unit vectors but for rounding.
+        ensure(holds && (ray.direction.norm() - 1.0).abs() < 1e-6, || "ray: not a ray".to_owned())?;
+    }
+    let same = flight.pulses().iter().zip(&flying).all(|(pulse, rays)| pulse.in_flight == *rays);
+    ensure(same, || "pulse: another number of rays in flight".to_owned())
+}
