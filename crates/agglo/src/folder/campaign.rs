@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::run::lost;
 use super::tables::Tables;
 use super::{FolderError, Lock, RunFolder, files, names};
-use crate::record::{RecordError, atomic};
+use crate::record::{RecordError, atomic, door};
 
 /// The folder of a search or study.
 #[derive(Clone, Debug)]
@@ -61,7 +61,7 @@ impl CampaignFolder {
         let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
         paths.sort();
         let line = |path: &PathBuf| {
-            let bytes = files::read(path).map_err(RecordError::file("read", path))?;
+            let bytes = files::read(path, door::MOST_OF_A_TABLE).map_err(RecordError::file("read", path))?;
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             Ok(format!("# {name} {:08x}\n", crc32fast::hash(&bytes)))
         };

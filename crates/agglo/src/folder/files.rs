@@ -4,6 +4,8 @@ use std::fs::{File, OpenOptions};
 use std::io::{self, ErrorKind};
 use std::path::Path;
 
+use crate::record::door;
+
 /// Opens a regular file as `options` say.
 ///
 /// # Errors
@@ -36,14 +38,12 @@ pub fn create(path: &Path) -> io::Result<File> {
     OpenOptions::new().read(true).write(true).create_new(true).open(path)
 }
 
-/// Reads a regular file of the folder.
+/// Reads a regular file of the folder, of at most `most` bytes.
 ///
 /// # Errors
-/// As [`open`].
-pub fn read(path: &Path) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    io::Read::read_to_end(&mut open(path, OpenOptions::new().read(true))?, &mut bytes)?;
-    Ok(bytes)
+/// As [`open`], or that the file is too large.
+pub fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    door::read_all(open(path, OpenOptions::new().read(true))?, most)
 }
 
 /// Refuses what is no regular file.
@@ -76,7 +76,8 @@ mod tests {
         }
         assert!(open(Path::new("/dev/null"), OpenOptions::new().write(true)).is_err());
         assert!(create(folder.path()).unwrap_err().to_string().contains("folder"));
-        assert_eq!(read(&precious).unwrap(), b"kept");
+        assert_eq!(read(&precious, 4).unwrap(), b"kept");
+        assert!(read(&precious, 3).unwrap_err().to_string().contains("larger than"));
     }
 
     #[test]
@@ -86,7 +87,7 @@ mod tests {
         std::fs::write(&precious, "kept").unwrap();
         std::fs::hard_link(&precious, &table).unwrap();
         create(&table).unwrap();
-        assert_eq!(read(&precious).unwrap(), b"kept");
-        assert_eq!(read(&table).unwrap(), b"");
+        assert_eq!(read(&precious, 4).unwrap(), b"kept");
+        assert_eq!(read(&table, 4).unwrap(), b"");
     }
 }

@@ -24,8 +24,8 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::RecordError;
 use super::atomic::{self, Durability};
+use super::{RecordError, door};
 use crate::folder::files;
 
 const MAGIC: &[u8; 8] = b"AGGLO\r\n\x8a";
@@ -101,7 +101,7 @@ pub fn load_newest_that<T: DeserializeOwned, U>(
 ) -> Result<(U, u64, Vec<Refused>), RecordError> {
     let mut refused = Vec::new();
     for (_, path) in list(dir)? {
-        let read = files::read(&path).map_err(|error| error.to_string());
+        let read = files::read(&path, door::MOST_OF_A_STATE).map_err(|error| error.to_string());
         let accepted =
             read.and_then(|bytes| decode(&bytes)).and_then(|(state, step)| Ok((accept(state)?, step)));
         match accepted {

@@ -37,7 +37,14 @@ fn refuse_irregular(found: &std::fs::Metadata) -> io::Result<()> {
 /// # Errors
 /// As [`open`], or that the file is too large.
 pub fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
-    let file = open(path)?;
+    read_all(open(path)?, most)
+}
+
+/// All bytes of a regular file that is open, of at most `most` bytes.
+///
+/// # Errors
+/// What the system says, or that the file is too large.
+pub fn read_all(file: File, most: u64) -> io::Result<Vec<u8>> {
     let length = file.metadata()?.len();
     if length > most {
         return Err(too_large(most));

@@ -8,7 +8,7 @@ use super::RunError;
 use super::job::AnySaved;
 use crate::folder::{RunFolder, files};
 use crate::record::checkpoint::{self, Refused};
-use crate::record::{Opened, RecordError};
+use crate::record::{Opened, RecordError, door};
 use crate::scenario::Scenario;
 
 /// Keys that a message names at the most.
@@ -72,7 +72,7 @@ pub fn load(folder: &RunFolder, before_the_end: bool, reading: &mut Reading<'_>)
 fn own_scenario(folder: &RunFolder) -> Result<Scenario, RunError> {
     let path = folder.scenario();
     let refused = |reason: String| RunError::ScenarioLost { path: path.clone(), reason };
-    let bytes = files::read(&path).map_err(|error| match error.kind() {
+    let bytes = files::read(&path, door::MOST_OF_A_TEXT).map_err(|error| match error.kind() {
         std::io::ErrorKind::NotFound => refused("is missing".to_owned()),
         _ => refused(format!("cannot be read: {error}")),
     })?;

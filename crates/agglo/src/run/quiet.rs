@@ -113,7 +113,10 @@ mod tests {
             ("reacting", |s| s.materials.values_mut().for_each(|m| m.heat_capacity = Some(Quantity(1e308)))),
             ("reacting", |s| s.materials.values_mut().for_each(|m| m.density = Quantity(1e308))),
             ("reacting", |s| s.grains[0].velocity[0] = Quantity(1e160)),
-            ("acoustic", |s| s.materials.values_mut().for_each(|m| m.density = Quantity(1e307))),
+            ("acoustic", |s| {
+                s.materials.values_mut().for_each(|m| m.density = Quantity(1e307));
+                s.grains[0].velocity[0] = Quantity(1e4);
+            }),
             ("acoustic", |s| s.grains[0].velocity[0] = Quantity(1e160)),
         ];
         for (number, (name, spoil)) in spoils.into_iter().enumerate() {

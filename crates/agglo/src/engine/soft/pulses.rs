@@ -139,7 +139,7 @@ impl Pulses {
 
     /// The pulses of a scenario as they were saved.
     ///
-    /// The state has been held to the scenario: [`PulseState::sound`].
+    /// The state has been held to the scenario before.
     pub fn resume(scenario: &Scenario, state: PulseState) -> Self {
         let schedule = schedule(scenario);
         let setup = Setup::new(scenario, state.mean_radius);

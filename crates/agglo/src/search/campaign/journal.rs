@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use crate::folder::files;
-use crate::record::{Number, RecordError};
+use crate::record::{Number, RecordError, door};
 use crate::search::pool::Finished;
 
 /// What a start came to in an earlier sitting.
@@ -67,7 +67,7 @@ impl Journal {
         let heading =
             format!("agglo {},{:08x}\n", env!("CARGO_PKG_VERSION"), crc32fast::hash(campaign.as_bytes()));
         let found = if path.symlink_metadata().is_ok() {
-            files::read(path).map_err(RecordError::file("read", path))?
+            files::read(path, door::MOST_OF_A_TABLE).map_err(RecordError::file("read", path))?
         } else {
             Vec::new()
         };
