@@ -14,7 +14,7 @@ fn check_says_what_a_search_would_do() {
         "published_genetic",
         "2 to 8, until one more moves the mean cost by less than 0.002 of itself; the same for all",
         // 20 strings, three times 14; two to eight starts each, four for each of three again and for the best of them.
-        "62, 3 of the best run again, the best of these once more at most",
+        "at most 62, then the best 3 from fresh starts, then the best of those once more",
         "140 to 512",
         "time of all",
         "impacts",

@@ -48,7 +48,7 @@ kinds! {
     [0, 1, -1, 0, 0], "a velocity", "m/s", "1500 m/s", 1e-18, 1e9;
     [0, 1, -2, 0, 0], "an acceleration", "m/s^2", "9.81 m/s^2", 1e-18, 1e18;
     [0, 0, -1, 0, 0], "a frequency", "1/s", "20 kHz", 1e-15, 1e18;
-    [1, -3, 0, 0, 0], "a density", "kg/m^3", "1000 kg/m^3", 1e-12, 1e12;
+    [1, -3, 0, 0, 0], "a density", "kg/m^3", "1000 kg/m^3", 1e-12, 1e30;
     [1, -1, -2, 0, 0], "a pressure", "Pa", "150 MPa", 1e-12, 1e20;
     [1, -1, -1, 0, 0], "a viscosity", "Pa s", "1 mPa s", 1e-15, 1e15;
     [1, 0, -2, 0, 0], "a stiffness", "N/m", "100 N/m", 1e-15, 1e18;
