@@ -94,27 +94,75 @@ impl Bench {
     }
 
     /// A run that was stopped by SIGINT once it had a checkpoint of this step or a later one.
+    pub fn stopped_after(&self, step: u64, more: &[&str]) -> Output {
+        self.stopped_by("INT", step, more).0
+    }
+
+    /// A run that was stopped by this signal once it had a checkpoint of this step or a later one, and how long it took to
+    /// end.
     ///
     /// Where the test was not looking for so long that the run came to its end, it is run again.
-    pub fn stopped_after(&self, step: u64, more: &[&str]) -> Output {
-        for _ in 0..20 {
+    pub fn stopped_by(&self, name: &str, step: u64, more: &[&str]) -> (Output, Duration) {
+        until_it_succeeds(&self.run(), || {
             let child = self.start(more).spawn().unwrap();
             wait_for_step(&self.run(), step);
-            signal(&child, "INT");
+            let asked = Instant::now();
+            signal(&child, name);
             let output = child.wait_with_output().unwrap();
-            if output.status.code() != Some(0) {
-                return ended(output, 1);
-            }
-            fs::remove_dir_all(self.run()).unwrap();
-        }
-        panic!("expected a run stopped after step {step}; 20 runs came to their end before");
+            (output.status.code() != Some(0)).then(|| (ended(output, 1), asked.elapsed()))
+        })
     }
+
+    /// A run that is alive and held where it is, once it had a checkpoint of this step or a later one.
+    pub fn held_after(&self, step: u64, more: &[&str]) -> Child {
+        until_it_succeeds(&self.run(), || {
+            let child = self.start(more).spawn().unwrap();
+            wait_for_step(&self.run(), step);
+            hold(&child).then_some(child)
+        })
+    }
+}
+
+/// Tries again, the folder removed, where a program came to its end before it could be stopped.
+pub fn until_it_succeeds<T>(run: &Path, mut attempt: impl FnMut() -> Option<T>) -> T {
+    for _ in 0..20 {
+        if let Some(found) = attempt() {
+            return found;
+        }
+        fs::remove_dir_all(run).unwrap();
+    }
+    panic!("expected a program that is stopped on its way; 20 of them came to their end before");
 }
 
 /// Sends a signal by its name.
 pub fn signal(child: &Child, name: &str) {
     let sent = Command::new("kill").args([&format!("-{name}"), &child.id().to_string()]).status().unwrap();
-    assert!(sent.success());
+    assert!(sent.success(), "kill -{name} failed");
+}
+
+/// Holds a program where it is: when this returns, none of its threads writes anything. False if it has ended.
+///
+/// A signal is on its way for some time, and a thread that is in the middle of a write ends that first.
+pub fn hold(child: &Child) -> bool {
+    signal(child, "STOP");
+    let begun = Instant::now();
+    loop {
+        match states(child.id()) {
+            states if states.contains(&'Z') || states.is_empty() => return false,
+            states if states.iter().all(|state| *state == 'T') => return true,
+            _ => assert!(begun.elapsed() < Duration::from_secs(60), "it does not stop"),
+        }
+        std::thread::sleep(Duration::from_millis(1));
+    }
+}
+
+/// What the threads of a process do, by the letters of Linux: T is stopped, Z has ended.
+fn states(process: u32) -> Vec<char> {
+    let threads = fs::read_dir(format!("/proc/{process}/task")).into_iter().flatten();
+    // A thread that ended in between has no file any more.
+    let files = threads.filter_map(|thread| fs::read_to_string(thread.ok()?.path().join("stat")).ok());
+    // The name before stands in brackets and may hold anything.
+    files.filter_map(|text| text.rsplit_once(") ")?.1.chars().next()).collect()
 }
 
 /// Checkpoints of a run by their steps, in order.
@@ -187,21 +235,42 @@ pub fn assert_same(run: &Path, reference: &Path) {
     }
 }
 
-/// An uninterrupted run of the scenario, made once for all tests.
+/// An uninterrupted run of the scenario, made once for all tests of this process.
 pub fn reference(scenario: &'static str) -> &'static Path {
     static RUNS: [OnceLock<PathBuf>; 4] = [const { OnceLock::new() }; 4];
     let which = SCENARIOS.iter().position(|known| known.1 == scenario).unwrap();
     let name = SCENARIOS[which].0;
     RUNS[which].get_or_init(|| {
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("reference-{name}"));
-        // What an earlier test run left; it may not be there.
-        let _ = fs::remove_dir_all(&folder);
+        let references = Path::new(env!("CARGO_TARGET_TMPDIR")).join("references");
+        let folder = references.join(std::process::id().to_string()).join(name);
         fs::create_dir_all(&folder).unwrap();
+        sweep(&references);
         let (file, run) = (folder.join("scenario.toml"), folder.join("run"));
         fs::write(&file, scenario).unwrap();
         ended(agglo(&["run", file.to_str().unwrap(), "-o", run.to_str().unwrap()]), 0);
         run
     })
+}
+
+/// Removes what the tests of processes that have ended left behind.
+fn sweep(references: &Path) {
+    for entry in fs::read_dir(references).unwrap() {
+        let entry = entry.unwrap();
+        if !Path::new("/proc").join(entry.file_name()).exists() {
+            // Another process may sweep at the same time.
+            let _ = fs::remove_dir_all(entry.path());
+        }
+    }
+}
+
+/// What `summary.json` of a run holds.
+pub fn summary(run: &Path) -> serde_json::Value {
+    serde_json::from_slice(&fs::read(run.join("summary.json")).unwrap()).unwrap()
+}
+
+/// A number of a summary.
+pub fn number(summary: &serde_json::Value, key: &str) -> f64 {
+    summary[key].as_f64().unwrap_or_else(|| panic!("{key} is {:?}", summary[key]))
 }
 
 /// Steps of a finished run.

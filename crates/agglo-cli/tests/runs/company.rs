@@ -23,9 +23,7 @@ fn text(path: &Path) -> &str {
 #[test]
 fn a_second_process_is_refused_while_the_first_lives_and_readers_are_not() {
     let bench = Bench::with(EVENTS);
-    let first = bench.start(&[]).spawn().unwrap();
-    wait_for_step(&bench.run(), 1);
-    signal(&first, "STOP");
+    let first = bench.held_after(1, &[]);
     let before = bytes(&bench.run());
     let run = bench.run();
     for arguments in [vec!["resume", text(&run)], vec!["run", &bench.scenario(), "-o", text(&run)]] {

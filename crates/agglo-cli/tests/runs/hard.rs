@@ -4,10 +4,9 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use serde_json::Value;
-
 use crate::common::{
-    Bench, EVENTS, STEPS, assert_same, bytes, checkpoints, complained, ended, reference, said,
+    Bench, EVENTS, STEPS, assert_same, bytes, checkpoints, complained, ended, number, reference, said,
+    summary,
 };
 
 /// A table with words and numbers.
@@ -32,14 +31,6 @@ impl Table {
     fn numbers(&self, column: &str) -> Vec<f64> {
         self.words(column).iter().map(|word| word.parse().unwrap()).collect()
     }
-}
-
-fn summary(run: &Path) -> Value {
-    serde_json::from_str(&fs::read_to_string(run.join("summary.json")).unwrap()).unwrap()
-}
-
-fn number(value: &Value, key: &str) -> f64 {
-    value[key].as_f64().unwrap_or_else(|| panic!("{key} is {:?}", value[key]))
 }
 
 #[test]

@@ -1,10 +1,10 @@
 //! A run that is killed or stopped, and goes on.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use crate::common::{
     Bench, EVENTS, STAGGERED, STEPS, VERLET, assert_same, checkpoints, complained, ended, reference, said,
-    signal, steps, wait_for_step,
+    steps, summary, wait_for_step,
 };
 use crate::company::storms;
 
@@ -12,14 +12,16 @@ use crate::company::storms;
 fn killed_ten_times(scenario: &'static str) {
     const KILLS: u64 = 10;
     let reference = reference(scenario);
+    // A third of the run is left at the last kill, and none comes later than that by a tenth of the run.
+    let part = summary(reference)["wall_s"].as_f64().unwrap() / 10.0;
     let bench = Bench::with(scenario);
     let mut killed = 0;
     for kill in 0..KILLS {
         let mut order = if kill == 0 { bench.start(&[]) } else { bench.resume() };
         let mut child = order.spawn().unwrap();
-        wait_for_step(&bench.run(), steps(reference) * kill / (KILLS + 1));
+        wait_for_step(&bench.run(), steps(reference) * kill / (KILLS + 4));
         // Away from the checkpoint, into steps, frames and the next checkpoint.
-        std::thread::sleep(std::time::Duration::from_millis(kill * 7 % 23));
+        std::thread::sleep(Duration::from_secs_f64(part * (kill * 7 % 23) as f64 / 23.0));
         child.kill().unwrap();
         killed += u64::from(child.wait().unwrap().code().is_none());
     }
@@ -100,11 +102,7 @@ fn leftovers_of_a_killed_run_are_swept_away() {
 fn ctrl_c_stops_with_a_checkpoint_and_says_how_to_go_on() {
     for name in ["INT", "TERM"] {
         let bench = Bench::with(STAGGERED);
-        let child = bench.start(&[]).spawn().unwrap();
-        wait_for_step(&bench.run(), 60);
-        signal(&child, name);
-        let stopped = ended(child.wait_with_output().unwrap(), 1);
-        let text = complained(&stopped);
+        let text = complained(&bench.stopped_by(name, 60, &[]).0);
         let advice = format!("`agglo resume {}` goes on from there", bench.run().display());
         assert!(text.contains("stopped at t = ") && text.contains(&advice), "{text}");
         assert!(!bench.run().join("summary.json").exists());

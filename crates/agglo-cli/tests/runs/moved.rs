@@ -2,7 +2,9 @@
 
 use std::fs;
 
-use crate::common::{STAGGERED, agglo, assert_same, command, complained, ended, signal, wait_for_step};
+use crate::common::{
+    STAGGERED, agglo, assert_same, command, complained, ended, signal, until_it_succeeds, wait_for_step,
+};
 
 /// A scenario whose grains stand in a table.
 fn with_a_table(folder: &std::path::Path) {
@@ -44,12 +46,14 @@ fn a_moved_folder_runs_again_goes_on_and_is_reported() {
     let path = |folder: &tempfile::TempDir, name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let whole = path(&home, "whole");
     ended(agglo(&["run", &path(&home, "scenario.toml"), "-o", &whole]), 0);
-    let stopped = path(&home, "stopped");
-    let child =
-        command(&["run", &path(&home, "scenario.toml"), "-o", &stopped, "--no-report"]).spawn().unwrap();
-    wait_for_step(home.path().join("stopped").as_path(), 200);
-    signal(&child, "INT");
-    child.wait_with_output().unwrap();
+    let stopped = home.path().join("stopped");
+    until_it_succeeds(&stopped, || {
+        let arguments = ["run", &path(&home, "scenario.toml"), "-o", stopped.to_str().unwrap()];
+        let child = command(&arguments).spawn().unwrap();
+        wait_for_step(&stopped, 200);
+        signal(&child, "INT");
+        (child.wait_with_output().unwrap().status.code() == Some(1)).then_some(())
+    });
     let text = fs::read_to_string(home.path().join("whole/scenario.toml")).unwrap();
     assert!(text.contains("file = \"tables/grains.csv\""), "{text}");
     for name in ["whole", "stopped"] {
@@ -74,19 +78,17 @@ fn without_tables_there_is_no_folder_of_tables() {
 /// what is there now is as it was.
 #[test]
 fn a_folder_removed_while_a_run_goes_on_is_not_recommended() {
+    // Much longer than it will live, so that it writes again for sure.
+    const LONG: [&str; 2] = ["--set", "time.end=10 s"];
     let bench = crate::common::Bench::with(STAGGERED);
-    let child = bench.start(&[]).spawn().unwrap();
-    wait_for_step(&bench.run(), 30);
-    signal(&child, "STOP");
+    let child = bench.held_after(30, &LONG);
     fs::remove_dir_all(bench.run()).unwrap();
     signal(&child, "CONT");
     let text = complained(&ended(child.wait_with_output().unwrap(), 1));
     assert!(text.contains("was removed or taken over") && !text.contains("agglo resume"), "{text}");
     assert!(!bench.run().exists(), "it was made again");
 
-    let child = bench.start(&[]).spawn().unwrap();
-    wait_for_step(&bench.run(), 30);
-    signal(&child, "STOP");
+    let child = bench.held_after(30, &LONG);
     fs::remove_dir_all(bench.run()).unwrap();
     ended(bench.start(&["--no-report"]).output().unwrap(), 0);
     let before = crate::common::bytes(&bench.run());

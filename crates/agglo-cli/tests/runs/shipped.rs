@@ -4,17 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
-use serde_json::Value;
-
-use crate::common::{Bench, EVENTS, STEPS, agglo, bytes, checkpoints, complained, ended, reference, said};
-
-fn summary(run: &Path) -> Value {
-    serde_json::from_str(&fs::read_to_string(run.join("summary.json")).unwrap()).unwrap()
-}
-
-fn number(value: &Value, key: &str) -> f64 {
-    value[key].as_f64().unwrap_or_else(|| panic!("{key} is {:?}", value[key]))
-}
+use crate::common::{
+    Bench, EVENTS, STEPS, agglo, bytes, checkpoints, complained, ended, number, reference, said, summary,
+};
 
 /// Rows of a table by the names of its columns.
 fn rows(run: &Path, table: &str) -> Vec<BTreeMap<String, String>> {

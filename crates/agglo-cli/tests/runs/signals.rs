@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::{Child, Command};
 use std::time::{Duration, Instant};
 
-use crate::common::{Bench, STAGGERED, command, complained, reference, signal, wait_for_step};
+use crate::common::{Bench, STAGGERED, command, complained, reference, signal};
 
 /// A second, and as much again for a machine that is busy with other tests, on top of a build that is not optimised.
 const SOON: Duration = Duration::from_secs(6);
@@ -94,9 +94,9 @@ fn coming_to_rest_is_stopped_and_leaves_nothing() {
 fn steps_are_stopped_with_a_checkpoint() {
     for name in ["INT", "TERM"] {
         let bench = Bench::with(STAGGERED);
-        let child = bench.start(&[]).spawn().unwrap();
-        wait_for_step(&bench.run(), 30);
-        let text = answer(child, name, 1);
+        let (stopped, taken) = bench.stopped_by(name, 30, &[]);
+        assert!(taken < SOON, "{name}: {taken:?}");
+        let text = complained(&stopped);
         assert!(text.contains("stopped at t = ") && text.contains("agglo resume"), "{text}");
     }
 }

@@ -2,15 +2,10 @@
 
 use serde_json::Value;
 
-use crate::common::{STAGGERED, VERLET, reference};
+use crate::common::{self, STAGGERED, VERLET, number, reference};
 
 fn summary(scenario: &'static str) -> Value {
-    let text = std::fs::read_to_string(reference(scenario).join("summary.json")).unwrap();
-    serde_json::from_str(&text).unwrap()
-}
-
-fn number(value: &Value, key: &str) -> f64 {
-    value[key].as_f64().unwrap_or_else(|| panic!("{key} is {:?}", value[key]))
+    common::summary(reference(scenario))
 }
 
 #[test]

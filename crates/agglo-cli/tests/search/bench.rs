@@ -70,16 +70,14 @@ impl Bench {
         text.lines().skip(1).map(str::to_owned).collect()
     }
 
-    /// Waits until so many starts have ended, or all of them; false if the campaign has ended.
-    pub fn wait_for_starts(&self, starts: usize) -> bool {
+    /// Waits until so many starts have ended, or all of them.
+    pub fn wait_for_starts(&self, starts: usize) {
         let begun = Instant::now();
         loop {
-            if self.out().join("summary.json").exists() {
-                return false;
-            }
             let journal = std::fs::read(self.out().join("starts.journal")).unwrap_or_default();
-            if journal.split(|byte| *byte == b'\n').count() - 1 > starts {
-                return true;
+            let ended = journal.split(|byte| *byte == b'\n').count() - 1;
+            if ended > starts || self.out().join("summary.json").exists() {
+                return;
             }
             assert!(begun.elapsed() < Duration::from_secs(120), "no {starts} starts after two minutes");
             std::thread::sleep(Duration::from_millis(1));
