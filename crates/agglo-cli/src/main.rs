@@ -40,12 +40,17 @@ pub(crate) struct Failure {
 impl Failure {
     /// Something that the user asked for cannot be done.
     pub(crate) fn bad_input(message: impl Into<String>) -> Self {
-        Self { message: message.into(), code: 2, is_page: false }
+        Self::with_code(message, 2)
     }
 
     /// Something went wrong on the way.
     pub(crate) fn failed(message: impl Into<String>) -> Self {
-        Self { message: message.into(), code: 1, is_page: false }
+        Self::with_code(message, 1)
+    }
+
+    /// An error of the library with its exit code.
+    pub(crate) fn with_code(message: impl Into<String>, code: u8) -> Self {
+        Self { message: message.into(), code, is_page: false }
     }
 
     /// Faults as [`agglo::scenario::Faults::render`] draws them.

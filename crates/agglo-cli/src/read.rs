@@ -53,18 +53,17 @@ impl Source {
     /// Reads a file; `-` is the standard input, and the names that shells give to pipes are pipes.
     pub(crate) fn read(file: &Path) -> Result<Self, Failure> {
         let most = door::MOST_OF_A_TEXT;
-        let read = if file == Path::new("-") {
+        let (is_input, is_pipe) = (file == Path::new("-"), is_of_a_shell(file));
+        let read = if is_input {
             door::read_stream(io::stdin().lock(), most)
-        } else if is_of_a_shell(file) {
+        } else if is_pipe {
             std::fs::File::open(file).and_then(|stream| door::read_stream(stream, most))
         } else {
             door::read_text(file, most)
         };
-        let is_stream = file == Path::new("-") || is_of_a_shell(file);
-        let shown =
-            if file == Path::new("-") { "standard input".to_owned() } else { file.display().to_string() };
-        let base =
-            if is_stream { PathBuf::new() } else { file.parent().unwrap_or(Path::new("")).to_path_buf() };
+        let shown = if is_input { "standard input".to_owned() } else { file.display().to_string() };
+        let folder = file.parent().unwrap_or(Path::new(""));
+        let base = if is_input || is_pipe { PathBuf::new() } else { folder.to_path_buf() };
         match read {
             Ok(text) => Ok(Self { shown, base, text }),
             Err(error) if error.kind() == io::ErrorKind::NotFound => {

@@ -112,11 +112,8 @@ impl Wishes {
 
 /// Draws a run.
 pub(crate) fn render(wishes: &Wishes) -> Result<(), Failure> {
-    let refused = |error: agglo::render::RenderError| Failure {
-        message: format!("error: {error}"),
-        code: error.exit_code(),
-        is_page: false,
-    };
+    let refused =
+        |error: agglo::render::RenderError| Failure::with_code(format!("error: {error}"), error.exit_code());
     let (folder, path) = (&wishes.folder, wishes.output.display());
     if !folder.is_dir() {
         return Err(Failure::bad_input(format!("error: there is no folder {}", folder.display())));

@@ -79,11 +79,8 @@ pub(crate) fn default_folder(scenario: &Path) -> PathBuf {
 
 /// A folder that holds anything is left alone: it may be the only copy of another run.
 pub(crate) fn refuse_occupied(folder: &Path) -> Result<(), Failure> {
-    agglo::folder::vacant(folder).map_err(|error| Failure {
-        message: format!("error: {error}"),
-        code: error.exit_code(),
-        is_page: false,
-    })
+    agglo::folder::vacant(folder)
+        .map_err(|error| Failure::with_code(format!("error: {error}"), error.exit_code()))
 }
 
 /// Threads that can be asked for at the most.
@@ -158,11 +155,7 @@ fn go(
                 format!("stopped at t = {time} ({closing}); `agglo resume {shown}` goes on from there");
             Err(Failure::failed(message))
         }
-        Err(error) => Err(Failure {
-            message: format!("error: {error}\n({closing})"),
-            code: error.exit_code(),
-            is_page: false,
-        }),
+        Err(error) => Err(Failure::with_code(format!("error: {error}\n({closing})"), error.exit_code())),
     }
 }
 

@@ -66,11 +66,7 @@ fn go(
         Ok(CampaignEnding::Interrupted) => Err(Failure::failed(format!(
             "stopped ({closing}); all simulations that ended are kept, `agglo resume {shown}` goes on from there"
         ))),
-        Err(error) => Err(Failure {
-            message: format!("error: {error}\n({closing})"),
-            code: error.exit_code(),
-            is_page: false,
-        }),
+        Err(error) => Err(Failure::with_code(format!("error: {error}\n({closing})"), error.exit_code())),
     }
 }
 

@@ -1,7 +1,7 @@
 //! Files are opened where they are: links are not followed, and only regular files are opened at all.
 
 use std::fs::{File, OpenOptions};
-use std::io::{self, ErrorKind};
+use std::io;
 use std::path::Path;
 
 use crate::record::door;
@@ -13,7 +13,7 @@ use crate::record::door;
 pub fn open(path: &Path, options: &mut OpenOptions) -> io::Result<File> {
     if let Ok(data) = path.symlink_metadata() {
         // Looked at before it is opened: opening a pipe waits for its other end.
-        regular(&data)?;
+        door::regular(&data)?;
     }
     #[cfg(unix)]
     {
@@ -22,7 +22,7 @@ pub fn open(path: &Path, options: &mut OpenOptions) -> io::Result<File> {
         options.custom_flags(rustix::fs::OFlags::NOFOLLOW.bits().cast_signed());
     }
     let file = options.open(path)?;
-    regular(&file.metadata()?)?;
+    door::regular(&file.metadata()?)?;
     Ok(file)
 }
 
@@ -32,7 +32,7 @@ pub fn open(path: &Path, options: &mut OpenOptions) -> io::Result<File> {
 /// As [`open`].
 pub fn create(path: &Path) -> io::Result<File> {
     if let Ok(data) = path.symlink_metadata() {
-        regular(&data)?;
+        door::regular(&data)?;
         std::fs::remove_file(path)?;
     }
     OpenOptions::new().read(true).write(true).create_new(true).open(path)
@@ -44,17 +44,6 @@ pub fn create(path: &Path) -> io::Result<File> {
 /// As [`open`], or that the file is too large.
 pub fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     door::read_all(open(path, OpenOptions::new().read(true))?, most)
-}
-
-/// Refuses what is no regular file.
-fn regular(data: &std::fs::Metadata) -> io::Result<()> {
-    let what = match data.file_type() {
-        kind if kind.is_file() => return Ok(()),
-        kind if kind.is_symlink() => "it is a symbolic link, which is not followed",
-        kind if kind.is_dir() => "it is a folder",
-        _ => "it is no regular file",
-    };
-    Err(io::Error::new(ErrorKind::InvalidInput, what))
 }
 
 #[cfg(all(test, unix))]

@@ -52,9 +52,9 @@ impl Lock {
     /// # Errors
     /// [`FolderError`].
     pub(super) fn take_new(dir: &Path) -> Result<(Traces, Self), FolderError> {
-        const TRIES: u32 = 5;
+        const FOLDERS: u32 = 5;
         let mut made = Traces::make(dir)?;
-        for _ in 1..TRIES {
+        for _ in 1..FOLDERS {
             match Self::take(dir) {
                 // A process that gave up took the folder away between our two calls.
                 Err(FolderError::Record(_)) if !dir.exists() => made = Traces::make(dir)?,

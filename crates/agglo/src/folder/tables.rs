@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::{FolderError, names};
 use crate::packing::Placement;
-use crate::record::{RecordError, atomic};
+use crate::record::{RecordError, atomic, door};
 use crate::scenario::Scenario;
 
 /// The tables that are in a folder so far.
@@ -57,7 +57,7 @@ impl<'a> Tables<'a> {
             numbered.push(&name);
             place = Path::new(names::TABLES).join(numbered);
         }
-        let bytes = std::fs::read(from).map_err(RecordError::file("read", from))?;
+        let bytes = door::read(from, door::MOST_OF_A_TABLE).map_err(RecordError::file("read", from))?;
         atomic::write(&self.root.join(&place), &bytes)?;
         self.known.insert(from.to_owned(), place.clone());
         Ok(place)

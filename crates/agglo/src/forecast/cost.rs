@@ -6,7 +6,6 @@ use crate::acoustics::RayForce;
 use crate::engine::Engine;
 use crate::run::{Rehearsal, Stretches};
 use crate::scenario::{Output, Scenario};
-use crate::units::Time;
 
 /// Pairs of grains at a distance in one evaluation of forces, above which not even one is tried: some seconds' work.
 const MOST_PAIRS: f64 = 1e9;
@@ -111,17 +110,13 @@ pub(super) fn of_files(plan: &mut Plan, scenario: &Scenario, tried: &Rehearsal, 
     let Output { series, frames, pulses, .. } = scenario.resolved().output;
     let left = scenario.time.end.si() - tried.time;
     let flying_left = (flights(scenario, pushes) - tried.flying.all.time).clamp(0.0, left);
-    let due = |interval: Option<Time>, time: f64| interval.map_or(0.0, |interval| time / interval.si());
-    // While rays fly the denser of two intervals holds.
-    let dense = pulses.unwrap_or_default();
-    let flying =
-        |often: Option<Time>, always: Option<Time>| due(often, flying_left).max(due(always, flying_left));
-    let quiet_left = left - flying_left;
-    let rows = due(series, quiet_left) + flying(dense.series, series);
+    let (dense, times) = (pulses.unwrap_or_default(), [left - flying_left, flying_left]);
+    let rows: f64 = counts::due([series, dense.series], times).iter().sum();
     let frame = weights.frame.or(weights.flying_frame).unwrap_or(0.0);
     let all_rays = weights.flying_frame.unwrap_or(frame) - frame;
     let flying_frame = frame + counts::PART_IN_FLIGHT * all_rays;
-    let frames = due(frames, quiet_left) * frame + flying(dense.frames, frames) * flying_frame;
+    let [quiet_frames, flying_frames] = counts::due([frames, dense.frames], times);
+    let frames = quiet_frames * frame + flying_frames * flying_frame;
     let kept = CHECKPOINTS_KEPT * weights.checkpoint;
     let [grains, rays] = counts::shown(plan, scenario, flights(scenario, pushes));
     let report = BYTES_PER_REPORT + BYTES_PER_SHOWN_GRAIN * grains + BYTES_PER_SHOWN_RAY * rays;

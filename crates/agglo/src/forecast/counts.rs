@@ -21,13 +21,13 @@ const BYTES_PER_SHOWN_RAY: f64 = 56.0;
 const MOST_SHOWN: f64 = 1.3e6;
 /// Of the rays of a pulse, those that are in flight in the mean of its time.
 pub(super) const PART_IN_FLIGHT: f64 = 0.5;
-pub(super) const BYTES_PER_GRAIN: f64 = 400.0;
-pub(super) const BYTES_PER_CONTACT: f64 = 200.0;
-pub(super) const BYTES_PER_RAY: f64 = 120.0;
+const BYTES_PER_GRAIN: f64 = 400.0;
+const BYTES_PER_CONTACT: f64 = 200.0;
+const BYTES_PER_RAY: f64 = 120.0;
 /// A row of a table of grains has hardly fewer than this.
 const BYTES_PER_TABLE_ROW: f64 = 20.0;
 /// Contacts and bonds per grain: a random packing has about six neighbours each, shared by two.
-pub(super) const CONTACTS_PER_GRAIN: f64 = 3.0;
+const CONTACTS_PER_GRAIN: f64 = 3.0;
 
 /// Expected number of grains of each group.
 pub(super) fn grains(plan: &mut Plan, scenario: &Scenario, base: &Path) -> Vec<u64> {
@@ -49,11 +49,23 @@ pub(super) fn grains(plan: &mut Plan, scenario: &Scenario, base: &Path) -> Vec<u
 
 /// Memory of the run, its report included; `flights` is how long rays fly in all [s].
 pub(super) fn memory(plan: &mut Plan, scenario: &Scenario, flights: f64) {
-    let contacts = if scenario.engine.is_hard() { 0.0 } else { CONTACTS_PER_GRAIN };
-    let grains = plan.grains as f64 * (BYTES_PER_GRAIN + contacts * BYTES_PER_CONTACT);
     let [shown_grains, shown_rays] = shown(plan, scenario, flights);
     let report = BYTES_OF_REPORT + shown_grains * BYTES_PER_SHOWN_GRAIN + shown_rays * BYTES_PER_SHOWN_RAY;
-    plan.memory = BYTES_OF_PROGRAM + grains + plan.rays_per_pulse as f64 * BYTES_PER_RAY + report;
+    let [grains, rays] = [plan.grains, plan.rays_per_pulse].map(|count| count as f64);
+    plan.memory = BYTES_OF_PROGRAM + of_state(grains, rays, scenario.engine.is_hard()) + report;
+}
+
+/// Memory of grains, with the contacts of soft ones, and of rays [B].
+pub(super) fn of_state(grains: f64, rays: f64, is_hard: bool) -> f64 {
+    let contacts = if is_hard { 0.0 } else { CONTACTS_PER_GRAIN };
+    grains * (BYTES_PER_GRAIN + contacts * BYTES_PER_CONTACT) + rays * BYTES_PER_RAY
+}
+
+/// Rows or frames that are due in a time without rays in flight and in one with rays [s]: while rays fly the denser of two
+/// intervals holds.
+pub(super) fn due([always, often]: [Option<Time>; 2], [quiet, flying]: [f64; 2]) -> [f64; 2] {
+    let within = |interval: Option<Time>, time: f64| interval.map_or(0.0, |interval| time / interval.si());
+    [within(always, quiet), within(always, flying).max(within(often, flying))]
 }
 
 /// Grains and rays in the frames that a report shows, all frames together.
@@ -66,13 +78,13 @@ pub(super) fn shown(plan: &Plan, scenario: &Scenario, flights: f64) -> [f64; 2] 
     [part * grains, part * rays]
 }
 
-/// Frames without and with rays in flight: while rays fly the denser of two intervals holds.
+/// Frames without and with rays in flight.
 fn frames(scenario: &Scenario, flights: f64) -> [f64; 2] {
     let output = scenario.resolved().output;
-    let due = |interval: Option<Time>, time: f64| interval.map_or(0.0, |interval| time / interval.si());
-    let flying = due(output.frames, flights).max(due(output.pulses.unwrap_or_default().frames, flights));
+    let intervals = [output.frames, output.pulses.unwrap_or_default().frames];
+    let [quiet, flying] = due(intervals, [scenario.time.end.si() - flights, flights]);
     let first = if output.frames.is_some() { 1.0 } else { 0.0 };
-    [first + due(output.frames, scenario.time.end.si() - flights), flying]
+    [first + quiet, flying]
 }
 
 pub(super) fn pulses(plan: &mut Plan, scenario: &Scenario) {

@@ -23,7 +23,7 @@ use crate::packing::{PackingError, place_groups};
 use crate::particles::Particles;
 use crate::run::{Rehearsal, RunError, rehearse};
 use crate::scenario::Scenario;
-use crate::scenario::figures::{digits, readable};
+use crate::scenario::figures::{digits, readable, two_digits};
 use gas::Gas;
 pub use room::{Demand, Room};
 pub(crate) use room::{refuse_quiet, refuse_run};
@@ -194,10 +194,10 @@ impl Plan {
         row("steps", self.steps.map_or(UNKNOWN.to_owned(), |steps| format!("about {}", about(steps))));
         rows.extend(self.figures.iter().cloned());
         let mut row = |label: &str, value: String| rows.push((label.to_owned(), value));
-        row("memory", format!("about {}", readable(rounded(self.memory), "B")));
+        row("memory", format!("about {}", readable(two_digits(self.memory), "B")));
         row(
             "disk",
-            self.disk.map_or(UNKNOWN.to_owned(), |disk| format!("about {}", readable(rounded(disk), "B"))),
+            self.disk.map_or(UNKNOWN.to_owned(), |disk| format!("about {}", readable(two_digits(disk), "B"))),
         );
         row("time of the run", self.seconds.map_or(UNKNOWN.to_owned(), duration));
         rows
@@ -213,18 +213,13 @@ fn smallest(scenario: &Scenario, placed: Option<&Particles>) -> f64 {
     }
 }
 
-/// Two significant digits: what is told from the start of a run is no better.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.1e}").parse().unwrap_or(value)
-}
-
 /// A year [s], and a time that nobody waits for.
 const YEAR: f64 = 31_557_600.0;
 const LONGEST: f64 = 1000.0 * YEAR;
 
 /// A count in words: "1600", "3.2e6".
 fn about(value: f64) -> String {
-    digits(rounded(value.max(1.0)))
+    digits(two_digits(value.max(1.0)))
 }
 
 /// A time as people say it: "about 3 s", "about 12 min", "about 5 h".

@@ -5,11 +5,11 @@
 
 use std::path::{Path, PathBuf};
 
-use super::counts::{self, BYTES_PER_CONTACT, BYTES_PER_GRAIN, BYTES_PER_RAY, CONTACTS_PER_GRAIN};
+use super::counts;
 use crate::packing::PackingError;
 use crate::record::door;
 use crate::scenario::Scenario;
-use crate::scenario::figures::{digits, readable};
+use crate::scenario::figures::{digits, readable, two_digits};
 
 /// A pulse that is due, and its books once it has flown.
 const BYTES_PER_PULSE: f64 = 160.0;
@@ -67,10 +67,7 @@ impl Demand {
 
     /// Memory [B].
     pub fn memory(&self) -> f64 {
-        let contacts = if self.is_hard { 0.0 } else { CONTACTS_PER_GRAIN };
-        self.grains * (BYTES_PER_GRAIN + contacts * BYTES_PER_CONTACT)
-            + self.rays * BYTES_PER_RAY
-            + self.pulses * BYTES_PER_PULSE
+        counts::of_state(self.grains, self.rays, self.is_hard) + self.pulses * BYTES_PER_PULSE
     }
 
     /// Disk for rows and frames [B].
@@ -154,7 +151,7 @@ pub fn judge(room: &Room, memory: f64, disk: Option<f64>) -> Result<Vec<String>,
         refuse(what, needed, there, "the whole run".to_owned(), help)?;
         if there.is_some_and(|there| needed > MUCH * there) {
             let [needed, there] =
-                [needed, there.unwrap_or(0.0)].map(|bytes| readable(super::rounded(bytes), "B"));
+                [needed, there.unwrap_or(0.0)].map(|bytes| readable(two_digits(bytes), "B"));
             notes.push(format!(
                 "{what}: about {needed} of the {there} that are there; {help} if that is too much"
             ));

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::scenario::figures::two_digits;
 use crate::scenario::{readable, told_apart};
 
 /// Solid fraction at which random sequential addition of equal spheres comes to its end.
@@ -10,11 +11,6 @@ pub const SATURATION: f64 = 0.382;
 /// One of two values that differ, with enough digits to see it.
 fn apart(values: [f64; 2], unit: &str, which: usize) -> String {
     told_apart(values, unit)[which].clone()
-}
-
-/// Two significant digits.
-fn shortened(bytes: f64) -> f64 {
-    format!("{bytes:.1e}").parse().unwrap_or(bytes)
 }
 
 /// Why the grains could not be placed. `group` is the place in the scenario's list `grains`, from 0.
@@ -68,7 +64,7 @@ pub enum PackingError {
     /// The machine has less memory or disk than a run would take.
     #[error(
         "the run would take about {} of {what} ({who}), and {} are there: {help}",
-        readable(shortened(*.needed), "B"), readable(shortened(*.there), "B")
+        readable(two_digits(*.needed), "B"), readable(two_digits(*.there), "B")
     )]
     NoRoom {
         /// "memory" or "disk".

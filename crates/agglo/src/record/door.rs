@@ -18,18 +18,24 @@ pub const MOST_OF_A_STATE: u64 = 64 << 30;
 /// # Errors
 /// What the system says, or that it is no regular file.
 pub fn open(path: &Path) -> io::Result<File> {
-    refuse_irregular(&std::fs::metadata(path)?)?;
+    regular(&std::fs::metadata(path)?)?;
     let file = File::open(path)?;
-    refuse_irregular(&file.metadata()?)?;
+    regular(&file.metadata()?)?;
     Ok(file)
 }
 
-fn refuse_irregular(found: &std::fs::Metadata) -> io::Result<()> {
-    if found.is_file() {
-        return Ok(());
-    }
-    let what = if found.is_dir() { "a folder" } else { "a device, pipe or socket" };
-    Err(io::Error::other(format!("it is {what}, and only regular files are read")))
+/// Refuses what is no regular file; a link only where it was not followed.
+///
+/// # Errors
+/// What it is instead.
+pub fn regular(found: &std::fs::Metadata) -> io::Result<()> {
+    let what = match found.file_type() {
+        kind if kind.is_file() => return Ok(()),
+        kind if kind.is_symlink() => "it is a symbolic link, which is not followed",
+        kind if kind.is_dir() => "it is a folder, and only regular files are read",
+        _ => "it is a device, pipe or socket, and only regular files are read",
+    };
+    Err(io::Error::new(io::ErrorKind::InvalidInput, what))
 }
 
 /// All bytes of a regular file of at most `most` bytes.

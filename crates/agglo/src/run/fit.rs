@@ -8,7 +8,7 @@ use super::RunError;
 use super::job::AnySaved;
 use crate::folder::{RunFolder, files};
 use crate::record::checkpoint::{self, Refused};
-use crate::record::{Opened, RecordError, door};
+use crate::record::{Opened, RecordError, cell, door};
 use crate::scenario::Scenario;
 
 /// Keys that a message names at the most.
@@ -172,9 +172,7 @@ fn compare(checkpoint: &Json, file: &Json, key: &str, found: &mut Vec<String>) {
 
 /// A value as it stands in a message.
 fn short(value: &Json) -> String {
-    const MOST: usize = 60;
-    let text = if value.is_null() { "not there".to_owned() } else { value.to_string() };
-    if text.chars().count() <= MOST { text } else { text.chars().take(MOST).chain("...".chars()).collect() }
+    if value.is_null() { "not there".to_owned() } else { cell(&value.to_string()) }
 }
 
 fn listed(keys: &[String]) -> String {

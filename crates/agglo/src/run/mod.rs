@@ -30,7 +30,7 @@ pub use summary::Summary;
 use crate::folder::RunFolder;
 use crate::packing::{PackingError, place_watched};
 use crate::particles::Particles;
-use crate::record::RecordError;
+use crate::record::{RecordError, door};
 use crate::scenario::Scenario;
 use crate::units::Time;
 use hard::Hard;
@@ -194,7 +194,7 @@ pub fn finished(dir: &Path) -> Option<Summary> {
 pub fn summary(dir: &Path) -> Result<Option<Summary>, RecordError> {
     let Ok(folder) = RunFolder::open(dir) else { return Ok(None) };
     let path = folder.summary();
-    let text = match crate::record::door::read_text(&path, crate::record::door::MOST_OF_A_TEXT) {
+    let text = match door::read_text(&path, door::MOST_OF_A_TEXT) {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
         read => read.map_err(RecordError::file("read", &path))?,
     };

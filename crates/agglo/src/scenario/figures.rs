@@ -16,6 +16,11 @@ pub fn digits(value: f64) -> String {
     significant(value, DIGITS)
 }
 
+/// A value to two significant digits: what is only reckoned is known no better.
+pub fn two_digits(value: f64) -> f64 {
+    format!("{value:.1e}").parse().unwrap_or(value)
+}
+
 /// Values that stand side by side, each with as many digits (four at least) as tell those apart that differ:
 /// "1.00004 mm" and "1.00001 mm".
 pub fn told_apart<const N: usize>(values: [f64; N], unit: &str) -> [String; N] {

@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 pub use figures::{Curve, Figure};
 
 use crate::folder::RunFolder;
-use crate::record::RecordError;
+use crate::record::{RecordError, door};
 use crate::run::Summary;
 use crate::scenario::Scenario;
 
@@ -77,8 +77,7 @@ impl Follower {
         if !path.is_file() {
             return Err(WatchError::NoRun { dir: dir.to_owned(), missing: path });
         }
-        let text = crate::record::door::read_text(&path, crate::record::door::MOST_OF_A_TEXT)
-            .map_err(RecordError::file("read", &path))?;
+        let text = door::read_text(&path, door::MOST_OF_A_TEXT).map_err(RecordError::file("read", &path))?;
         let scenario = Scenario::from_toml(&text)
             .map_err(|faults| WatchError::Scenario { path, reason: faults.to_string() })?;
         let is_hard = scenario.engine.is_hard();

@@ -63,6 +63,12 @@ impl Agenda {
         exit: Exit { axis: 0, side: 1, is_wall: false },
     };
 
+    /// The partner is met so many edges of the volume farther along an axis.
+    #[inline]
+    pub fn shift(&mut self, axis: usize, edges: i8) {
+        self.image[axis] = self.image[axis].saturating_add(edges);
+    }
+
     /// Time of its next event [s].
     #[inline]
     pub fn due(&self) -> f64 {

@@ -292,10 +292,8 @@ impl Events {
     fn shift_images(&mut self, sphere: u32, axis: usize, edges: i8) {
         let partner = self.agendas[sphere as usize].partner;
         if partner != NONE {
-            let own = &mut self.agendas[sphere as usize].image[axis];
-            *own = own.saturating_add(edges);
-            let its = &mut self.agendas[partner as usize].image[axis];
-            *its = its.saturating_sub(edges);
+            self.agendas[sphere as usize].shift(axis, edges);
+            self.agendas[partner as usize].shift(axis, edges.saturating_neg());
         }
     }
 

@@ -30,6 +30,7 @@ pub use verbs::{planned, refuse_too_large, resume, run, way_of};
 use std::path::Path;
 
 use crate::folder::CampaignFolder;
+use crate::record::door;
 
 /// How a campaign ended without an error.
 #[derive(Clone, Debug)]
@@ -52,11 +53,7 @@ pub fn finished(dir: &Path) -> Option<CampaignSummary> {
     if !is_one(dir) {
         return None;
     }
-    let text = crate::record::door::read_text(
-        &CampaignFolder::at(dir).summary(),
-        crate::record::door::MOST_OF_A_TEXT,
-    )
-    .ok()?;
+    let text = door::read_text(&CampaignFolder::at(dir).summary(), door::MOST_OF_A_TEXT).ok()?;
     serde_json::from_str(&text).ok()
 }
 
