@@ -28,6 +28,9 @@ pub(crate) enum Verb {
         /// Replace a value of the file, such as time.end="1 s"; may be repeated
         #[arg(long = "set", value_name = "KEY=VALUE")]
         settings: Vec<String>,
+        /// Start from the last state of the run in this folder, or from one of its checkpoints
+        #[arg(long, value_name = "FOLDER")]
+        from: Option<PathBuf>,
     },
     /// Print the page of a law, or the list of all laws
     Explain {
@@ -115,6 +118,9 @@ pub(crate) struct ResumeOrders {
 pub(crate) struct RunOrders {
     #[command(flatten)]
     pub orders: Orders,
+    /// Start from the last state of the run in this folder, or from one of its checkpoints
+    #[arg(long, value_name = "FOLDER")]
+    pub from: Option<PathBuf>,
     /// Show a dashboard in the terminal meanwhile, as `agglo watch` does
     #[cfg(feature = "watch")]
     #[arg(long)]

@@ -17,6 +17,7 @@ mod signals;
 mod watch;
 
 use std::io::{self, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
 use agglo::forecast::Plan;
@@ -77,7 +78,7 @@ fn main() -> ExitCode {
 fn act(verb: Verb) -> Result<(), Failure> {
     match verb {
         Verb::New { template } => new(&template),
-        Verb::Check { scenario, settings } => check(&scenario, &settings),
+        Verb::Check { scenario, settings, from } => check(&scenario, settings, from.as_deref()),
         Verb::Explain { law } => explain::explain(law.as_deref()),
         Verb::ListLaws(form) => laws::list(form),
         Verb::Completions { shell } => manuals::completions(shell),
@@ -117,12 +118,15 @@ fn new(name: &str) -> Result<(), Failure> {
     Err(Failure::bad_input(format!("error: there is no template \"{name}\"{advice}\n{known}")))
 }
 
-fn check(file: &std::path::Path, settings: &[String]) -> Result<(), Failure> {
+fn check(file: &Path, settings: Vec<String>, from: Option<&Path>) -> Result<(), Failure> {
     let source = Source::read(file)?;
     if source.kind() != Kind::Scenario {
-        return search::check(&source, settings);
+        if from.is_some() {
+            source.refuse_other_kind(Kind::Scenario)?;
+        }
+        return search::check(&source, &settings);
     }
-    let scenario = source.scenario(settings)?;
+    let scenario = source.scenario(&run::starting_from(settings, from)?)?;
     let plan = Plan::new(&scenario, &source.base)
         .map_err(|error| Failure::bad_input(format!("error: {}: {error}", source.shown)))?;
     print(&format!("{} is sound\n{plan}", source.shown))

@@ -20,7 +20,7 @@ pub(crate) fn run(run_orders: &RunOrders) -> Result<(), Failure> {
     let orders = &run_orders.orders;
     let source = read::Source::read(&orders.scenario)?;
     source.refuse_other_kind(read::Kind::Scenario)?;
-    let scenario = source.scenario(&settings(orders))?;
+    let scenario = source.scenario(&starting_from(settings(orders), run_orders.from.as_deref())?)?;
     let folder = orders.output.clone().unwrap_or_else(|| default_folder(&orders.scenario));
     refuse_occupied(&folder)?;
     let beside = |stop| companion(run_orders, &folder, stop);
@@ -69,6 +69,18 @@ pub(crate) fn resume(orders: &ResumeOrders) -> Result<(), Failure> {
 pub(crate) fn settings(orders: &Orders) -> Vec<String> {
     let seed = orders.seed.map(|seed| format!("seed={seed}"));
     orders.settings.iter().cloned().chain(seed).collect()
+}
+
+/// Settings, with the run that grains are taken from; its path holds from wherever the scenario lies.
+pub(crate) fn starting_from(mut settings: Vec<String>, from: Option<&Path>) -> Result<Vec<String>, Failure> {
+    if let Some(from) = from {
+        let bad = |reason: String| Failure::bad_input(format!("error: --from {}: {reason}", from.display()));
+        let path = std::path::absolute(from).map_err(|error| bad(error.to_string()))?;
+        let text = path.to_str().ok_or_else(|| bad("the path is not text".to_owned()))?;
+        // As JSON quotes a text, so does TOML.
+        settings.push(format!("start.from={}", serde_json::Value::from(text)));
+    }
+    Ok(settings)
 }
 
 /// Where the results go if no folder is named.

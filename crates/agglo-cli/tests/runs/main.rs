@@ -10,6 +10,7 @@ mod damage;
 mod disk;
 mod end;
 mod foreign;
+mod from;
 mod hard;
 mod hostile;
 mod killed;

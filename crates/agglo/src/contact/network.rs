@@ -70,6 +70,17 @@ impl Network {
         network
     }
 
+    /// Takes the bonds that grains bring along; without them bonds neighbors.
+    pub fn start(law: Option<&Beam>, bonds: Option<Vec<Bond>>, grains: &Particles) -> Self {
+        match bonds {
+            Some(bonds) => {
+                let held = bonds.len();
+                Self::restored(law, bonds, held, grains.len())
+            }
+            None => Self::bond_neighbours(law, grains),
+        }
+    }
+
     /// Puts saved bonds back.
     pub fn restored(law: Option<&Beam>, bonds: Vec<Bond>, made_at_start: usize, grains: usize) -> Self {
         let mut network = Self { law: law.cloned(), bonds, made_at_start, ..Self::default() };

@@ -161,6 +161,14 @@ impl Contacts {
         self.parted.clear();
     }
 
+    /// Keeps the memory of a pass over which no time went by: contacts that slid before still slide, though nothing moved.
+    pub fn commit_unmoved(&mut self) {
+        for (pair, spring) in self.trial.springs.iter_mut().enumerate() {
+            spring.sliding |= self.committed.touching[pair] && self.committed.springs[pair].sliding;
+        }
+        self.commit();
+    }
+
     /// Whether a pair touched in the last pass, and its load.
     #[inline]
     pub fn load(&self, pair: usize) -> Option<&ContactLoad> {

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-use super::{FolderError, names};
+use super::{FolderError, RunFolder, names};
 use crate::packing::Placement;
-use crate::record::{RecordError, atomic, door};
+use crate::record::{RecordError, atomic, checkpoint, door};
 use crate::scenario::Scenario;
 
 /// The tables that are in a folder so far.
@@ -33,6 +33,9 @@ impl<'a> Tables<'a> {
                 table.file = self.adopt(&base.join(&table.file))?;
             }
         }
+        if let Some(from) = &mut scenario.start.from {
+            *from = self.adopt_state(&base.join(&*from))?;
+        }
         Ok(scenario)
     }
 
@@ -41,6 +44,19 @@ impl<'a> Tables<'a> {
     /// # Errors
     /// [`FolderError::Record`].
     pub fn adopt(&mut self, from: &Path) -> Result<PathBuf, FolderError> {
+        self.copy(from, door::MOST_OF_A_TABLE)
+    }
+
+    /// Copies a checkpoint, or the newest one of a run's folder, which may grow older meanwhile.
+    ///
+    /// # Errors
+    /// [`FolderError::Record`].
+    pub fn adopt_state(&mut self, from: &Path) -> Result<PathBuf, FolderError> {
+        let all = checkpoint::newest_first(&RunFolder::at(from).checkpoints()).unwrap_or_default();
+        self.copy(all.first().map_or(from, PathBuf::as_path), door::MOST_OF_A_STATE)
+    }
+
+    fn copy(&mut self, from: &Path, most: u64) -> Result<PathBuf, FolderError> {
         if let Some(place) = self.known.get(from) {
             return Ok(place.clone());
         }
@@ -57,7 +73,7 @@ impl<'a> Tables<'a> {
             numbered.push(&name);
             place = Path::new(names::TABLES).join(numbered);
         }
-        let bytes = door::read(from, door::MOST_OF_A_TABLE).map_err(RecordError::file("read", from))?;
+        let bytes = door::read(from, most).map_err(RecordError::file("read", from))?;
         atomic::write(&self.root.join(&place), &bytes)?;
         self.known.insert(from.to_owned(), place.clone());
         Ok(place)

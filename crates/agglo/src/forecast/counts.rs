@@ -5,8 +5,9 @@ use std::path::Path;
 
 use super::Plan;
 use crate::domain::{Region, Volume};
+use crate::folder::RunFolder;
 use crate::packing::{Lattice, LatticeKind, Placement, SATURATION};
-use crate::record::door;
+use crate::record::{checkpoint, door};
 use crate::scenario::{GrainGroup, Scenario};
 use crate::units::Time;
 
@@ -24,6 +25,8 @@ pub(super) const PART_IN_FLIGHT: f64 = 0.5;
 const BYTES_PER_GRAIN: f64 = 400.0;
 const BYTES_PER_CONTACT: f64 = 200.0;
 const BYTES_PER_RAY: f64 = 120.0;
+/// A checkpoint has hardly fewer than this for each grain.
+const BYTES_PER_SAVED_GRAIN: f64 = 150.0;
 /// A row of a table of grains has hardly fewer than this.
 const BYTES_PER_TABLE_ROW: f64 = 20.0;
 /// Contacts and bonds per grain: a random packing has about six neighbours each, shared by two.
@@ -129,6 +132,16 @@ pub(super) fn expected(group: &GrainGroup, volume: Option<&Volume>, base: &Path)
         }
         _ => count_of(group, volume) as f64,
     }
+}
+
+/// Grains that another run brings, by the size of its newest checkpoint; 0 where none is asked for, or found.
+pub(super) fn of_earlier_run(scenario: &Scenario, base: &Path) -> f64 {
+    let Some(from) = &scenario.start.from else { return 0.0 };
+    let path = base.join(from);
+    let newest =
+        checkpoint::newest_first(&RunFolder::at(&path).checkpoints()).ok().into_iter().flatten().next();
+    let bytes = std::fs::metadata(newest.unwrap_or(path)).map_or(0, |found| found.len());
+    bytes as f64 / BYTES_PER_SAVED_GRAIN
 }
 
 /// Lattice points per volume, in a region smaller by a grain's radius on all sides.

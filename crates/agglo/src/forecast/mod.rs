@@ -15,13 +15,14 @@ mod push;
 mod room;
 
 use std::fmt;
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use crate::engine::SimError;
-use crate::packing::{PackingError, place_groups};
+use crate::engine::{SimError, Start};
+use crate::packing::PackingError;
 use crate::particles::Particles;
-use crate::run::{Rehearsal, RunError, rehearse};
+use crate::run::{Origin, Rehearsal, RunError, rehearse};
 use crate::scenario::Scenario;
 use crate::scenario::figures::{digits, readable, two_digits};
 use gas::Gas;
@@ -93,27 +94,34 @@ impl Plan {
         demand.refuse_memory(&room, 1)?;
         demand.refuse_disk(&room)?;
         let mut plan = Self::default();
-        let mut counts = counts::grains(&mut plan, scenario, base);
+        let counts = counts::grains(&mut plan, scenario, base);
         counts::pulses(&mut plan, scenario);
         let began = Instant::now();
-        let mut placed = None;
-        if plan.grains <= effort.most_grains {
-            let (grains, found) = place_groups(scenario, base)?;
-            plan.grains = grains.len() as u64;
-            counts = found;
-            placed = Some(grains);
-        }
+        let is_known = scenario.start.from.is_some() || plan.grains <= effort.most_grains;
+        let origin =
+            is_known.then(|| Origin::of(scenario, base, &mut || ControlFlow::Continue(()))).transpose()?;
         let placed_s = began.elapsed().as_secs_f64();
-        let gas =
-            if scenario.engine.is_hard() { Gas::at_start(scenario, &counts, placed.as_ref()) } else { None };
-        let mut pushes = placed.as_ref().map_or_else(Vec::new, |grains| push::all(scenario, grains));
-        pushes.retain(|push| plan.can_tell(push));
-        let smallest = smallest(scenario, placed.as_ref());
-        push::describe(&mut plan, &pushes);
-        if let Some(grains) = &placed {
-            placed::notes(&mut plan.notes, scenario, grains);
+        // Grains of another run are told by what they are, as if the scenario had asked for them.
+        let told =
+            origin.as_ref().map(|origin| Scenario { grains: origin.groups.clone(), ..scenario.clone() });
+        let scenario = told.as_ref().unwrap_or(scenario);
+        if let Some(origin) = &origin {
+            plan.starts_from(origin);
         }
-        let tried = placed.and_then(|grains| plan.rehearsal(scenario, grains, effort.budget));
+        let gas = scenario.engine.is_hard().then(|| match &origin {
+            Some(origin) => Gas::at_start(scenario, &origin.counts, Some(&origin.by_groups())),
+            None => Gas::at_start(scenario, &counts, None),
+        });
+        let gas = gas.flatten();
+        let start = origin.map(|origin| origin.start);
+        let mut pushes = start.as_ref().map_or_else(Vec::new, |start| push::all(scenario, &start.grains));
+        pushes.retain(|push| plan.can_tell(push));
+        let smallest = smallest(scenario, start.as_ref().map(|start| &start.grains));
+        push::describe(&mut plan, &pushes);
+        if let Some(start) = &start {
+            placed::notes(&mut plan.notes, scenario, start);
+        }
+        let tried = start.and_then(|start| plan.rehearsal(scenario, start, effort.budget));
         match (&gas, &tried) {
             (Some(gas), tried) => hard::estimate(&mut plan, scenario, gas, tried.as_ref()),
             (None, Some(tried)) => cost::of_soft(&mut plan, scenario, tried, &pushes),
@@ -129,6 +137,15 @@ impl Plan {
         plan.notes.extend(of_room);
         notes::collect(&mut plan, scenario, &pushes, smallest);
         Ok(plan)
+    }
+
+    /// Counts the grains, and says which run they come from.
+    fn starts_from(&mut self, origin: &Origin) {
+        self.grains = origin.start.grains.len() as u64;
+        if let Some(earlier) = &origin.earlier {
+            self.figures.push(("starts from".to_owned(), earlier.words.clone()));
+            self.notes.extend(origin.start.warnings.iter().cloned());
+        }
     }
 
     /// Whether a push came to numbers; a note where it did not.
@@ -153,14 +170,14 @@ impl Plan {
     }
 
     /// Tries the first steps; nothing where that would take too long, or where the start fails.
-    fn rehearsal(&mut self, scenario: &Scenario, grains: Particles, budget: Duration) -> Option<Rehearsal> {
-        if let Some(reason) = cost::too_much_to_try(scenario, grains.len()) {
+    fn rehearsal(&mut self, scenario: &Scenario, start: Start, budget: Duration) -> Option<Rehearsal> {
+        if let Some(reason) = cost::too_much_to_try(scenario, start.grains.len()) {
             self.notes.push(format!("steps and time are not known: {reason}"));
             return None;
         }
         let may_try_again = scenario.start.relax.is_some() || scenario.acoustics.is_some();
-        let again = may_try_again.then(|| grains.clone());
-        let mut tried = rehearse(scenario, grains, budget);
+        let again = may_try_again.then(|| start.clone());
+        let mut tried = rehearse(scenario, start, budget);
         if matches!(tried, Err(RunError::Start(SimError::StoppedAtRest)))
             && let Some(again) = &again
         {

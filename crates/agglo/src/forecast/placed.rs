@@ -2,21 +2,23 @@
 
 use crate::contact::Bonds;
 use crate::contact::network::Network;
+use crate::engine::Start;
 use crate::engine::soft::{truncation, warning_of_bonds};
 use crate::particles::Particles;
 use crate::scenario::Scenario;
 use crate::scenario::figures::digits;
 
-pub(super) fn notes(notes: &mut Vec<String>, scenario: &Scenario, grains: &Particles) {
-    notes.extend(bonds(scenario, grains));
+pub(super) fn notes(notes: &mut Vec<String>, scenario: &Scenario, start: &Start) {
+    let grains = &start.grains;
+    notes.extend(bonds(scenario, start));
     notes.extend(region(scenario, grains));
     notes.extend(cutoff(scenario, grains));
 }
 
 /// Bonds that find no neighbors.
-fn bonds(scenario: &Scenario, grains: &Particles) -> Option<String> {
+fn bonds(scenario: &Scenario, start: &Start) -> Option<String> {
     let Some(Bonds::Beam(law)) = &scenario.bonds else { return None };
-    let network = Network::bond_neighbours(Some(law), grains);
+    let network = Network::start(Some(law), start.bonds.clone(), &start.grains);
     warning_of_bonds(scenario.bonds.as_ref(), &network).map(str::to_owned)
 }
 
@@ -67,7 +69,7 @@ mod tests {
         );
         let scenario = Scenario::from_toml(&text).unwrap();
         let mut all = Vec::new();
-        notes(&mut all, &scenario, &place(&scenario, Path::new("")).unwrap());
+        notes(&mut all, &scenario, &place(&scenario, Path::new("")).unwrap().into());
         all
     }
 

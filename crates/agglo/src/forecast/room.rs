@@ -56,7 +56,8 @@ impl Demand {
         let output = scenario.resolved().output;
         let due = |interval: Option<crate::units::Time>| interval.map_or(0.0, |interval| end / interval.si());
         Self {
-            grains: groups.map(|group| counts::expected(group, scenario.volume.as_ref(), base)).sum(),
+            grains: groups.map(|group| counts::expected(group, scenario.volume.as_ref(), base)).sum::<f64>()
+                + counts::of_earlier_run(scenario, base),
             rays: beams().map(|beam| f64::from(beam.rays)).sum(),
             pulses: beams().map(|beam| f64::from(counts::pulses_before(beam, end))).sum(),
             frames: due(output.frames),

@@ -198,7 +198,7 @@ fn what_is_tried_is_carried_on_to_the_end() {
     let scenario = Scenario::from_toml(text).unwrap();
     let mut tried = rehearse(
         &scenario,
-        crate::packing::place(&scenario, Path::new("")).unwrap(),
+        crate::packing::place(&scenario, Path::new("")).unwrap().into(),
         Duration::from_secs(600),
     )
     .unwrap();

@@ -78,6 +78,14 @@ pub enum PackingError {
         /// What to do.
         help: &'static str,
     },
+    /// A run whose state cannot be the start.
+    #[error("start.from: {path}: {reason}", path = .path.display())]
+    Earlier {
+        /// Its folder, or its checkpoint.
+        path: PathBuf,
+        /// Why.
+        reason: String,
+    },
     /// A table that cannot be opened or read.
     #[error("cannot read the table {file}: {source}", file = .file.display())]
     Unreadable {

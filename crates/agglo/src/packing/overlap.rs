@@ -51,11 +51,12 @@ pub fn first_overlap(grains: &Particles, volume: Option<&Volume>) -> Option<Over
 }
 
 /// The first grain, by its place, that lies outside a volume whose faces hold grains in: with its centre where faces
-/// are periodic or antipodal, with any part of it where they are walls.
-pub(super) fn first_outside(grains: &Particles, volume: &Volume) -> Option<usize> {
+/// are periodic or antipodal, with any part of it where they are walls that it may not reach into.
+pub(super) fn first_outside(grains: &Particles, volume: &Volume, may_reach_in: bool) -> Option<usize> {
     let (lower, upper) = (volume.lower(), volume.upper());
     let wall = match volume.boundary {
         Boundary::Periodic | Boundary::Antipodal => 0.0,
+        Boundary::Reflecting if may_reach_in => 0.0,
         Boundary::Reflecting => 1.0 - TOLERANCE,
         Boundary::Open => return None,
     };

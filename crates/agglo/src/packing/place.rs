@@ -40,7 +40,7 @@ pub fn place_watched(
     base: &Path,
     watch: &mut PlaceWatch<'_>,
 ) -> Result<Particles, PackingError> {
-    placed(scenario, base, watch).map(|(grains, _)| grains)
+    place_groups_watched(scenario, base, watch).map(|(grains, _)| grains)
 }
 
 /// As [`place`], with the number of grains of each group; those of a group follow one another.
@@ -48,10 +48,14 @@ pub fn place_watched(
 /// # Errors
 /// As for [`place`].
 pub fn place_groups(scenario: &Scenario, base: &Path) -> Result<(Particles, Vec<u64>), PackingError> {
-    placed(scenario, base, &mut || ControlFlow::Continue(()))
+    place_groups_watched(scenario, base, &mut || ControlFlow::Continue(()))
 }
 
-fn placed(
+/// As [`place_groups`]; `watch` may stop it.
+///
+/// # Errors
+/// As for [`place_watched`].
+pub fn place_groups_watched(
     scenario: &Scenario,
     base: &Path,
     watch: &mut PlaceWatch<'_>,
@@ -80,12 +84,26 @@ fn placed(
         }
         counts.push(grains.len() as u64 - counts.iter().sum::<u64>());
     }
-    refuse_far(&grains)?;
-    refuse_coincident(&grains)?;
-    if scenario.engine.is_hard() {
-        make_ready_for_impacts(&mut grains, scenario.volume.as_ref())?;
-    }
+    make_ready(scenario, &mut grains, false)?;
     Ok((grains, counts))
+}
+
+/// Refuses grains that could not start where they are; of images in a volume that wraps, the one inside counts. Hard
+/// spheres may overlap, and reach into walls, only if they are said to.
+///
+/// # Errors
+/// [`PackingError`] where grains are too far out, at one place, overlap as hard spheres or are out of their volume.
+pub(crate) fn make_ready(
+    scenario: &Scenario,
+    grains: &mut Particles,
+    may_overlap: bool,
+) -> Result<(), PackingError> {
+    refuse_far(grains)?;
+    refuse_coincident(grains)?;
+    if scenario.engine.is_hard() {
+        make_ready_for_impacts(grains, scenario.volume.as_ref(), may_overlap)?;
+    }
+    Ok(())
 }
 
 /// Where a grain is, how large, and what its row of a table or list says of it.
@@ -184,9 +202,13 @@ fn scatter(request: &GrainGroup, seed: u64, group: usize, spots: &mut [Spot]) {
 }
 
 /// Hard spheres start apart from one another and within the faces; of the images of a grain, the one inside counts.
-fn make_ready_for_impacts(grains: &mut Particles, volume: Option<&Volume>) -> Result<(), PackingError> {
+fn make_ready_for_impacts(
+    grains: &mut Particles,
+    volume: Option<&Volume>,
+    may_overlap: bool,
+) -> Result<(), PackingError> {
     if let Some(volume) = volume {
-        if let Some(at) = first_outside(grains, volume) {
+        if let Some(at) = first_outside(grains, volume, may_overlap) {
             let Vec3 { x, y, z } = grains.position[at];
             let walls = !volume.boundary.wraps();
             return Err(PackingError::Outside { grain: grains.id[at], walls, x, y, z });
@@ -194,11 +216,11 @@ fn make_ready_for_impacts(grains: &mut Particles, volume: Option<&Volume>) -> Re
         grains.position.iter_mut().for_each(|position| *position = volume.wrap(*position));
     }
     match first_overlap(grains, volume) {
-        None => Ok(()),
-        Some(found) => {
+        Some(found) if !may_overlap => {
             let [first, second] = found.ids;
             Err(PackingError::Overlapping { first, second, overlap: found.overlap })
         }
+        _ => Ok(()),
     }
 }
 

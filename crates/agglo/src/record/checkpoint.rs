@@ -29,7 +29,7 @@ use super::{RecordError, door};
 use crate::folder::files;
 
 const MAGIC: &[u8; 8] = b"AGGLO\r\n\x8a";
-const FORMAT: u32 = 2;
+const FORMAT: u32 = 3;
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 const PREFIX: &str = "checkpoint-";
 const SUFFIX: &str = ".agglo";
@@ -110,6 +110,23 @@ pub fn load_newest_that<T: DeserializeOwned, U>(
         }
     }
     Err(RecordError::NoCheckpoint { dir: dir.to_owned(), refused })
+}
+
+/// Reads one checkpoint.
+///
+/// # Errors
+/// Why it cannot be used.
+pub fn load<T: DeserializeOwned>(path: &Path) -> Result<T, String> {
+    let bytes = files::read(path, door::MOST_OF_A_STATE).map_err(|error| error.to_string())?;
+    decode(&bytes).map(|(state, _)| state)
+}
+
+/// The checkpoints in `dir`, newest first, sound or not.
+///
+/// # Errors
+/// [`RecordError::File`] where the folder cannot be read.
+pub fn newest_first(dir: &Path) -> Result<Vec<PathBuf>, RecordError> {
+    Ok(list(dir)?.into_iter().map(|(_, path)| path).collect())
 }
 
 /// The checkpoints in `dir` by the step in their names, newest first.

@@ -21,7 +21,7 @@ const ODD: [f64; 10] =
 fn saved<J: Job>(scenario: &Scenario, steps: usize) -> Vec<u8> {
     let scenario = scenario.resolved();
     let grains = crate::packing::place(&scenario, Path::new("")).unwrap();
-    let mut job = J::start(&scenario, grains, &mut |_| ControlFlow::Continue(())).unwrap();
+    let mut job = J::start(&scenario, grains.into(), &mut |_| ControlFlow::Continue(())).unwrap();
     let end = scenario.time.end.si();
     (0..steps).for_each(|_| job.advance(job.time() + 1e-3 * end).unwrap());
     let place = tempfile::tempdir().unwrap();

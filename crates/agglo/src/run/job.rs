@@ -2,10 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::engine::SimError;
 use crate::engine::soft::RestWatch;
+use crate::engine::{SimError, Start};
 use crate::folder::RunFolder;
-use crate::particles::Particles;
 use crate::record::RecordError;
 use crate::scenario::Scenario;
 
@@ -93,10 +92,12 @@ pub trait Job: Sized {
     /// Its tables.
     const TABLES: Layout;
 
-    /// Starts with grains as placed; `watch` is told how soft ones come to rest, if they are to.
-    fn start(scenario: &Scenario, grains: Particles, watch: &mut RestWatch<'_>) -> Result<Self, SimError>;
+    /// Starts; `watch` is told how soft grains come to rest, if they are to.
+    fn start(scenario: &Scenario, start: Start, watch: &mut RestWatch<'_>) -> Result<Self, SimError>;
     /// Goes on from a saved state.
     fn resume(scenario: &Scenario, state: Self::State<'_>) -> Result<Self, SimError>;
+    /// What another run can start from.
+    fn into_start(self) -> Start;
     /// Adds its state to the rest of a checkpoint.
     fn save(&self, rest: Saved<()>) -> AnySaved<'_>;
 

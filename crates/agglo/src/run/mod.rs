@@ -5,6 +5,7 @@ mod fit;
 mod frames;
 mod hard;
 mod job;
+mod origin;
 mod quiet;
 mod recorder;
 mod rehearsal;
@@ -17,19 +18,20 @@ mod until;
 
 use std::io::ErrorKind;
 use std::ops::ControlFlow;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 pub use error::RunError;
 pub use hard::{Growth, HardSummary};
+pub(crate) use origin::Origin;
 pub use quiet::quiet;
 pub(crate) use rehearsal::{Rehearsal, Stretches, rehearse};
 pub use soft::{Clusters, EnergyFigures, PulseFigures, SoftSummary};
 pub use summary::Summary;
 
+use crate::engine::Start;
 use crate::folder::RunFolder;
-use crate::packing::{PackingError, place_watched};
-use crate::particles::Particles;
+use crate::packing::PackingError;
 use crate::record::{RecordError, door};
 use crate::scenario::Scenario;
 use crate::units::Time;
@@ -84,19 +86,28 @@ pub fn run(
     observer: &mut Observer<'_>,
 ) -> Result<Ending, RunError> {
     let sat_down = Instant::now();
-    let scenario = scenario.resolved();
+    let mut scenario = scenario.resolved();
     crate::forecast::refuse_run(&scenario, base, dir)?;
-    let grains = placed(&scenario, base, observer)?;
+    let Origin { start, earlier, .. } = placed(&scenario, base, observer)?;
+    if let Some(earlier) = earlier {
+        // The very one that was taken: a run that goes on makes others.
+        scenario.start.from = Some(absolute(&earlier.checkpoint)?);
+    }
     let folder = RunFolder::create(dir)?;
     let scenario = folder.with_tables(&scenario, base).inspect_err(|_| folder.abandon())?;
     on_a_worker(|| {
         let go = if scenario.engine.is_hard() { sit::<Hard> } else { sit::<Soft> };
-        go(&scenario, grains, &folder, sat_down, observer)
+        go(&scenario, start, &folder, sat_down, observer)
     })
 }
 
+/// A path that holds wherever the scenario lies.
+fn absolute(path: &Path) -> Result<PathBuf, RecordError> {
+    std::path::absolute(path).map_err(RecordError::file("find", path))
+}
+
 /// Places the grains; the observer is told and may stop it.
-fn placed(scenario: &Scenario, base: &Path, observer: &mut Observer<'_>) -> Result<Particles, RunError> {
+fn placed(scenario: &Scenario, base: &Path, observer: &mut Observer<'_>) -> Result<Origin, RunError> {
     let mut told = Instant::now();
     let mut watch = || {
         if told.elapsed() < TELL_EVERY {
@@ -105,7 +116,7 @@ fn placed(scenario: &Scenario, base: &Path, observer: &mut Observer<'_>) -> Resu
         told = Instant::now();
         before_the_start("placing grains", scenario.time.end.si(), observer)
     };
-    match place_watched(scenario, base, &mut watch) {
+    match Origin::of(scenario, base, &mut watch) {
         Err(PackingError::Stopped) => {
             Err(RunError::StoppedBefore("before the run began; nothing was written"))
         }
@@ -122,12 +133,12 @@ fn before_the_start(words: &str, end: f64, observer: &mut Observer<'_>) -> Contr
 /// The first sitting of a run.
 fn sit<J: Job>(
     scenario: &Scenario,
-    grains: Particles,
+    start: Start,
     folder: &RunFolder,
     sat_down: Instant,
     observer: &mut Observer<'_>,
 ) -> Result<Ending, RunError> {
-    let started = Session::<J>::start(scenario, grains, folder.clone(), sat_down, observer);
+    let started = Session::<J>::start(scenario, start, folder.clone(), sat_down, observer);
     started.inspect_err(|_| folder.abandon())?.carry_on(observer)
 }
 

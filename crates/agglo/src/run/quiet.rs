@@ -5,14 +5,14 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use crate::engine::SimError;
 use crate::engine::soft::Resting;
-use crate::packing::{PackingError, place_watched};
-use crate::particles::Particles;
+use crate::engine::{SimError, Start};
+use crate::packing::PackingError;
 use crate::scenario::Scenario;
 
 use super::hard::Hard;
 use super::job::Job;
+use super::origin::Origin;
 use super::soft::Soft;
 use super::{Ending, RunError};
 
@@ -30,12 +30,12 @@ pub fn quiet(scenario: &Scenario, base: &Path, stop: &AtomicBool) -> Result<Endi
     let sat_down = Instant::now();
     let scenario = scenario.resolved();
     crate::forecast::refuse_quiet(&scenario, base, 1)?;
-    let grains = match place_watched(&scenario, base, &mut || asked(stop)) {
+    let start = match Origin::of(&scenario, base, &mut || asked(stop)) {
         Err(PackingError::Stopped) => return Ok(Ending::Interrupted(0.0)),
-        placed => placed?,
+        placed => placed?.start,
     };
     let go = if scenario.engine.is_hard() { sit::<Hard> } else { sit::<Soft> };
-    go(&scenario, grains, sat_down, stop)
+    go(&scenario, start, sat_down, stop)
 }
 
 fn asked(stop: &AtomicBool) -> ControlFlow<()> {
@@ -44,13 +44,13 @@ fn asked(stop: &AtomicBool) -> ControlFlow<()> {
 
 fn sit<J: Job>(
     scenario: &Scenario,
-    grains: Particles,
+    start: Start,
     sat_down: Instant,
     stop: &AtomicBool,
 ) -> Result<Ending, RunError> {
     let end = scenario.time.end.si();
     let mut watch = |_: &Resting| asked(stop);
-    let mut job = match J::start(scenario, grains, &mut watch) {
+    let mut job = match J::start(scenario, start, &mut watch) {
         Err(SimError::StoppedAtRest) => return Ok(Ending::Interrupted(0.0)),
         started => started.map_err(RunError::Start)?,
     };
@@ -103,6 +103,22 @@ mod tests {
     #[test]
     fn soft_spheres_come_to_the_same_as_in_a_folder() {
         assert_same_as_a_run(&small("acoustic", &["time.end=0.2 s", "acoustics.beams.0.rays=200"]));
+    }
+
+    #[test]
+    fn starts_from_another_run_come_to_the_same_as_in_a_folder() {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, settings) in [
+            ("acoustic", &["time.end=20 ms", "acoustics.beams.0.rays=200"][..]),
+            ("reacting", &["time.end=0.2 ms"]),
+        ] {
+            let mut scenario = small(name, settings);
+            let dir = folder.path().join(name);
+            run(&scenario, Path::new(""), &dir, &mut |_| ControlFlow::Continue(())).unwrap();
+            scenario.grains.clear();
+            scenario.start.from = Some(dir);
+            assert_same_as_a_run(&scenario);
+        }
     }
 
     /// Values that a library puts past the check come to an error, never to figures: heat and masses beyond doubles.

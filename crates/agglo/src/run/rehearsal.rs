@@ -8,10 +8,9 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use crate::engine::SimError;
 use crate::engine::soft::Resting;
+use crate::engine::{SimError, Start};
 use crate::folder::RunFolder;
-use crate::particles::Particles;
 use crate::record::{RecordError, checkpoint};
 use crate::scenario::Scenario;
 
@@ -116,13 +115,13 @@ pub struct Rehearsal {
 ///
 /// # Errors
 /// [`RunError::Start`] where the start fails, or where grains take longer than twice the budget to come to rest.
-pub fn rehearse(scenario: &Scenario, grains: Particles, budget: Duration) -> Result<Rehearsal, RunError> {
+pub fn rehearse(scenario: &Scenario, start: Start, budget: Duration) -> Result<Rehearsal, RunError> {
     let scenario = scenario.resolved();
     let go = if scenario.engine.is_hard() { sit::<Hard> } else { sit::<Soft> };
-    on_a_worker(|| go(&scenario, grains, budget)).map_err(RunError::Start)
+    on_a_worker(|| go(&scenario, start, budget)).map_err(RunError::Start)
 }
 
-fn sit<J: Job>(scenario: &Scenario, grains: Particles, budget: Duration) -> Result<Rehearsal, SimError> {
+fn sit<J: Job>(scenario: &Scenario, start: Start, budget: Duration) -> Result<Rehearsal, SimError> {
     let sat_down = Instant::now();
     let mut watch = |_: &Resting| {
         if sat_down.elapsed() < PATIENCE * budget {
@@ -131,7 +130,7 @@ fn sit<J: Job>(scenario: &Scenario, grains: Particles, budget: Duration) -> Resu
             ControlFlow::Break(())
         }
     };
-    let mut job = J::start(scenario, grains, &mut watch)?;
+    let mut job = J::start(scenario, start, &mut watch)?;
     let start_s = sat_down.elapsed().as_secs_f64();
     let mut record = Record::of(&mut job, scenario).ok();
     let mut writing_s = sat_down.elapsed().as_secs_f64() - start_s;

@@ -5,9 +5,9 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
+use crate::engine::Start;
 use crate::engine::soft::Resting;
 use crate::folder::RunFolder;
-use crate::particles::Particles;
 use crate::record::checkpoint::{self, Refused};
 use crate::record::{Opened, atomic};
 use crate::scenario::{Scenario, readable};
@@ -64,7 +64,7 @@ impl<J: Job> Session<J> {
     /// [`RunError`] where the start fails or a file cannot be written.
     pub fn start(
         scenario: &Scenario,
-        grains: Particles,
+        start: Start,
         folder: RunFolder,
         sat_down: Instant,
         observer: &mut Observer<'_>,
@@ -78,7 +78,7 @@ impl<J: Job> Session<J> {
             told = Instant::now();
             observer(&coming_to_rest(resting, end))
         };
-        let job = J::start(scenario, grains, &mut watch).map_err(RunError::Start)?;
+        let job = J::start(scenario, start, &mut watch).map_err(RunError::Start)?;
         write_scenario(scenario, &[], &folder)?;
         let recorder = Recorder::create::<J>(scenario, &folder)?;
         let notes = folder.warning().map(str::to_owned).into_iter().collect();

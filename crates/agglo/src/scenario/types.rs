@@ -1,6 +1,7 @@
 //! What a scenario file can say. Defaults, the JSON schema and the resolved scenario derive from these types.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -44,7 +45,8 @@ pub struct Scenario {
     /// What pairs of materials have in common, where it differs from the laws.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub mixtures: Vec<Mixture>,
-    /// Groups of grains.
+    /// Groups of grains; none where `start.from` brings them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub grains: Vec<GrainGroup>,
     /// What happens before the clock starts.
     #[serde(default)]
@@ -128,6 +130,10 @@ fn positive() -> f64 {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Start {
+    /// The folder of a run, or one of its checkpoints, relative to the scenario's folder: the state in it is the start, with
+    /// bonds and names. The clock starts at zero.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub from: Option<PathBuf>,
     /// Lets the grains come to rest first; not if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub relax: Option<Relaxation>,

@@ -7,6 +7,7 @@ mod common;
 
 mod books;
 mod crowd;
+mod from;
 mod halving;
 mod hard;
 mod order_of_input;

@@ -259,23 +259,13 @@ impl Microscale {
         }
         let next = MicroState {
             grains: simulation.snapshot().grains,
-            grown: grown(&simulation),
+            grown: simulation.grown(),
             reference_radius: state.reference_radius,
             step: state.step.wrapping_add(1),
         };
         let means = homogenise(&simulation, &next, duration);
         Ok((next, means))
     }
-}
-
-/// What the grains keep of their parts, in the order of names [n].
-fn grown(simulation: &Simulation) -> Vec<Grown> {
-    let spheres = &simulation.cloud().state.spheres;
-    let of = |at: &u32| {
-        let bulk = &spheres.bulk[*at as usize];
-        Grown { primaries: bulk.primaries, heat_capacity: bulk.heat_capacity }
-    };
-    spheres.by_id().iter().map(of).collect()
 }
 
 /// What every step needs of a state, with a number of materials.

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::domain::Boundary;
 use crate::engine::soft::Limits;
 use crate::engine::sound::{Fault, MOST_COUNTED, ensure, finite};
-use crate::engine::{Engine, SimError, Warnings};
+use crate::engine::{Engine, SimError, Start, Warnings};
 use crate::impact::ImpactLaws;
 use crate::math::Vec3;
 use crate::measure::SizeRates;
@@ -58,6 +58,7 @@ pub struct SimulationState<'a> {
     cloud: Cow<'a, CloudState>,
     driver: DriverState<'a>,
     grains_at_start: u64,
+    primaries_at_start: u64,
     contact_duration: f64,
 }
 
@@ -77,7 +78,9 @@ impl SimulationState<'_> {
         cloud.spheres.sound(scenario.materials.len(), clock.time)?;
         let living = cloud.spheres.bulk.iter().filter(|bulk| bulk.lives()).map(|bulk| bulk.primaries);
         let primaries: u64 = living.clone().map(u64::from).sum();
-        ensure(primaries == self.grains_at_start, || "there are other grains than at the start".to_owned())?;
+        ensure(primaries == self.primaries_at_start && self.grains_at_start <= primaries, || {
+            "there are other grains than at the start".to_owned()
+        })?;
         cloud.rates.sound(living)?;
         cloud.collapse.sound()?;
         finite("ledger", &cloud.books)?;
@@ -116,6 +119,7 @@ pub struct Simulation {
     driver: Driver,
     clock: Clock,
     grains_at_start: u64,
+    primaries_at_start: u64,
     end: f64,
 }
 
@@ -151,6 +155,7 @@ impl Simulation {
             spheres,
         };
         let grains_at_start = state.spheres.len() as u64;
+        let primaries_at_start = state.spheres.bulk.iter().map(|bulk| u64::from(bulk.primaries)).sum();
         let mut cloud = Self::cloud_of(scenario, state)?;
         for warning in cloud.laws.standing_warnings() {
             cloud.state.warnings.add(warning);
@@ -163,7 +168,8 @@ impl Simulation {
             Engine::TimeStepped(options) => Driver::Steps(Box::new(Steps::new(options))),
             Engine::Staggered(_) | Engine::Verlet(_) => return Err(SimError::NoImpact),
         };
-        Ok(Self { cloud, driver, clock: Clock::default(), grains_at_start, end: scenario.time.end.si() })
+        let (clock, end) = (Clock::default(), scenario.time.end.si());
+        Ok(Self { cloud, driver, clock, grains_at_start, primaries_at_start, end })
     }
 
     /// Goes on from a saved state.
@@ -185,8 +191,8 @@ impl Simulation {
             }
             _ => return Err(SimError::NoImpact),
         };
-        let end = scenario.time.end.si();
-        Ok(Self { cloud, driver, clock: state.clock, grains_at_start: state.grains_at_start, end })
+        let SimulationState { clock, grains_at_start, primaries_at_start, .. } = state;
+        Ok(Self { cloud, driver, clock, grains_at_start, primaries_at_start, end: scenario.time.end.si() })
     }
 
     fn cloud_of(scenario: &Scenario, state: CloudState) -> Result<Cloud, SimError> {
@@ -213,8 +219,25 @@ impl Simulation {
                 Driver::Steps(_) => DriverState::Steps,
             },
             grains_at_start: self.grains_at_start,
+            primaries_at_start: self.primaries_at_start,
             contact_duration: self.cloud.contact_duration,
         }
+    }
+
+    /// What another simulation can start from: grains with their names and what they are made of. The times of their last
+    /// bounces end here.
+    pub fn into_start(self) -> Start {
+        Start { grown: self.grown(), ..Start::from(self.snapshot().grains) }
+    }
+
+    /// What the grains keep of their parts, in the order of names [n].
+    pub(super) fn grown(&self) -> Vec<Grown> {
+        let spheres = &self.cloud.state.spheres;
+        let of = |at: &u32| {
+            let bulk = &spheres.bulk[*at as usize];
+            Grown { primaries: bulk.primaries, heat_capacity: bulk.heat_capacity }
+        };
+        spheres.by_id().iter().map(of).collect()
     }
 
     /// Where the simulation stands in time.

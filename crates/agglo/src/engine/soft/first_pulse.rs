@@ -34,7 +34,7 @@ impl FirstPulse {
     /// `most_rays`: fewer rays of the same beam carry more power each. The grains come back in another order.
     pub fn of(scenario: &Scenario, grains: Particles, beam: usize, most_rays: u32) -> (Self, Particles) {
         let names = grains.len();
-        let mut simulation = Simulation::with(&alone(scenario, beam, most_rays), grains);
+        let mut simulation = Simulation::with(&alone(scenario, beam, most_rays), grains.into());
         let part = widest_way(&simulation.system.grains) / PARTS_OF_THE_WAY;
         let dt = part / scenario.medium.sound_speed.si();
         let Simulation { system, pulses, .. } = &mut simulation;

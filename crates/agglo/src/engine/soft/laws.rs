@@ -40,8 +40,8 @@ pub struct SingleLoad {
 }
 
 impl Laws {
-    /// The laws of a checked scenario.
-    pub fn new(scenario: &Scenario) -> Self {
+    /// The laws of a checked scenario for these grains.
+    pub fn new(scenario: &Scenario, grains: &Particles) -> Self {
         Self {
             contact: scenario.contact.clone(),
             bonds: scenario.bonds.clone(),
@@ -49,7 +49,7 @@ impl Laws {
             medium: scenario.medium.clone(),
             pairs: PairTable::new(&scenario.materials, &scenario.mixtures),
             materials: scenario.materials.values().cloned().collect(),
-            flow: flow_of(scenario),
+            flow: flow_of(scenario, grains),
         }
     }
 
@@ -191,9 +191,12 @@ impl Laws {
     }
 }
 
-fn flow_of(scenario: &Scenario) -> Option<Flow> {
+fn flow_of(scenario: &Scenario, grains: &Particles) -> Option<Flow> {
     let field = scenario.fields.drag.as_ref()?.medium_velocity.as_ref()?;
-    let smallest = scenario.grains.iter().map(|group| group.size.smallest()).fold(f64::INFINITY, f64::min);
+    let asked = scenario.grains.iter().map(|group| group.size.smallest());
+    // Those of an earlier run are of no group.
+    let found = grains.radius.iter().copied().filter(|_| scenario.grains.is_empty());
+    let smallest = asked.chain(found).fold(f64::INFINITY, f64::min);
     Some(Flow::new(field, smallest, scenario.time.end.si()))
 }
 

@@ -2,9 +2,8 @@
 
 use std::ops::ControlFlow;
 
-use crate::engine::SimError;
+use crate::engine::{SimError, Start};
 use crate::math::Vec3;
-use crate::particles::Particles;
 use crate::scenario::{Relaxation, Scenario};
 
 use super::simulation::Simulation;
@@ -33,7 +32,7 @@ pub type RestWatch<'a> = dyn FnMut(&Resting) -> ControlFlow<()> + 'a;
 pub fn rested(
     scenario: &Scenario,
     relaxation: &Relaxation,
-    grains: Particles,
+    mut start: Start,
     watch: &mut RestWatch<'_>,
 ) -> Result<Simulation, SimError> {
     let mut quiet = scenario.clone();
@@ -42,16 +41,18 @@ pub fn rested(
     quiet.time.end = relaxation.longest;
     // What is damped away is in no ledger.
     (quiet.limits.drift_warning, quiet.limits.drift_error) = (f64::INFINITY, f64::INFINITY);
-    let motions: Vec<(Vec3, Vec3)> =
-        grains.velocity.iter().copied().zip(grains.spin.iter().copied()).collect();
-    let mut still = grains;
+    let still = &mut start.grains;
+    // Names are 0, 1, 2 ..., in whatever order.
+    let mut motions = vec![(Vec3::ZERO, Vec3::ZERO); still.len()];
+    for (at, &id) in still.id.iter().enumerate() {
+        motions[id as usize] = (still.velocity[at], still.spin[at]);
+    }
     still.velocity.fill(Vec3::ZERO);
     still.spin.fill(Vec3::ZERO);
-    let mut simulation = Simulation::with(&quiet, still);
+    let mut simulation = Simulation::with(&quiet, start);
     settle(&mut simulation, relaxation, watch)?;
     let grains = &mut simulation.system.grains;
     for at in 0..grains.len() {
-        // Placement names grains by their order.
         (grains.velocity[at], grains.spin[at]) = motions[grains.id[at] as usize];
     }
     Ok(simulation.restarted(scenario))

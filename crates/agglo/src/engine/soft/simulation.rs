@@ -9,7 +9,7 @@ use crate::contact::network::{BondEvent, Network};
 use crate::contact::pass::Remembered;
 use crate::contact::{Bonds, network::Bond};
 use crate::domain::resolution;
-use crate::engine::{Engine, Moment, SimError, Warnings};
+use crate::engine::{Engine, Moment, SimError, Start, Warnings};
 use crate::math::rounding_of_sum;
 use crate::measure::Ledger;
 use crate::particles::Particles;
@@ -102,12 +102,12 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// Starts with grains as placed.
+    /// Starts with grains as placed, or with what came out of another simulation.
     ///
     /// # Errors
     /// [`SimError::NoRest`] where the scenario asks for rest and the grains do not come to it.
-    pub fn start(scenario: &Scenario, grains: Particles) -> Result<Self, SimError> {
-        Self::start_watched(scenario, grains, &mut |_| ControlFlow::Continue(()))
+    pub fn start(scenario: &Scenario, start: impl Into<Start>) -> Result<Self, SimError> {
+        Self::start_watched(scenario, start, &mut |_| ControlFlow::Continue(()))
     }
 
     /// The same; `watch` is told how grains come to rest, if they are to, and may ask to stop.
@@ -117,23 +117,32 @@ impl Simulation {
     /// [`SimError::StoppedAtRest`].
     pub fn start_watched(
         scenario: &Scenario,
-        grains: Particles,
+        start: impl Into<Start>,
         watch: &mut RestWatch<'_>,
     ) -> Result<Self, SimError> {
-        let truncation = truncation::hold(scenario.fields.near_field.as_ref(), &grains)?;
+        let mut start = start.into();
+        let truncation = truncation::hold(scenario.fields.near_field.as_ref(), &start.grains)?;
+        let warnings = std::mem::take(&mut start.warnings);
         let mut simulation = match &scenario.start.relax {
-            Some(relaxation) => super::relax::rested(scenario, relaxation, grains, watch)?,
-            None => Self::with(scenario, grains),
+            Some(relaxation) => super::relax::rested(scenario, relaxation, start, watch)?,
+            None => Self::with(scenario, start),
         };
         simulation.truncation = truncation;
         simulation.open_books();
+        for warning in &warnings {
+            simulation.warnings.add(warning);
+        }
         Ok(simulation)
     }
 
     /// Grains under the scenario's laws, at time zero.
-    pub(super) fn with(scenario: &Scenario, grains: Particles) -> Self {
-        let network = Network::bond_neighbours(beam_of(scenario), &grains);
-        let mut system = System::new(grains, Laws::new(scenario), network);
+    pub(super) fn with(scenario: &Scenario, start: Start) -> Self {
+        let network = Network::start(beam_of(scenario), start.bonds, &start.grains);
+        let laws = Laws::new(scenario, &start.grains);
+        let mut system = System::new(start.grains, laws, network);
+        if !start.contacts.is_empty() {
+            system.remember(&start.contacts);
+        }
         system.sort_in_space();
         Self::at_zero(scenario, system)
     }
@@ -141,7 +150,7 @@ impl Simulation {
     /// The same grains, contacts and bonds, at time zero of another scenario.
     pub(super) fn restarted(self, scenario: &Scenario) -> Self {
         let mut system = self.system;
-        system.change_laws(Laws::new(scenario));
+        system.change_laws(Laws::new(scenario, &system.grains));
         Self::at_zero(scenario, system)
     }
 
@@ -185,7 +194,9 @@ impl Simulation {
         let n = state.grains.len();
         let network = Network::restored(beam_of(scenario), state.bonds, state.bonds_made_at_start, n);
         let pulses = Pulses::resume(scenario, state.pulses);
-        let mut system = System::new(state.grains.into_owned(), Laws::new(scenario), network);
+        let grains = state.grains.into_owned();
+        let laws = Laws::new(scenario, &grains);
+        let mut system = System::new(grains, laws, network);
         system.rays_are_impulses = pulses.are_impulses();
         system.loads = state.loads.into_owned();
         system.rates = state.rates;
@@ -222,6 +233,22 @@ impl Simulation {
             tempo: self.tempo,
             truncation: self.truncation,
             paces: self.paces,
+        }
+    }
+
+    /// What another simulation can start from: grains with their names, loaded springs and bonds. Rays in flight are left
+    /// behind, with a warning.
+    pub fn into_start(self) -> Start {
+        let rays = self.pulses.flight().rays().len();
+        let left =
+            format!("{rays} rays were in flight in the run that this one starts from, and are left behind");
+        let (system, contacts) = (&self.system, self.system.remembered());
+        Start {
+            contacts,
+            bonds: system.network.is_active().then(|| system.network.bonds().to_vec()),
+            grown: Vec::new(),
+            warnings: if rays > 0 { vec![left] } else { Vec::new() },
+            grains: self.system.grains,
         }
     }
 

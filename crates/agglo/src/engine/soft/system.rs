@@ -142,22 +142,27 @@ impl System {
 
     /// Makes the trial the state.
     pub fn commit(&mut self) {
+        self.commit_motion();
+        self.contacts.commit();
+    }
+
+    fn commit_motion(&mut self) {
         let Self { grains, trial, .. } = self;
         std::mem::swap(&mut grains.position, &mut trial.position);
         std::mem::swap(&mut grains.velocity, &mut trial.velocity);
         std::mem::swap(&mut grains.spin, &mut trial.spin);
         std::mem::swap(&mut self.loads, &mut trial.loads);
         self.rates = trial.rates;
-        self.contacts.commit();
         self.network.commit();
     }
 
     /// Evaluates the loads at the committed motion, before the first step; `dt` [s] is the length of that. No time
-    /// has passed for springs of contacts and bonds, which begin without load.
+    /// has passed for springs of contacts and bonds, which begin without load unless they bring one along.
     pub fn evaluate_start(&mut self, dt: f64) {
         self.list_neighbors();
         self.evaluate_after(0.0, 0.0, dt);
-        self.commit();
+        self.commit_motion();
+        self.contacts.commit_unmoved();
     }
 
     /// Lists the neighbors at the committed motion, so that pairs can be looked at before the first step.

@@ -40,8 +40,8 @@ pub fn of_drag(laws: &Laws, grains: &Particles, time: f64) -> Option<&'static st
 pub fn of_bonds(law: Option<&Bonds>, network: &Network) -> Option<&'static str> {
     match law {
         Some(Bonds::Beam(law)) if network.made_at_start() == 0 && law.forming_strain.is_none() => Some(
-            "bonds.beam: no bond was made, since no two grains are closer than bonds.beam.gap; nothing holds the grains \
-             together",
+            "bonds.beam: no bond was made, since no two grains are closer than bonds.beam.gap, or none was left in the run \
+             of start.from; nothing holds the grains together",
         ),
         _ => None,
     }
@@ -80,7 +80,7 @@ mod tests {
         );
         let scenario = Scenario::from_toml(&text).unwrap();
         let grains = crate::packing::place(&scenario, std::path::Path::new("")).unwrap();
-        of_drag(&Laws::new(&scenario), &grains, 0.0)
+        of_drag(&Laws::new(&scenario, &grains), &grains, 0.0)
     }
 
     /// Half a per cent below and above the bounds.

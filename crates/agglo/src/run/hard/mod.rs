@@ -12,10 +12,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::engine::hard::{Clock, Simulation, SimulationState};
 use crate::engine::soft::RestWatch;
-use crate::engine::{Engine, SimError};
+use crate::engine::{Engine, SimError, Start};
 use crate::folder::RunFolder;
 use crate::measure::{BreakageRow, DaughterRow, KernelRow};
-use crate::particles::Particles;
 use crate::record::{RecordError, Series};
 use crate::scenario::Scenario;
 
@@ -67,8 +66,11 @@ impl Job for Hard {
 
     const TABLES: Layout = rows::TABLES;
 
-    fn start(scenario: &Scenario, grains: Particles, _: &mut RestWatch<'_>) -> Result<Self, SimError> {
-        let simulation = Simulation::start(scenario, &grains)?;
+    fn start(scenario: &Scenario, start: Start, _: &mut RestWatch<'_>) -> Result<Self, SimError> {
+        let mut simulation = Simulation::start_grown(scenario, &start.grains, &start.grown)?;
+        for warning in &start.warnings {
+            simulation.cloud_mut().state.warnings.add(warning);
+        }
         let mean_radius_at_start = Growth::of(&simulation.snapshot()).mean_radius;
         let memory = Memory { mean_radius_at_start, last_row: LastRow::of(&simulation) };
         Ok(Self::with(scenario, simulation, memory))
@@ -77,6 +79,10 @@ impl Job for Hard {
     fn resume(scenario: &Scenario, state: HardState<'_>) -> Result<Self, SimError> {
         let simulation = Simulation::resume(scenario, state.simulation)?;
         Ok(Self::with(scenario, simulation, state.memory))
+    }
+
+    fn into_start(self) -> Start {
+        self.simulation.into_start()
     }
 
     fn save(&self, rest: Saved<()>) -> AnySaved<'_> {

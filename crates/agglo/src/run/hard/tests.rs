@@ -48,7 +48,7 @@ fn a_run_resumed_at_any_moment_ends_in_the_same_state() {
         let text = SCENARIO.replace("engine.event_driven", engine);
         let scenario = Scenario::from_toml(&text).unwrap().resolved();
         let grains = crate::packing::place(&scenario, Path::new("")).unwrap();
-        let mut whole = Hard::start(&scenario, grains, &mut |_| ControlFlow::Continue(())).unwrap();
+        let mut whole = Hard::start(&scenario, grains.into(), &mut |_| ControlFlow::Continue(())).unwrap();
         let end = scenario.time.end.si();
         let mut saved = Vec::new();
         for turn in 0..40 {
@@ -76,7 +76,7 @@ fn ratios_of_the_summary() {
     for (text, is_false) in [(SCENARIO, false), (published.as_str(), true)] {
         let scenario = Scenario::from_toml(text).unwrap().resolved();
         let grains = crate::packing::place(&scenario, Path::new("")).unwrap();
-        let mut job = Hard::start(&scenario, grains, &mut |_| ControlFlow::Continue(())).unwrap();
+        let mut job = Hard::start(&scenario, grains.into(), &mut |_| ControlFlow::Continue(())).unwrap();
         advance_to(&mut job, scenario.time.end.si());
         let Summary::Hard(found) = job.summary(&scenario, 0.0) else { panic!("of hard spheres") };
         assert_eq!(found.events_per_impact, Some(found.steps as f64 / found.impacts as f64));

@@ -10,10 +10,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::bond::Break;
 use crate::contact::network::BondEvent;
-use crate::engine::SimError;
 use crate::engine::soft::{Clock, RestWatch, Simulation, SimulationState};
+use crate::engine::{SimError, Start};
 use crate::folder::RunFolder;
-use crate::particles::Particles;
 use crate::record::{Cell, RecordError};
 use crate::scenario::Scenario;
 
@@ -65,14 +64,18 @@ impl Job for Soft {
 
     const TABLES: Layout = rows::TABLES;
 
-    fn start(scenario: &Scenario, grains: Particles, watch: &mut RestWatch<'_>) -> Result<Self, SimError> {
-        let simulation = Simulation::start_watched(scenario, grains, watch)?;
+    fn start(scenario: &Scenario, start: Start, watch: &mut RestWatch<'_>) -> Result<Self, SimError> {
+        let simulation = Simulation::start_watched(scenario, start, watch)?;
         let start = Together::of(&simulation, scenario.measures.cluster_gap).clusters();
         Ok(Self::with(scenario, simulation, start))
     }
 
     fn resume(scenario: &Scenario, state: SoftState<'_>) -> Result<Self, SimError> {
         Ok(Self::with(scenario, Simulation::resume(scenario, state.simulation)?, state.start))
+    }
+
+    fn into_start(self) -> Start {
+        self.simulation.into_start()
     }
 
     fn save(&self, rest: Saved<()>) -> AnySaved<'_> {

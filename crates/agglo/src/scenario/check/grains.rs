@@ -6,7 +6,9 @@ use std::path::Path;
 use super::materials::named;
 use super::{Check, placement};
 use crate::domain::Volume;
+use crate::folder::RunFolder;
 use crate::packing::{GrainList, LengthRatio, Placement, Size, VelocitySpread};
+use crate::record::door;
 use crate::scenario::figures::{readable, told_apart};
 use crate::scenario::types::{GrainGroup, Scenario};
 use crate::units::Length;
@@ -15,12 +17,18 @@ use crate::units::Length;
 const WIDEST_DEVIATION: f64 = 100.0;
 
 pub(super) fn check(check: &mut Check, scenario: &Scenario) {
-    if scenario.grains.is_empty() {
-        check.fail_with(
+    match (&scenario.start.from, scenario.grains.is_empty()) {
+        (None, true) => check.fail_with(
             "grains",
-            "is empty; at least one group is wanted".to_owned(),
-            "add a [[grains]] table",
-        );
+            "is missing or empty; at least one group is wanted".to_owned(),
+            "add a [[grains]] table, or take the grains of another run by start.from",
+        ),
+        (Some(from), false) => check.fail_with(
+            "grains",
+            format!("is given, but start.from takes the grains of {}", from.display()),
+            "remove the [[grains]] tables, or start.from",
+        ),
+        _ => {}
     }
     let mut places = BTreeMap::new();
     for (index, group) in scenario.grains.iter().enumerate() {
@@ -45,11 +53,27 @@ pub(super) fn check(check: &mut Check, scenario: &Scenario) {
     }
 }
 
+/// The run that grains come from must be there.
+pub(super) fn earlier_run(check: &mut Check, scenario: &Scenario, base: &Path) {
+    let Some(from) = &scenario.start.from else { return };
+    let path = base.join(from);
+    let shown = from.display();
+    let found = if path.is_dir() {
+        RunFolder::open(&path).map(|_| ()).map_err(|_| format!("the folder \"{shown}\" holds no run"))
+    } else {
+        door::open(&path).map(|_| ()).map_err(|error| format!("cannot open \"{shown}\": {error}"))
+    };
+    if let Err(message) = found {
+        let help = "the folder of a run, or one of its checkpoints; relative to the scenario's folder";
+        check.fail_with("start.from", message, help);
+    }
+}
+
 /// Tables of grains must be files that can be opened.
 pub(super) fn tables(check: &mut Check, scenario: &Scenario, base: &Path) {
     for (index, group) in scenario.grains.iter().enumerate() {
         let Placement::Table(table) = &group.placement else { continue };
-        if let Err(error) = crate::record::door::open(&base.join(&table.file)) {
+        if let Err(error) = door::open(&base.join(&table.file)) {
             let key = format!("grains.{index}.placement.table.file");
             let message = format!("cannot open \"{}\": {error}", table.file.display());
             check.fail_with(&key, message, "the path is relative to the scenario's folder");

@@ -30,6 +30,7 @@ pub(super) fn faults(scenario: &Scenario, base: Option<&Path>) -> Vec<Fault> {
     grains::check(&mut check, scenario);
     if let Some(base) = base {
         grains::tables(&mut check, scenario, base);
+        grains::earlier_run(&mut check, scenario, base);
     }
     contact::check(&mut check, scenario);
     fields::check(&mut check, scenario);
@@ -172,7 +173,10 @@ fn shown(value: f64, dimension: Dimension) -> String {
     readable(value, &dimension.symbol())
 }
 
-/// Names of the materials that grains are made of.
+/// Names of the materials that grains are made of; of all where an earlier run brings the grains.
 fn used_materials(scenario: &Scenario) -> BTreeSet<&str> {
+    if scenario.start.from.is_some() {
+        return scenario.materials.keys().map(String::as_str).collect();
+    }
     scenario.grains.iter().map(|group| group.material.as_str()).collect()
 }

@@ -61,12 +61,13 @@ fn with_tables(
     let (mut tables, base) = (folder.tables(), problem.folder());
     let scenario = tables.adopt_all(problem.base(), base)?;
     for parameter in &mut campaign.parameters {
-        let chooses_a_table =
-            parameter.key.as_ref().is_some_and(|key| key.ends_with(".placement.table.file"));
+        let key = parameter.key.as_deref().unwrap_or_default();
+        let (is_table, is_state) = (key.ends_with(".placement.table.file"), key == "start.from");
         let Range::Choices(choices) = &mut parameter.range else { continue };
-        for choice in choices.iter_mut().filter(|_| chooses_a_table) {
+        for choice in choices.iter_mut().filter(|_| is_table || is_state) {
             if let Scalar::Text(file) = choice {
-                let place = tables.adopt(&base.join(&*file))?;
+                let path = base.join(&*file);
+                let place = if is_state { tables.adopt_state(&path)? } else { tables.adopt(&path)? };
                 *file = place.to_string_lossy().into_owned();
             }
         }

@@ -1,0 +1,252 @@
+//! Where the grains of a run come from: placed as its scenario says, or taken out of another run.
+
+use std::path::{Path, PathBuf};
+
+use super::hard::Hard;
+use super::job::{AnySaved, Job};
+use super::soft::Soft;
+use crate::contact::{Bonds, Friction};
+use crate::engine::{Engine, SimError, Start};
+use crate::folder::RunFolder;
+use crate::packing::{ConstantSize, PackingError, PlaceWatch, Placement, Size, Table, UniformSize};
+use crate::packing::{make_ready, place_groups_watched};
+use crate::particles::{Material, Particles};
+use crate::record::checkpoint;
+use crate::scenario::{GrainGroup, Scenario, readable};
+use crate::units::Quantity;
+
+/// The grains of a run before its clock starts.
+pub(crate) struct Origin {
+    /// The grains, with what they bring along.
+    pub start: Start,
+    /// Their groups: the scenario's, or one for each material of another run's grains.
+    pub groups: Vec<GrainGroup>,
+    /// How many belong to each group.
+    pub counts: Vec<u64>,
+    /// Where they come from, if they come from another run.
+    pub earlier: Option<Earlier>,
+}
+
+/// Another run that grains come from.
+pub(crate) struct Earlier {
+    /// The checkpoint that was taken.
+    pub checkpoint: PathBuf,
+    /// What was there, in words.
+    pub words: String,
+}
+
+impl Origin {
+    /// Places the grains of a scenario, or takes them out of the run that it names; `base` is the folder that its paths are
+    /// relative to. `watch` may stop it.
+    ///
+    /// # Errors
+    /// [`PackingError`].
+    pub fn of(scenario: &Scenario, base: &Path, watch: &mut PlaceWatch<'_>) -> Result<Self, PackingError> {
+        if let Some(from) = &scenario.start.from {
+            let path = base.join(from);
+            return taken(scenario, &path).map_err(|error| match error {
+                Trouble::Reason(reason) => PackingError::Earlier { path, reason },
+                Trouble::Grains(error) => error,
+            });
+        }
+        let (grains, counts) = place_groups_watched(scenario, base, watch)?;
+        Ok(Self { start: grains.into(), groups: scenario.grains.clone(), counts, earlier: None })
+    }
+
+    /// The grains group by group, as they were placed; those of another run are brought into that order.
+    pub fn by_groups(&self) -> Particles {
+        let mut grains = self.start.grains.clone();
+        if self.earlier.is_some() {
+            let mut order: Vec<u32> = (0..grains.len() as u32).collect();
+            order.sort_by_key(|&at| grains.material[at as usize]);
+            grains.reorder(&order);
+        }
+        grains
+    }
+}
+
+/// Why the state of another run is not taken.
+enum Trouble {
+    Reason(String),
+    Grains(PackingError),
+}
+
+impl From<String> for Trouble {
+    fn from(reason: String) -> Self {
+        Self::Reason(reason)
+    }
+}
+
+fn taken(scenario: &Scenario, path: &Path) -> Result<Origin, Trouble> {
+    let (saved, checkpoint) = read(path)?;
+    let past = Scenario::from_toml(saved.parts().0).map_err(|faults| faults.to_string())?;
+    if past.engine.is_hard() != scenario.engine.is_hard() {
+        let kinds = [past.engine.is_hard(), scenario.engine.is_hard()]
+            .map(|is_hard| if is_hard { "hard" } else { "soft" });
+        let reason = format!(
+            "it is a run of {} spheres, and the scenario has an engine of {} ones; take one of its kind",
+            kinds[0], kinds[1]
+        );
+        return Err(reason.into());
+    }
+    let time = saved.time();
+    let unsound = |error: SimError| error.to_string();
+    let mut start = match saved {
+        AnySaved::Soft(saved) => Soft::resume(&past, saved.state).map_err(unsound)?.into_start(),
+        AnySaved::Hard(saved) => Hard::resume(&past, saved.state).map_err(unsound)?.into_start(),
+    };
+    hand_over_materials(&mut start.grains, &past, scenario)?;
+    hand_over_bonds(&start, scenario)?;
+    start.warnings.extend(springs_dropped(&start, &past, scenario));
+    refuse_short_cutoff(&start.grains, scenario)?;
+    // Steps end with grains that overlap, or that reach into a wall; the next one parts them.
+    let may_overlap = matches!(scenario.engine, Engine::TimeStepped(_));
+    make_ready(scenario, &mut start.grains, may_overlap).map_err(Trouble::Grains)?;
+    let (groups, counts) = groups(&start.grains, scenario);
+    let words = words(&start, &past, time);
+    Ok(Origin { start, groups, counts, earlier: Some(Earlier { checkpoint, words }) })
+}
+
+/// The newest sound checkpoint of a run's folder, or one that was named.
+fn read(path: &Path) -> Result<(AnySaved<'static>, PathBuf), String> {
+    if !path.is_dir() {
+        return Ok((checkpoint::load(path)?, path.to_owned()));
+    }
+    let folder = RunFolder::open(path).map_err(|_| "the folder holds no run".to_owned())?;
+    let all = checkpoint::newest_first(&folder.checkpoints()).map_err(|error| error.to_string())?;
+    let mut refused = Vec::new();
+    for checkpoint in all {
+        match checkpoint::load(&checkpoint) {
+            Ok(saved) => return Ok((saved, checkpoint)),
+            Err(reason) => refused.push(format!("{}: {reason}", checkpoint.display())),
+        }
+    }
+    if refused.is_empty() {
+        return Err("it has no checkpoint".to_owned());
+    }
+    Err(format!("it has no sound checkpoint: {}", refused.join("; ")))
+}
+
+/// Numbers of materials by their names in the new scenario. What grains are made of stays what it was.
+fn hand_over_materials(grains: &mut Particles, past: &Scenario, scenario: &Scenario) -> Result<(), String> {
+    let mut numbers = Vec::new();
+    for (number, (name, before)) in past.materials.iter().enumerate() {
+        let is_used = grains.material.iter().any(|material| *material as usize == number);
+        let found = scenario.materials.iter().enumerate().find(|(_, (other, _))| *other == name);
+        match found {
+            _ if !is_used => numbers.push(0),
+            None => {
+                let known: Vec<&str> = scenario.materials.keys().map(String::as_str).collect();
+                let known = known.join(", ");
+                return Err(format!(
+                    "its grains are made of {name}, which is none of the scenario's materials ({known}); add it"
+                ));
+            }
+            Some((number, (_, now))) => {
+                same_substance(name, before, now, scenario.engine.is_hard())?;
+                numbers.push(number as u32);
+            }
+        }
+    }
+    let materials: Vec<&Material> = scenario.materials.values().collect();
+    for at in 0..grains.len() {
+        let number = numbers[grains.material[at] as usize];
+        grains.material[at] = number;
+        if !scenario.engine.is_hard() {
+            grains.contact_stiffness[at] = materials[number as usize].stiffness_at(grains.temperature[at]);
+        }
+    }
+    Ok(())
+}
+
+/// Masses, and the heat that hard spheres hold, are the grains' own.
+fn same_substance(name: &str, before: &Material, now: &Material, is_hard: bool) -> Result<(), String> {
+    let differs = |key: &str, values: [f64; 2], unit: &str| {
+        let [before, now] = values.map(|value| readable(value, unit));
+        format!(
+            "materials.{name}.{key} was {before} there and is {now} here; grains keep what they are made of"
+        )
+    };
+    let densities = [before, now].map(|material| material.density.si());
+    if densities[0] != densities[1] {
+        return Err(differs("density", densities, "kg/m3"));
+    }
+    let heats = [before, now].map(Material::specific_heat);
+    if is_hard && heats[0] != heats[1] {
+        return Err(differs("heat_capacity", heats, "J/kg/K"));
+    }
+    Ok(())
+}
+
+fn hand_over_bonds(start: &Start, scenario: &Scenario) -> Result<(), String> {
+    match &start.bonds {
+        Some(bonds) if !bonds.is_empty() && !matches!(scenario.bonds, Some(Bonds::Beam(_))) => Err(format!(
+            "its grains are held by {} bonds, and the scenario has no law for them; add [bonds.beam]",
+            bonds.len()
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// That loaded springs find no law that has any.
+fn springs_dropped(start: &Start, past: &Scenario, scenario: &Scenario) -> Option<String> {
+    let has_springs = |scenario: &Scenario| {
+        let friction = scenario.contact.as_ref().and_then(|laws| laws.friction.as_ref());
+        matches!(friction, Some(Friction::Mindlin(_)))
+    };
+    let loaded = start.contacts.iter().filter(|(.., spring)| spring.force.norm() > 0.0).count();
+    (loaded > 0 && has_springs(past) && !has_springs(scenario)).then(|| {
+        format!("{loaded} loaded springs of the run that this one starts from are dropped: contact.friction is not mindlin")
+    })
+}
+
+/// As the check does for grains that the scenario places.
+fn refuse_short_cutoff(grains: &Particles, scenario: &Scenario) -> Result<(), String> {
+    let Some(cutoff) = scenario.fields.near_field.as_ref().and_then(|law| law.cutoff) else { return Ok(()) };
+    let largest = grains.radius.iter().copied().fold(0.0, f64::max);
+    if cutoff.si() > 2.0 * largest {
+        return Ok(());
+    }
+    let [found, least] = [cutoff.si(), 2.0 * largest].map(|length| readable(length, "m"));
+    Err(format!(
+        "fields.near_field.cutoff = {found} is not above the largest diameter {least} of its grains: touching ones are left out"
+    ))
+}
+
+/// One group for each material, as far as grains tell; where they are is in no key.
+fn groups(grains: &Particles, scenario: &Scenario) -> (Vec<GrainGroup>, Vec<u64>) {
+    let (mut groups, mut counts) = (Vec::new(), Vec::new());
+    for (number, name) in scenario.materials.keys().enumerate() {
+        let own: Vec<usize> =
+            (0..grains.len()).filter(|at| grains.material[*at] as usize == number).collect();
+        let Some(&first) = own.first() else { continue };
+        let radii = own.iter().map(|&at| grains.radius[at]);
+        let [smallest, largest] =
+            [radii.clone().fold(f64::INFINITY, f64::min), radii.fold(0.0, f64::max)].map(Quantity);
+        let heat = own.iter().map(|&at| grains.temperature[at]).sum::<f64>() / own.len() as f64;
+        let charge = own.iter().map(|&at| grains.charge[at]).find(|charge| *charge != 0.0).unwrap_or(0.0);
+        groups.push(GrainGroup {
+            material: name.clone(),
+            size: if smallest == largest {
+                Size::Constant(ConstantSize { radius: smallest })
+            } else {
+                Size::Uniform(UniformSize { smallest, largest })
+            },
+            placement: Placement::Table(Table { file: PathBuf::new() }),
+            velocity: [Quantity(0.0); 3],
+            velocity_spread: None,
+            spin: [Quantity(0.0); 3],
+            temperature: Quantity(heat),
+            charge: Quantity(charge),
+            polarity: grains.polarity[first],
+        });
+        counts.push(own.len() as u64);
+    }
+    (groups, counts)
+}
+
+fn words(start: &Start, past: &Scenario, time: f64) -> String {
+    let title = if past.title.is_empty() { "another run" } else { past.title.as_str() };
+    let bonds = start.bonds.as_ref().map_or(String::new(), |bonds| format!(", {} bonds", bonds.len()));
+    format!("{title} at t = {}: {} grains{bonds}", readable(time, "s"), start.grains.len())
+}
