@@ -214,3 +214,17 @@ fn links_are_not_followed() {
         assert!(bytes(&outside) == before, "{name}: the file outside was changed");
     }
 }
+
+/// A copy by hard links, as backups are: what goes on leaves the copy as it was, which then comes to the same end.
+#[test]
+fn copies_by_hard_links_stay_as_they_were() {
+    let bench = stopped("7");
+    let copy = bench.folder().join("linked");
+    let linked = std::process::Command::new("cp").arg("-al").arg(bench.run()).arg(&copy).status();
+    assert!(linked.unwrap().success());
+    let before = bytes(&copy);
+    ended(bench.resume().output().unwrap(), 0);
+    assert!(bytes(&copy) == before, "the copy was changed");
+    ended(agglo(&["resume", copy.to_str().unwrap()]), 0);
+    assert_same(&copy, &bench.run());
+}

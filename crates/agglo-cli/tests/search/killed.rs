@@ -59,11 +59,14 @@ fn ctrl_c_keeps_what_ended_and_says_how_to_go_on() {
     bytes.truncate(bytes.len() - 9);
     let middle = bytes.len() / 2;
     bytes[middle] ^= 1;
-    fs::write(&journal, bytes).unwrap();
+    fs::write(&journal, &bytes).unwrap();
+    // Another name of the journal, as a backup has, keeps what is there now.
+    let backup = bench.file("backup.journal");
+    fs::hard_link(&journal, &backup).unwrap();
     let done = ended(bench.resume().output().unwrap(), 0);
     assert!(said(&done).contains("best"), "{}", said(&done));
     assert_same(&bench.out(), &reference().out());
-    assert!(!journal.exists());
+    assert!(!journal.exists() && fs::read(&backup).unwrap() == bytes, "the backup was changed");
     let again = said(&ended(bench.resume().output().unwrap(), 0));
     assert!(again.contains("has finished already") && again.contains("hardness"), "{again}");
 }

@@ -4,12 +4,18 @@
 //! is killed, never meets half of it.
 
 use std::fs::File;
+#[cfg(unix)]
+use std::fs::OpenOptions;
 use std::io::{BufWriter, Write};
+#[cfg(unix)]
+use std::io::{Seek, SeekFrom};
 use std::path::Path;
 
 use tempfile::{NamedTempFile, TempPath};
 
 use super::RecordError;
+#[cfg(unix)]
+use crate::folder::files;
 use crate::folder::{Mark, Marked};
 
 /// Temporary files begin with this and end with [`SUFFIX`].
@@ -31,6 +37,33 @@ pub(super) enum Durability {
 /// [`RecordError::File`]; the old file is then still there.
 pub fn write(path: &Path, contents: &[u8]) -> Result<(), RecordError> {
     write_with(path, Durability::Power, |file| file.write_all(contents)).map(drop)
+}
+
+/// A file that is to be written on. Where it has other names, as copies by links have, it is copied first: what has those
+/// names stays as it is.
+///
+/// # Errors
+/// [`RecordError::File`].
+#[cfg(unix)]
+pub fn alone(path: &Path, mut file: File) -> Result<File, RecordError> {
+    use std::os::unix::fs::MetadataExt;
+    let names = file.metadata().map_err(RecordError::file("read", path))?.nlink();
+    if names < 2 {
+        return Ok(file);
+    }
+    file.seek(SeekFrom::Start(0)).map_err(RecordError::file("read", path))?;
+    write_with(path, Durability::Power, |copy| std::io::copy(&mut file, copy).map(drop))?;
+    let mut options = OpenOptions::new();
+    files::open(path, options.read(true).write(true)).map_err(RecordError::file("reopen", path))
+}
+
+/// Other systems do not tell.
+///
+/// # Errors
+/// None.
+#[cfg(not(unix))]
+pub fn alone(_: &Path, file: File) -> Result<File, RecordError> {
+    Ok(file)
 }
 
 /// As [`write()`], with the contents written by `fill`; gives their mark.

@@ -5,7 +5,7 @@ use std::fs::{File, OpenOptions};
 use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use super::{Number, RecordError};
+use super::{Number, RecordError, atomic};
 use crate::folder::{Mark, Marking, files};
 
 /// An entry of a row that mixes numbers and words.
@@ -169,7 +169,8 @@ impl Opened {
     /// # Errors
     /// [`RecordError::File`].
     pub fn cut(self) -> Result<Series, RecordError> {
-        let Self { path, columns, mut file, marking } = self;
+        let Self { path, columns, file, marking } = self;
+        let mut file = atomic::alone(&path, file)?;
         let bytes = marking.mark().bytes;
         let cut = file.set_len(bytes).and_then(|()| file.seek(SeekFrom::Start(bytes)));
         cut.map_err(RecordError::file("cut", &path))?;

@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use crate::folder::files;
-use crate::record::{Number, RecordError, door};
+use crate::record::{Number, RecordError, atomic, door};
 use crate::search::pool::Finished;
 
 /// What a start came to in an earlier sitting.
@@ -92,7 +92,7 @@ impl Journal {
     fn at(path: &Path, whole: u64, heading: &str) -> Result<Self, RecordError> {
         let mut open = OpenOptions::new();
         let opened = files::open(path, open.read(true).write(true).create(true).truncate(false));
-        let mut file = opened.map_err(RecordError::file("open", path))?;
+        let mut file = atomic::alone(path, opened.map_err(RecordError::file("open", path))?)?;
         let mut cut = || {
             file.set_len(whole)?;
             file.seek(SeekFrom::Start(whole))?;
