@@ -228,8 +228,7 @@ fn put_in(place: Place, mut fault: Fault, text: &str, overrides: &[&str]) -> Fau
 }
 
 fn locate(fault: Fault, root: &Node, text: &str, overrides: &[&str]) -> Fault {
-    let path: Vec<String> = fault.key.split('.').map(str::to_owned).collect();
-    match root.locate(&path) {
+    match root.locate(&fault.key) {
         Some(place) => put_in(place, fault, text, overrides),
         None => fault,
     }

@@ -8,11 +8,13 @@ use super::tree::{Entry, Node, Place, Value};
 /// Puts the value of one setting into the tree, or says what is wrong; `source` is its number, from 1.
 pub(super) fn apply(root: &mut Node, setting: &str, source: usize) -> Option<(Place, Fault)> {
     let place = |span| Place { source, span };
-    let Some((key, _)) = setting.split_once('=') else {
+    let Some(end) = outside_quotes(setting, '=').next() else {
         let fault = Fault::new("", format!("\"{setting}\" is not a setting; key.path=value is wanted"));
         return Some((place(0..setting.len()), fault.with_help("for example time.end=\"1 s\"")));
     };
-    let path: Vec<&str> = key.trim().split('.').map(str::trim).collect();
+    let key = &setting[..end];
+    let path = words(key);
+    let path: Vec<&str> = path.iter().map(String::as_str).collect();
     let key_place = place(0..key.len());
     if path.iter().any(|word| word.is_empty()) {
         let fault = Fault::new("", format!("\"{}\" is not a path of keys", key.trim()));
@@ -21,6 +23,33 @@ pub(super) fn apply(root: &mut Node, setting: &str, source: usize) -> Option<(Pl
     let value = value_of(setting, key.len() + 1, source);
     let refused = put(root, &path, &key_place, value).err()?;
     Some((key_place, Fault::new(key.trim(), refused)))
+}
+
+/// Where a character stands outside of quotes.
+fn outside_quotes(text: &str, wanted: char) -> impl Iterator<Item = usize> {
+    let mut quote = None;
+    text.char_indices().filter_map(move |(at, c)| {
+        match quote {
+            Some(open) if c == open => quote = None,
+            Some(_) => return None,
+            None if c == '"' || c == '\'' => quote = Some(c),
+            None => return (c == wanted).then_some(at),
+        }
+        None
+    })
+}
+
+/// The words of a path; a word in quotes can have points.
+fn words(key: &str) -> Vec<String> {
+    let ends = outside_quotes(key, '.').chain([key.len()]);
+    let mut from = 0;
+    ends.map(|end| {
+        let word = key[from..end].trim();
+        from = end + 1;
+        let bare = ['"', '\''].iter().find_map(|&quote| word.strip_prefix(quote)?.strip_suffix(quote));
+        bare.unwrap_or(word).to_owned()
+    })
+    .collect()
 }
 
 /// The value: TOML if it is, else the text itself as a string.

@@ -89,31 +89,25 @@ impl Node {
         Self { place: Place::nowhere(), value: Value::Table(entries(table.get_ref(), 0)) }
     }
 
-    /// The value of a key or of an index.
-    pub fn child(&self, word: &str) -> Option<&Self> {
-        match &self.value {
-            Value::Table(entries) => entries.iter().find(|entry| entry.key == word).map(|entry| &entry.node),
-            Value::List(items) => word.parse::<usize>().ok().and_then(|index| items.get(index)),
-            _ => None,
-        }
-    }
-
     /// Place of the deepest value on the path that stands in the file; of its key where it is a table.
-    pub fn locate(&self, path: &[String]) -> Option<Place> {
-        let mut node = self;
-        let mut place = None;
-        for word in path {
-            let Some(child) = node.child(word) else { break };
-            place = Some(match (&node.value, &child.value) {
-                (Value::Table(entries), Value::Table(_)) => entries
-                    .iter()
-                    .find(|entry| entry.key == *word)
-                    .map_or_else(|| child.place.clone(), |entry| entry.place.clone()),
-                _ => child.place.clone(),
-            });
-            node = child;
-        }
-        place
+    ///
+    /// Keys in quotes can have points of their own, so that a path is not cut at its points but held to the keys.
+    pub fn locate(&self, path: &str) -> Option<Place> {
+        let (place, child, rest) = match &self.value {
+            Value::Table(entries) => {
+                let found = entries.iter().filter_map(|entry| Some((entry, rest_of(path, &entry.key)?)));
+                let (entry, rest) = found.max_by_key(|(entry, _)| entry.key.len())?;
+                let is_table = matches!(entry.node.value, Value::Table(_));
+                (if is_table { &entry.place } else { &entry.node.place }, &entry.node, rest)
+            }
+            Value::List(items) => {
+                let (word, rest) = path.split_once('.').unwrap_or((path, ""));
+                let item = word.parse::<usize>().ok().and_then(|index| items.get(index))?;
+                (&item.place, item, rest)
+            }
+            _ => return None,
+        };
+        child.locate(rest).or_else(|| Some(place.clone()))
     }
 
     /// The same without places, for serde.
@@ -129,6 +123,12 @@ impl Node {
             ),
         }
     }
+}
+
+/// What follows a key on a path.
+fn rest_of<'a>(path: &'a str, key: &str) -> Option<&'a str> {
+    let rest = path.strip_prefix(key)?;
+    if rest.is_empty() { Some(rest) } else { rest.strip_prefix('.') }
 }
 
 fn entries(table: &DeTable<'_>, source: usize) -> Vec<Entry> {
