@@ -104,8 +104,8 @@ pub enum RunError {
         /// The keys that differ, with both values.
         keys: String,
     },
-    /// The checkpoint's scenario cannot be read by this version.
-    #[error("{}: the scenario of the checkpoint cannot be read: {reason}", dir.display())]
+    /// The checkpoint holds what no run has come to.
+    #[error("{}: the checkpoint cannot be gone on from: {reason}", dir.display())]
     BadCheckpoint {
         /// The run's folder.
         dir: PathBuf,

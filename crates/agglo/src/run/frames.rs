@@ -31,6 +31,22 @@ pub struct FrameLists {
 }
 
 impl FrameLists {
+    /// What cannot be of a run that has come to `now` [s], if anything.
+    pub fn fault(&self, now: f64) -> Option<&'static str> {
+        let all = [&self.grains, &self.bonds, &self.rays];
+        let can_be = |time: f64| (0.0..=now).contains(&time);
+        let times = all.into_iter().flat_map(|frames| frames.list.frames()).map(|(time, _)| time);
+        if all.into_iter().any(|frames| frames.marks.len() != frames.list.len()) {
+            Some("its lists of frames do not fit each other")
+        } else if !times.chain(self.last_time).all(can_be)
+            || self.last_time != self.grains.list.frames().last().map(|(time, _)| time)
+        {
+            Some("the times of its frames cannot be")
+        } else {
+            None
+        }
+    }
+
     /// Whether the folder has the frames as they were written, and lists that begin with them; else why not.
     pub fn check(&self, folder: &RunFolder, reading: &mut Reading<'_>) -> Result<(), String> {
         [("grains", &self.grains), ("bonds", &self.bonds), ("rays", &self.rays)]

@@ -12,6 +12,9 @@ use super::job::Job;
 use super::tables::{Layout, Tables, TablesState};
 use super::timers::{Moment, ROUND_OFF, Timers};
 
+/// The time of the last row before there is any [s].
+const NO_ROW: f64 = -1.0;
+
 /// How many rows and frames that were due fell into one with another, since one step passed both times.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 struct Merged {
@@ -36,6 +39,19 @@ impl RecorderState {
     /// [`RecordError`] where a table is missing, or not what it was.
     pub fn check_tables(&self, layout: Layout, folder: &RunFolder) -> Result<Vec<Opened>, RecordError> {
         self.tables.check(layout, folder.root())
+    }
+
+    /// What cannot be of a run of this scenario at this moment, if anything.
+    pub fn fault(&self, scenario: &Scenario, now: &Moment) -> Option<&'static str> {
+        // Before the first row there is a time that no row has.
+        let last_row_can_be = self.last_row == NO_ROW || (0.0..=now.time).contains(&self.last_row);
+        if !self.timers.stand(&scenario.output, now) {
+            Some("its output is due at other times than the scenario says")
+        } else if !last_row_can_be {
+            Some("the time of its last row cannot be")
+        } else {
+            self.frames.fault(now.time)
+        }
     }
 
     /// Holds the frames to the checkpoint.
@@ -65,7 +81,7 @@ impl Recorder {
     pub fn create<J: Job>(scenario: &Scenario, folder: &RunFolder) -> Result<Self, RecordError> {
         Ok(Self {
             timers: Timers::new(&scenario.output),
-            last_row: -1.0,
+            last_row: NO_ROW,
             merged: Merged::default(),
             tables: Tables::create(J::TABLES, folder.root())?,
             frames: Frames::new(folder, FrameLists::default()),
@@ -114,11 +130,11 @@ impl Recorder {
         let now = job.moment();
         job.record_events(&mut self.tables)?;
         if let Some(merged) = self.timers.rows.take(&now) {
-            self.merged.rows += merged;
+            self.merged.rows = self.merged.rows.saturating_add(merged);
             self.write_rows(job)?;
         }
         if let Some(merged) = self.timers.frames.take(&now) {
-            self.merged.frames += merged;
+            self.merged.frames = self.merged.frames.saturating_add(merged);
             self.write_frame(job)?;
         }
         Ok(())

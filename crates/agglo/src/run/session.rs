@@ -111,6 +111,12 @@ impl<J: Job> Session<J> {
         let bad = |reason: String| RunError::BadCheckpoint { dir: folder.root().to_owned(), reason };
         let scenario = Scenario::from_toml(&saved.scenario).map_err(|faults| bad(faults.to_string()))?;
         let job = J::resume(&scenario, saved.state).map_err(|error| bad(error.to_string()))?;
+        let sums_can_be = saved.wall_s >= 0.0 && saved.ends_before.iter().all(|end| *end > 0.0);
+        let are_finite = saved.wall_s.is_finite() && saved.ends_before.iter().all(|end| end.is_finite());
+        let odd = saved.recorder.fault(&scenario, &job.moment());
+        if let Some(reason) = odd.or((!sums_can_be || !are_finite).then_some("its times cannot be")) {
+            return Err(bad(reason.to_owned()));
+        }
         folder.sweep()?;
         let recorder = Recorder::resume::<J>(&folder, saved.recorder, tables)?;
         let now = Instant::now();

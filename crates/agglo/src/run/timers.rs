@@ -57,6 +57,15 @@ impl Timer {
         self.turn(self.next)
     }
 
+    /// Whether it is the one with this start and interval [s], and its next turn the first that is not reached.
+    fn stands(&self, start: f64, interval: Option<Time>, now: f64) -> bool {
+        let due = Self { start, ..Self::new(interval, self.next) };
+        // Whether a turn is reached is a question of rounding, of which a part of the interval is far away.
+        let slack = 1e-3 * due.interval + ROUND_OFF * now;
+        let last = self.next.checked_sub(1).map_or(f64::NEG_INFINITY, |last| due.turn(last));
+        *self == due && last <= now + slack && due.next() >= now - slack
+    }
+
     /// How many turns were reached since the last call; the next one is the first that is not.
     pub fn take(&mut self, now: &Moment) -> u64 {
         if !now.reaches(self.next()) {
@@ -91,6 +100,16 @@ impl Schedule {
     /// Time [s] of the next turn.
     pub fn next(&self) -> f64 {
         self.always.next().min(self.pulse.map_or(f64::INFINITY, |timer| timer.next()))
+    }
+
+    /// Whether it is the one with these intervals, and stands where it should at this moment.
+    fn stands(&self, always: Option<Time>, in_pulses: Option<Time>, now: &Moment) -> bool {
+        let of_pulse = match (self.pulse, now.pulse) {
+            (Some(timer), Some(start)) => timer.stands(start, in_pulses, now.time),
+            (None, start) => start.is_none() || in_pulses.is_none(),
+            (Some(_), None) => false,
+        };
+        of_pulse && self.in_pulses == in_pulses.map(Time::si) && self.always.stands(0.0, always, now.time)
     }
 
     /// Whether it is due, and then how many turns of one interval fell into one with another.
@@ -135,6 +154,14 @@ impl Timers {
             frames: Schedule::new(output.frames, frames),
             checkpoints: Timer::new(output.checkpoints, 1),
         }
+    }
+
+    /// Whether they are those of this scenario, and stand where they should at this moment.
+    pub fn stand(&self, output: &Output, now: &Moment) -> bool {
+        let PulseOutput { series, frames } = output.pulses.clone().unwrap_or_default();
+        self.rows.stands(output.series, series, now)
+            && self.frames.stands(output.frames, frames, now)
+            && self.checkpoints.stands(0.0, output.checkpoints, now.time)
     }
 
     /// Time [s] at which the next thing is due.
@@ -242,5 +269,49 @@ mod tests {
         assert_eq!(taken, [true, false, true, true, false, true]);
         assert_eq!(rows.take(&Moment { pulse: Some(1.75), ..at(9.75) }), Some(6));
         assert_eq!([rows.take(&at(9.8)), rows.take(&at(9.9))], [Some(0), None]);
+    }
+
+    /// As they are after each step of a run, and as nobody leaves them.
+    #[test]
+    fn timers_stand_where_the_clock_is() {
+        let output = Output {
+            series: Some(every(0.1)),
+            frames: None,
+            checkpoints: Some(every(0.5)),
+            pulses: Some(PulseOutput { series: Some(every(0.03)), frames: Some(every(0.1)) }),
+            ..Output::default()
+        };
+        let mut timers = Timers::new(&output);
+        for step in 0..=400_u32 {
+            let pulse = (step % 100 > 20 && step % 100 < 70).then(|| f64::from(step / 100) + 0.2);
+            let now = Moment { pulse, ..at(0.01 * f64::from(step)) };
+            timers.rows.take(&now);
+            timers.frames.take(&now);
+            timers.checkpoints.take(&now);
+            assert!(timers.stand(&output, &now), "{step}: {timers:?}");
+            let away = Moment { time: now.time + 0.7, ..now };
+            assert!(!timers.stand(&output, &away), "{step}");
+        }
+        let now = Moment { pulse: Some(3.9), ..at(4.0) };
+        let (mut flying, mut other) = (timers, output.clone());
+        flying.rows.take(&now);
+        flying.frames.take(&now);
+        assert!(flying.stand(&output, &now) && !flying.stand(&output, &at(4.0)));
+        other.series = Some(every(0.2));
+        assert!(!timers.stand(&other, &at(4.0)));
+        let forged: [fn(&mut Timers); 7] = [
+            |timers| timers.rows.always.interval = 0.0,
+            |timers| timers.rows.always.interval = f64::NAN,
+            |timers| timers.rows.always.start = f64::NEG_INFINITY,
+            |timers| timers.checkpoints.next = u64::MAX,
+            |timers| timers.checkpoints.next = 0,
+            |timers| timers.rows.in_pulses = Some(0.0),
+            |timers| timers.rows.pulse = Some(Timer { start: 1.0, interval: 0.0, next: 0 }),
+        ];
+        for (number, forge) in forged.iter().enumerate() {
+            let mut forged = timers;
+            forge(&mut forged);
+            assert!(!forged.stand(&output, &at(4.0)), "{number}");
+        }
     }
 }
