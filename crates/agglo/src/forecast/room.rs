@@ -6,6 +6,7 @@
 use std::path::{Path, PathBuf};
 
 use super::counts;
+use crate::engine::Engine;
 use crate::packing::PackingError;
 use crate::record::door;
 use crate::scenario::Scenario;
@@ -54,12 +55,17 @@ impl Demand {
         let end = scenario.time.end.si();
         let beams = || scenario.acoustics.iter().flat_map(|acoustics| &acoustics.beams);
         let output = scenario.resolved().output;
-        let due = |interval: Option<crate::units::Time>| interval.map_or(0.0, |interval| end / interval.si());
+        let pulses = beams().map(|beam| f64::from(counts::pulses_before(beam, end))).sum();
+        // What falls due within one step is written once; a launch may cut a step in two.
+        let most = most_steps(scenario) + pulses + 1.0;
+        let due = |interval: Option<crate::units::Time>| {
+            interval.map_or(0.0, |interval| (end / interval.si()).min(most))
+        };
         Self {
             grains: groups.map(|group| counts::expected(group, scenario.volume.as_ref(), base)).sum::<f64>()
                 + counts::of_earlier_run(scenario, base),
             rays: beams().map(|beam| f64::from(beam.rays)).sum(),
-            pulses: beams().map(|beam| f64::from(counts::pulses_before(beam, end))).sum(),
+            pulses,
             frames: due(output.frames),
             rows: due(output.series),
             is_hard: scenario.engine.is_hard(),
@@ -101,6 +107,16 @@ impl Demand {
         let who = format!("{} rows and {} frames", digits(self.rows), digits(self.frames));
         refuse("disk", self.disk(), room.disk, who, LONGER)
     }
+}
+
+/// The steps of a run where they are known to be no shorter than the scenario says; without end where they are not.
+fn most_steps(scenario: &Scenario) -> f64 {
+    let shortest = match &scenario.engine {
+        Engine::Verlet(verlet) => verlet.step,
+        Engine::TimeStepped(stepped) => Some(stepped.shortest_step),
+        Engine::Staggered(_) | Engine::EventDriven(_) => None,
+    };
+    shortest.map_or(f64::INFINITY, |step| scenario.time.end.si() / step.si())
 }
 
 const LONGER: &str = "make the intervals in [output] longer";
@@ -253,6 +269,21 @@ mod tests {
             words.contains("of disk") && words.contains("make the intervals in [output] longer"),
             "{words}"
         );
+    }
+
+    /// A frame every picosecond, with steps of a microsecond: no more frames than steps.
+    #[test]
+    fn what_is_due_within_a_step_counts_once() {
+        let often = ["output.frames=1 ps", "output.series=1 ps", "time.end=10 ms"];
+        let known = demand("microscale", &[&often[..], &["engine.verlet={step=\"1 us\"}"]].concat());
+        assert!((10_000.0..10_100.0).contains(&known.frames) && known.rows == known.frames, "{known:?}");
+        assert!(known.refuse_disk(&ROOM).is_ok());
+        // How long its steps are is found out on the way.
+        let automatic = demand("microscale", &often);
+        assert_eq!(automatic.frames, 1e10);
+        assert!(automatic.refuse_disk(&ROOM).is_err());
+        let rare = demand("microscale", &["engine.verlet={step=\"1 us\"}", "output.frames=1 us"]);
+        assert!((299.9..300.1).contains(&rare.frames), "{rare:?}");
     }
 
     /// A cubic lattice of 1 um in a box of 1e6 m: 1e36 grains.
