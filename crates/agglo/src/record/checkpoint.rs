@@ -25,7 +25,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use super::atomic::{self, Durability};
-use super::{RecordError, door};
+use super::{RecordError, cell, door};
 use crate::folder::files;
 
 const MAGIC: &[u8; 8] = b"AGGLO\r\n\x8a";
@@ -183,7 +183,7 @@ fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Result<(T, u64), String> {
     let (&length, rest) = rest.split_first().ok_or(CUT)?;
     let (version, rest) = rest.split_at_checked(length as usize).ok_or(CUT)?;
     if version != VERSION.as_bytes() {
-        let version = String::from_utf8_lossy(version);
+        let version = cell(&String::from_utf8_lossy(version));
         return Err(format!("written by agglo {version}; resume it with that version, this is {VERSION}"));
     }
     let (step, rest) = rest.split_first_chunk::<8>().ok_or(CUT)?;
@@ -299,6 +299,7 @@ mod tests {
         };
         assert!(resealed(&|bytes| bytes[8] = 9).contains("format is version 9"));
         assert!(resealed(&|bytes| bytes[13] = b'7').contains("resume it with that version"));
+        assert!(resealed(&|bytes| bytes[13] = 0x1b).contains("written by agglo \\u{1b}"));
         assert!(resealed(&|bytes| bytes.push(0)).contains("another length"));
         let other = encode(4, &(state(4), 1_u8)).unwrap();
         assert!(decode::<State>(&other).unwrap_err().contains("more than a state"));

@@ -223,14 +223,19 @@ impl Studio {
                 values.iter().map(|&value| light_of(name_color(Some(value as usize)))).collect()
             }
             Coloring::Clusters => {
-                let most = values.iter().fold(0.0_f64, |most, &value| most.max(value));
-                let mut members = vec![0_u32; most as usize + 1];
-                for &value in values {
-                    members[value as usize] += 1;
-                }
+                // A file that somebody has changed may have any number here.
+                let mut sorted = values.to_vec();
+                sorted.sort_unstable_by(f64::total_cmp);
+                let up_to = |value: f64, with: bool| {
+                    sorted.partition_point(|other| {
+                        let order = other.total_cmp(&value);
+                        order.is_lt() || with && order.is_eq()
+                    })
+                };
+                let is_alone = |value: f64| up_to(value, true) - up_to(value, false) < 2;
                 let color =
-                    |cluster: usize| name_color((members[cluster] > 1).then_some(cluster_number(cluster)));
-                values.iter().map(|&value| light_of(color(value as usize))).collect()
+                    |value: f64| name_color((!is_alone(value)).then_some(cluster_number(value as usize)));
+                values.iter().map(|&value| light_of(color(value))).collect()
             }
         }
     }
@@ -319,6 +324,7 @@ impl Studio {
             self.reel.scenario().map(|scenario| scenario.materials.keys().cloned().collect::<Vec<_>>());
         let names = names.unwrap_or_else(|| {
             (self.range[0] as usize..=self.range[1] as usize)
+                .take(NAMED.len())
                 .map(|number| format!("material {number}"))
                 .collect()
         });

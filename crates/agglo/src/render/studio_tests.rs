@@ -110,6 +110,11 @@ fn clusters_have_colours_and_single_grains_are_grey() {
     assert_eq!(colors[4], light_of(name_color(None)));
     // However many there are, none looks like the heaviest.
     assert_ne!(colors[6], colors[0]);
+    // Numbers that no run writes are names as well, and take no room.
+    let odd = [4e9, 4e9, 1e300, f64::NAN, f64::NEG_INFINITY, -1.0, -1.0];
+    let colors = studio.colors(&odd);
+    assert_eq!(colors[0], colors[1]);
+    assert_eq!([2, 3, 4].map(|at| colors[at]), [light_of(name_color(None)); 3]);
 }
 
 #[test]

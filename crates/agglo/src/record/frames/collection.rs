@@ -6,7 +6,7 @@ use std::path::{Component, Path};
 use serde::{Deserialize, Serialize};
 
 use super::polydata::escaped;
-use crate::record::{Number, RecordError, atomic, door};
+use crate::record::{Number, RecordError, atomic, cell, door};
 
 /// The frames written so far. It belongs into checkpoints, so that a resumed run goes on with the same list.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -37,10 +37,8 @@ impl Collection {
         let frames = rows.map(entry).collect::<Option<Vec<_>>>();
         match frames.filter(|_| text.ends_with("</Collection>\n</VTKFile>\n")) {
             None => Err(damaged("it is not a whole list of frames".to_owned())),
-            Some(frames) => match frames.iter().find(|(_, file)| is_outside(file)) {
-                Some((_, file)) => {
-                    Err(damaged(format!("its entry \"{}\" lies outside of its folder", file.escape_debug())))
-                }
+            Some(frames) => match frames.iter().find_map(|(_, file)| fault_of_name(file)) {
+                Some(reason) => Err(damaged(reason)),
                 None => Ok(Self { frames }),
             },
         }
@@ -79,9 +77,13 @@ impl Collection {
     }
 }
 
-/// Whether a name leads out of the folder that it is relative to.
-fn is_outside(file: &str) -> bool {
-    !Path::new(file).components().all(|part| matches!(part, Component::Normal(_)))
+/// Why a name is none of a frame: it leads out of the folder that it is relative to, or no frame is called so.
+fn fault_of_name(file: &str) -> Option<String> {
+    if !Path::new(file).components().all(|part| matches!(part, Component::Normal(_))) {
+        return Some(format!("its entry \"{}\" lies outside of its folder", cell(file)));
+    }
+    let shown = cell(file);
+    (shown != file || file.is_empty()).then(|| format!("its entry \"{shown}\" is no name of a frame"))
 }
 
 #[cfg(test)]
@@ -112,6 +114,21 @@ mod tests {
             list.write(&path).unwrap();
             let text = Collection::read(&path).unwrap_err().to_string();
             assert!(text.contains(outside) && text.contains("lies outside"), "{text}");
+        }
+    }
+
+    #[test]
+    fn names_that_no_frame_has_are_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("grains.pvd");
+        let long = "x".repeat(10_000);
+        for odd in ["a\0.vtp", "\u{1b}[2J.vtp", "a\u{202e}.vtp", long.as_str(), ""] {
+            let mut list = Collection::default();
+            list.add(0.0, odd);
+            list.write(&path).unwrap();
+            let text = Collection::read(&path).unwrap_err().to_string();
+            assert!(text.contains("is no name of a frame") && text.len() < 300, "{text}");
+            assert!(!text.contains(char::is_control), "{text:?}");
         }
     }
 

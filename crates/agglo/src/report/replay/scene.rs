@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::record::RecordError;
 use crate::record::frames::{FieldValues, Frame};
+use crate::record::{RecordError, cell};
 use crate::report::columns::NAMES;
 
 /// No number of a frame is as large in SI units.
@@ -97,7 +97,7 @@ fn fault(frame: &Frame) -> Option<String> {
             }),
             FieldValues::Vectors(values) => values.as_flattened().iter().all(is_real),
         };
-        (!holds).then(|| format!("its {name} has values that are not finite, or absurd"))
+        (!holds).then(|| format!("its {} has values that are not finite, or absurd", cell(name)))
     })
 }
 

@@ -333,10 +333,12 @@ impl<'a, M: Model> Conductor<'a, M> {
         Ok(())
     }
 
-    /// A task with what earlier sittings know of it; another seed would be another start.
+    /// A task with what earlier sittings know of it; another seed or other figures would be another start.
     fn task(&self, evaluation: u64, candidate: &Candidate, seeds: &Seeds) -> Task {
-        let known = self.past.of(evaluation).filter(|(start, entry)| entry.seed == seeds(evaluation, *start));
+        let columns = self.model.columns().len();
+        let known = self.past.of(evaluation);
         let known = known
+            .filter(|(start, entry)| entry.is_of(seeds(evaluation, *start), columns))
             .map(|(start, entry)| (start, pool::outcome(self.model, candidate, entry.outcome.clone())))
             .collect();
         Task { evaluation, candidate: candidate.clone(), known }

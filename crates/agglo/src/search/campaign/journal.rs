@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use crate::folder::files;
-use crate::record::{Number, RecordError, atomic, door};
+use crate::record::{Number, RecordError, atomic, cell, door};
 use crate::search::pool::Finished;
 
 /// What a start came to in an earlier sitting.
@@ -28,6 +28,13 @@ pub struct Entry {
     pub seed: u64,
     /// Figures, or the reason of its failure.
     pub outcome: Result<Vec<f64>, String>,
+}
+
+impl Entry {
+    /// Whether it is what a start with this seed can have come to, of so many figures.
+    pub fn is_of(&self, seed: u64, figures: usize) -> bool {
+        self.seed == seed && self.outcome.as_ref().map_or(true, |found| found.len() == figures)
+    }
 }
 
 /// The starts of earlier sittings.
@@ -74,7 +81,7 @@ impl Journal {
         let whole = found.iter().rposition(|byte| *byte == b'\n').map_or(0, |last| last + 1);
         let text = String::from_utf8_lossy(&found[..whole]);
         if !(whole == 0 || text.starts_with(&heading)) {
-            let other = text.lines().next().unwrap_or_default().to_owned();
+            let other = cell(text.lines().next().unwrap_or_default());
             let wanted = heading.trim_end();
             return Ok(Err(format!(
                 "its journal is of \"{other}\" (version, campaign), this is \"{wanted}\""
@@ -181,15 +188,20 @@ fn content(line: &str) -> Option<&str> {
 
 fn decision(content: &str) -> Option<(u64, f64, bool)> {
     let mut words = content.strip_prefix(BUDGET)?.strip_prefix(',')?.split(',');
-    let (evaluations, wall_s) = (words.next()?.parse().ok()?, words.next()?.parse().ok()?);
+    let (evaluations, wall_s) = (words.next()?.parse().ok()?, time(words.next()?)?);
     Some((evaluations, wall_s, words.next()? == GOES_ON))
+}
+
+/// A wall time [s].
+fn time(word: &str) -> Option<f64> {
+    word.parse().ok().filter(|wall_s: &f64| wall_s.is_finite() && *wall_s >= 0.0)
 }
 
 fn start(content: &str) -> Option<Line> {
     let mut words = content.splitn(6, ',');
     let key = (words.next()?.parse().ok()?, words.next()?.parse().ok()?);
     let seed = words.next()?.parse().ok()?;
-    let wall_s = words.next()?.parse().ok()?;
+    let wall_s = time(words.next()?)?;
     let is_ok = words.next()? == "ok";
     let rest = words.next();
     let outcome = if is_ok {
@@ -293,6 +305,24 @@ mod tests {
         }
     }
 
+    /// Lines with right checksums that no search writes.
+    #[test]
+    fn forged_lines_are_left_aside() {
+        for wall_s in ["inf", "NaN", "-1", "1e999"] {
+            for content in [format!("0,0,1,{wall_s},ok,1"), format!("budget,8,{wall_s},goes_on")] {
+                let mut line = content;
+                seal(&mut line);
+                let mut past = Past::default();
+                past.take(line.trim_end());
+                assert_eq!(past, Past::default(), "{line}");
+            }
+        }
+        let entry = |outcome| Entry { seed: 7, outcome };
+        let figures = entry(Ok(vec![1.0, 2.0]));
+        assert!(figures.is_of(7, 2) && !figures.is_of(7, 3) && !figures.is_of(7, 1) && !figures.is_of(8, 2));
+        assert!(entry(Err("it failed".to_owned())).is_of(7, 3));
+    }
+
     #[test]
     fn a_journal_of_another_campaign_is_refused() {
         let folder = tempfile::tempdir().unwrap();
@@ -300,5 +330,8 @@ mod tests {
         written(&path);
         let reason = Journal::open(&path, "version = 2").unwrap().unwrap_err();
         assert!(reason.contains("its journal is of \"agglo "), "{reason}");
+        std::fs::write(&path, "\u{1b}[31magglo,1\n").unwrap();
+        let reason = Journal::open(&path, CAMPAIGN).unwrap().unwrap_err();
+        assert!(reason.contains("its journal is of \"\\u{1b}[31magglo,1\""), "{reason}");
     }
 }

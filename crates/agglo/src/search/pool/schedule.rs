@@ -113,7 +113,8 @@ impl Schedule {
     /// Takes down what a start came to; true if that decides the candidate.
     pub fn report(&mut self, candidate: usize, start: u32, outcome: Outcome) -> bool {
         let progress = &mut self.candidates[candidate];
-        if progress.is_decided || progress.knows(start) {
+        // A journal may name starts that no ensemble comes to.
+        if progress.is_decided || progress.knows(start) || start >= self.ensemble.most() {
             return false;
         }
         if let Some(urgency) = progress.urgency(candidate, &self.ensemble) {
@@ -225,6 +226,17 @@ mod tests {
             schedule.report(0, start, outcome(0, start));
         }
         assert_eq!([schedule.next(), schedule.next(), schedule.next()], [Some((0, 1)), Some((0, 3)), None]);
+    }
+
+    /// One that names the four billionth start would have room made for all before it.
+    #[test]
+    fn starts_that_no_ensemble_comes_to_are_left_aside() {
+        let mut schedule = Schedule::new(&Ensemble::fixed(4), 1);
+        for start in [4, u32::MAX] {
+            assert!(!schedule.report(0, start, outcome(0, start)));
+        }
+        assert!(schedule.candidates[0].outcomes.is_empty());
+        assert_eq!(schedule.next(), Some((0, 0)));
     }
 
     #[test]
