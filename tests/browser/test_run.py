@@ -29,6 +29,33 @@ def test_opens_from_its_file_without_a_request_or_a_word_in_the_console(page):
     assert page.tab.locator("[role=alert]").count() == 0
 
 
+@pytest.mark.parametrize(
+    "injected",
+    [
+        "<script>window.intruded = true</script>",
+        "<script type='module'>window.intruded = true</script>",
+        "<script src='data:text/javascript,window.intruded = true'></script>",
+        "<img src='data:,' onerror='window.intruded = true'>",
+        "<iframe srcdoc='<script>parent.intruded = true</script>'></iframe>",
+        "<a id='way' href='javascript:window.intruded = true'>here</a><script>way.click()</script>",
+    ],
+)
+def test_a_script_that_got_past_the_escaping_does_not_run(opened, folder, tmp_path, injected):
+    text = (folder / "report.html").read_text(encoding="utf-8")
+    assert text.count("</h1>") == 1
+    (tmp_path / "report.html").write_text(text.replace("</h1>", f"{injected}</h1>"), encoding="utf-8")
+    page = opened(tmp_path)
+    if "javascript:" in injected:
+        page.tab.locator("#way").click()
+    page.settle()
+    assert page.evaluate("window.intruded === undefined")
+    assert any("Content Security Policy" in word for word in page.trouble), page.trouble
+    # The page's own go on as ever.
+    assert page.tab.locator("#replay[data-ready]").count() == 1
+    assert page.tab.locator("#charts[data-ready]").count() == 1
+    page.close()
+
+
 def test_draws_grains_bonds_and_rays_in_many_colors(page):
     assert page.picture().colors > 500
     page.replay("replay.show(6)")

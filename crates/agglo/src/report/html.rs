@@ -14,23 +14,24 @@ use super::{Citation, Figures, Line, Listing, Report};
 use crate::plot::{LINES, Map, NAMED, PLAIN};
 
 const STYLE: &str = include_str!("page/page.css");
-/// In the order in which they need each other.
-const SCRIPTS: [&str; 8] = [
-    include_str!("page/colors.js"),
-    include_str!("page/replay_data.js"),
-    include_str!("page/scene.js"),
-    include_str!("page/camera.js"),
-    include_str!("page/pointers.js"),
-    include_str!("page/replay.js"),
-    include_str!("page/charts.js"),
-    include_str!("page/page.js"),
-];
+/// The script as it stands between its tags, made of those in `page/`, and its digest; see `build.rs`.
+const SCRIPT: &str = include_str!(concat!(env!("OUT_DIR"), "/page.js"));
+const SCRIPT_DIGEST: &str = include_str!(concat!(env!("OUT_DIR"), "/page.sha256"));
 const STAGE: &str = include_str!("page/replay.html");
 const LICENCES: &str = include_str!("page/licences.html");
-/// Plotly.js as base64 of deflated bytes; see `build.rs`.
+/// Plotly.js as base64 of deflated bytes, and the digest of its text; see `build.rs`.
 const PLOTLY: &str = include_str!(concat!(env!("OUT_DIR"), "/plotly.min.js.deflate.base64"));
-/// Nothing may be loaded from anywhere; the charts compile some of their drawing as they go.
-const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline' 'unsafe-eval'; style-src 'unsafe-inline'; img-src data: blob:";
+const PLOTLY_DIGEST: &str = include_str!(concat!(env!("OUT_DIR"), "/plotly.sha256"));
+
+/// Nothing may be loaded from anywhere, and no script runs but the page's own and the charts' library, told by their
+/// digests: not what stands in a title or a name, should it ever get past the escaping. The charts compile some of their
+/// drawing as they go.
+fn policy() -> String {
+    format!(
+        "default-src 'none'; script-src {SCRIPT_DIGEST} {PLOTLY_DIGEST} 'unsafe-eval'; style-src 'unsafe-inline'; \
+         img-src data: blob:; base-uri 'none'; form-action 'none'"
+    )
+}
 
 /// The text as it may stand in a page.
 pub fn escaped(text: &str) -> String {
@@ -40,11 +41,11 @@ pub fn escaped(text: &str) -> String {
 impl Report {
     /// The whole page.
     pub fn page(&self) -> String {
-        let title = escaped(&self.title);
+        let (title, policy) = (escaped(&self.title), policy());
         let mut page = format!(
             "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-             <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n\
+             <meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n\
              <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n"
         );
         let sections = [
@@ -152,8 +153,7 @@ impl Report {
             "<script type=\"application/json\" id=\"report\">{data}</script>\n\
              <script type=\"text/plain\" id=\"frames\">{frames}</script>\n\
              <script type=\"text/plain\" id=\"plotly\">{plotly}</script>\n\
-             <script type=\"module\">\n{}</script>\n",
-            SCRIPTS.join("\n")
+             <script type=\"module\">{SCRIPT}</script>\n"
         )
     }
 }
@@ -307,6 +307,12 @@ mod tests {
         assert!(!shown.contains("<script>") && !shown.contains("\" onload"));
         assert!(!data.split_once('>').unwrap().1.split_once("</script>").unwrap().0.contains('<'));
         assert!(page.contains("&lt;script&gt;alert(1)&lt;/script&gt;"));
+        // What runs is told by its digest; that it is the right one is seen where a browser opens pages.
+        assert_eq!(page.matches("<script type=\"module\">").count(), 1);
+        let (_, scripts) = page.split_once("script-src ").unwrap();
+        let scripts: Vec<&str> = scripts.split(';').next().unwrap().split(' ').collect();
+        assert!(scripts[..2].iter().all(|digest| digest.starts_with("'sha256-") && digest.len() == 53));
+        assert_eq!(scripts[2..], ["'unsafe-eval'"]);
         // Four scripts of our own, and Plotly as a block that has no angle brackets.
         assert_eq!(page.matches("<script").count(), 4);
         assert_eq!(page.matches("</script>").count(), 4);
