@@ -5,11 +5,12 @@
 # Needs Rust (cargo) and Python 3.11 or later. What else is missing is installed: Python packages into target/venv, and Debian
 # packages only where something does not work without them (then it says which).
 #
-# --long repeats the storms of kills and of two processes in one folder 500 times, not 20 times.
+# --long repeats the storms of kills and of two processes in one folder 500 times, not 20 times, and reads thirty times as many
+# hostile files.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 if [[ ${1:-} == --long ]]; then
-    export AGGLO_STORMS=500
+    export AGGLO_STORMS=500 AGGLO_CASES=30
 fi
 
 venv=target/venv
@@ -76,6 +77,8 @@ prepare_browser
 : >"$log"
 run cargo test --locked --workspace --lib --bins --tests --examples
 run cargo test --locked --workspace --doc
+# Fuzzers are not run here; their targets compile.
+run cargo check --locked --manifest-path fuzz/Cargo.toml --no-default-features --bins --examples --target-dir target/fuzz
 run "$venv/bin/python" -m pytest -q tests/python
 run "$venv/bin/python" -m pytest -q tests/browser
 
