@@ -97,6 +97,11 @@ fn act(verb: Verb) -> Result<(), Failure> {
     }
 }
 
+/// Writes to the standard error, without what acts on a terminal. Work goes on where nobody reads its messages.
+pub(crate) fn tell(text: &str) {
+    let _ = writeln!(io::stderr(), "{}", visible(text));
+}
+
 /// Writes to the standard output, without what acts on a terminal; a reader that closed the pipe has seen enough.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
     match writeln!(io::stdout(), "{}", visible(text.trim_end())) {

@@ -1,13 +1,12 @@
 //! The verbs `report` and `cite`.
 
-use std::io::{self, Write};
 use std::path::Path;
 
 use agglo::report::{self, ReportError};
 use agglo::scenario::Scenario;
 
 use crate::signals::Ear;
-use crate::{Failure, print};
+use crate::{Failure, print, tell};
 
 /// Writes the page of what has just finished and says so; a page that cannot be written is a warning, since all
 /// results are there.
@@ -23,12 +22,7 @@ pub(crate) fn at_the_end(folder: &Path, ear: &Ear) -> String {
     match report::write(folder) {
         Ok(_) => "; report.html shows it".to_owned(),
         Err(error) => {
-            // Nothing is left to do where even this warning cannot be written.
-            let _ = writeln!(
-                io::stderr(),
-                "warning: there is no report: {}",
-                agglo::record::visible(&error.to_string())
-            );
+            tell(&format!("warning: there is no report: {error}"));
             String::new()
         }
     }

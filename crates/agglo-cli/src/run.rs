@@ -1,6 +1,5 @@
 //! The verbs `run` and `resume`.
 
-use std::io::Write;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -13,7 +12,7 @@ use agglo::units::{Quantity, Time, parse_quantity};
 use crate::arguments::{Orders, ResumeOrders, RunOrders};
 use crate::progress::Display;
 use crate::signals::{Ear, Late};
-use crate::{Failure, print, progress, read, report};
+use crate::{Failure, print, progress, read, report, tell};
 
 /// Runs a scenario into a folder.
 pub(crate) fn run(run_orders: &RunOrders) -> Result<(), Failure> {
@@ -106,11 +105,9 @@ pub(crate) fn use_threads(wanted: Option<u32>) -> Result<(), Failure> {
     let threads = match (wanted, of_environment) {
         (Some(threads), _) => threads as usize,
         (None, Some(threads)) if threads > MOST_THREADS => {
-            // A run goes on where nobody reads its messages.
-            let _ = writeln!(
-                std::io::stderr(),
+            tell(&format!(
                 "warning: RAYON_NUM_THREADS={threads} is more than {MOST_THREADS}: all processors are used"
-            );
+            ));
             std::thread::available_parallelism().map_or(1, usize::from)
         }
         (None, _) => return Ok(()),

@@ -3,15 +3,15 @@
 //! The first one asks for an end, which comes within a second wherever nothing has to be saved, and after the step at hand
 //! elsewhere. The second one ends the program at once.
 
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use agglo::folder::Traces;
+use agglo::render::clear_at_exit;
 
-use crate::Failure;
+use crate::{Failure, tell};
 
 /// After this time without an end the program says that it has heard.
 const PATIENCE: Duration = Duration::from_millis(700);
@@ -70,25 +70,30 @@ impl Ear {
         let farewell = self.farewell();
         if is_second || farewell.is_some() {
             if let Some(words) = farewell.as_deref() {
-                // Nothing is left to do where even this cannot be written.
-                let _ = writeln!(io::stderr(), "{words}");
+                tell(words);
             }
             if let Some((folder, traces)) = traces {
                 traces.clear_at_exit(folder);
             }
-            std::process::exit(1);
+            end();
         }
         let late = self.late;
         std::thread::spawn(move || {
             std::thread::sleep(PATIENCE);
             let goes_on = "stopping as soon as the step at hand is done; once more ends at once";
             let words = if let Late::Ends(words) = late { words } else { goes_on };
-            let _ = writeln!(io::stderr(), "{words}");
+            tell(words);
             if let Late::Ends(_) = late {
-                std::process::exit(1);
+                end();
             }
         });
     }
+}
+
+/// Ends the program, which leaves nothing half-made.
+fn end() -> ! {
+    clear_at_exit();
+    std::process::exit(1);
 }
 
 /// A file that grows beyond the limit for files is an error of its write, and not the end of the program.

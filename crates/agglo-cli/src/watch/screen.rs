@@ -1,5 +1,6 @@
 //! How the dashboard looks.
 
+use agglo::record::visible;
 use agglo::scenario::readable;
 use agglo::watch::{Curve, Sight};
 use ratatui::Frame;
@@ -67,14 +68,14 @@ impl Screen<'_> {
         let [left, right] = columns(middle);
         self.picture(frame, left);
         self.side(frame, right);
-        let lines: Vec<Line<'_>> = notes.iter().map(|note| Line::from(note.as_str()).yellow()).collect();
+        let lines: Vec<Line<'_>> = notes.iter().map(|note| Line::from(visible(note)).yellow()).collect();
         frame.render_widget(Paragraph::new(lines), foot);
         frame.render_widget(Paragraph::new(self.keys).dim(), keys);
     }
 
     fn head(&self, frame: &mut Frame<'_>, area: Rect) {
         let [title, bar] = Layout::vertical([Constraint::Length(1), Constraint::Length(1)]).areas(area);
-        frame.render_widget(Paragraph::new(self.title).bold(), title);
+        frame.render_widget(Paragraph::new(visible(self.title)).bold(), title);
         let label = format!("{:.1} %  {}", 100.0 * self.part, self.state);
         let filled =
             Style::new().fg(self.depth.color([0x00, 0x72, 0xb2])).bg(self.depth.color([0x30, 0x30, 0x30]));

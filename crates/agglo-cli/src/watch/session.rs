@@ -8,6 +8,7 @@ use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
+use agglo::record::visible;
 use agglo::run::{Progress, Summary};
 use agglo::watch::{Follower, Sight, WatchError};
 use ratatui::DefaultTerminal;
@@ -100,7 +101,7 @@ fn write_lines(mut follower: Follower) -> Result<Option<Summary>, Failure> {
             })
         {
             written = Some(Instant::now());
-            match writeln!(io::stdout(), "{line}") {
+            match writeln!(io::stdout(), "{}", visible(&line)) {
                 // A reader that closed the pipe has seen enough.
                 Err(error) if error.kind() == io::ErrorKind::BrokenPipe => return Ok(None),
                 Err(error) => return Err(Failure::failed(format!("error: cannot write: {error}"))),

@@ -28,9 +28,13 @@ fn sight() -> Sight {
 }
 
 fn screen(sight: &Sight, size: [u16; 2], notes: &[String]) -> Buffer {
+    screen_of("a run", sight, size, notes)
+}
+
+fn screen_of(title: &str, sight: &Sight, size: [u16; 2], notes: &[String]) -> Buffer {
     let mut terminal = Terminal::new(TestBackend::new(size[0], size[1])).unwrap();
     let screen = Screen {
-        title: "a run",
+        title,
         part: 0.31,
         state: "0.310 of 1 s, 812 steps/s, 0:04 left",
         sight,
@@ -68,6 +72,15 @@ fn all_figures_are_shown_with_their_units() {
     let is_braille = |letter: char| ('\u{2801}'..='\u{28ff}').contains(&letter);
     assert!(lines.iter().flat_map(|line| line.chars()).filter(|&letter| is_braille(letter)).count() > 20);
     assert!(lines[39].starts_with("q leave"));
+}
+
+/// Terminals obey more than the controls that the library of the screen leaves out: marks that turn the direction too.
+#[test]
+fn titles_and_notes_do_not_act_on_the_terminal() {
+    let notes = ["warning: \u{1b}[2Jgone \u{202e}turned".to_owned()];
+    let lines = lines(&screen_of("red \u{1b}[31m\u{2066}", &sight(), [120, 40], &notes));
+    assert!(lines[0].starts_with("red \\u{1b}[31m\\u{2066}"), "{}", lines[0]);
+    assert!(lines.iter().any(|line| line.contains("warning: \\u{1b}[2Jgone \\u{202e}turned")));
 }
 
 #[test]

@@ -97,6 +97,26 @@ fn movies_where_there_is_ffmpeg() {
     assert_eq!(names(folder.path()), wanted, "nothing half-written is left");
 }
 
+/// In the place of ffmpeg stands a script that begins its file and then asks the program to end at once.
+#[cfg(unix)]
+#[test]
+fn a_movie_that_was_stopped_leaves_no_part_of_it() {
+    use std::os::unix::fs::PermissionsExt;
+    let (folder, programs) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    let script = "#!/bin/sh\nfor last; do :; done\necho part > \"$last\"\ntouch \"${0%/*}/began\"\n\
+                  for n in 1 2 3; do kill -INT $PPID; sleep 0.05; done\ncat > /dev/null\n";
+    let program = programs.path().join("ffmpeg");
+    fs::write(&program, script).unwrap();
+    fs::set_permissions(&program, fs::Permissions::from_mode(0o755)).unwrap();
+    let path = format!("{}:{}", programs.path().display(), std::env::var("PATH").unwrap());
+    let (run, to) = (reference(STAGGERED).display().to_string(), folder.path().join("m.mp4"));
+    // Pictures that take so long that the program ends in the middle of one.
+    let mut slow = command(&["render", &run, "-o", to.to_str().unwrap(), "--size", "6000x6000"]);
+    ended(slow.env("PATH", path).output().unwrap(), 1);
+    assert!(programs.path().join("began").exists());
+    assert!(names(folder.path()).is_empty(), "{:?}", names(folder.path()));
+}
+
 #[test]
 fn without_ffmpeg_the_package_is_named() {
     let folder = tempfile::tempdir().unwrap();

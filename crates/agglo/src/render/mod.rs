@@ -24,7 +24,7 @@ pub use camera::{Camera, Side};
 pub use error::RenderError;
 pub use film::{Film, FilmEnding, FilmProgress, Shots, film};
 pub use image::Image;
-pub use output::Output;
+pub use output::{Output, clear_at_exit};
 pub use reel::Reel;
 pub use scene::{Background, Ground, Scene};
 pub use solid::{Light, Line, Sphere};

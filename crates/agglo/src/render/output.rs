@@ -3,6 +3,7 @@
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin, Command, Stdio};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tempfile::TempPath;
 
@@ -158,6 +159,22 @@ fn write_png(path: &Path, image: &Image) -> Result<(), RenderError> {
     Ok(atomic::write(path, &bytes)?)
 }
 
+/// Movies in the making: the files that go if they are not finished.
+static IN_THE_MAKING: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// Those files.
+fn in_the_making() -> MutexGuard<'static, Vec<PathBuf>> {
+    IN_THE_MAKING.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Takes away the parts of movies that are not finished, in a program that ends at once.
+pub fn clear_at_exit() {
+    for part in in_the_making().drain(..) {
+        // What is not there need not go, and of other trouble nobody is left to be told.
+        let _ = std::fs::remove_file(part);
+    }
+}
+
 /// A program that makes a movie from pixels. The movie is written beside its place; unless it is finished it goes.
 #[derive(Debug)]
 pub(super) struct Encoder {
@@ -189,6 +206,7 @@ impl Encoder {
             _ => RenderError::Ffmpeg { path: path.to_owned(), reason: error.to_string() },
         })?;
         let pixels = program.stdin.take();
+        in_the_making().push(part.to_path_buf());
         Ok(Self { program, pixels, part: Some(part), path: path.to_owned() })
     }
 
@@ -205,6 +223,7 @@ impl Encoder {
             return Err(self.failed(&ended.map_or_else(|error| error.to_string(), |code| code.to_string())));
         }
         let Some(part) = self.part.take() else { return Ok(()) };
+        in_the_making().retain(|other| *other != *part);
         let kept = part.persist(&self.path).map_err(|error| error.error);
         Ok(kept.map_err(RecordError::file("write", &self.path))?)
     }
@@ -231,5 +250,8 @@ impl Drop for Encoder {
         // It has ended already where the movie is finished.
         let _ = self.program.kill();
         let _ = self.program.wait();
+        if let Some(part) = &self.part {
+            in_the_making().retain(|other| *other != **part);
+        }
     }
 }
