@@ -9,11 +9,12 @@ use std::path::Path;
 use agglo_fuzz::BENCH;
 
 /// Targets, and where the files are that they begin with: parts of their paths.
-const OF_FOLDERS: [(&str, &[&str]); 5] = [
+const OF_FOLDERS: [(&str, &[&str]); 6] = [
     ("table", &["table/grains.csv"]),
     ("checkpoint", &["stopped/checkpoints/", "finished/checkpoints/"]),
     ("journal", &["search/starts.journal"]),
     ("frame", &["finished/frames/"]),
+    ("series", &["finished/series/"]),
     ("summary", &["finished/summary.json", "ended/summary.json", "ended/best/summary.json"]),
 ];
 

@@ -161,6 +161,26 @@ fn frames_of_anybody() {
 }
 
 #[test]
+fn series_of_anybody() {
+    let bench = Bench::new();
+    read_some("series", &bench, &of_files(&bench, &[("finished/series/", ".csv")], true), 300);
+}
+
+/// Settings from the command line, nearly right.
+#[test]
+fn settings_of_anybody() {
+    let seeds = [
+        "grains.0.size.lognormal.median=25 um",
+        "materials.\"pigment\".density=2500 kg/m3",
+        "acoustics.beams.0.start.2=3 mm",
+        "output.pulses={series=\"20 ns\", frames=\"0.2 us\"}",
+    ];
+    let seeds = seeds.iter().map(|seed| seed.as_bytes().to_vec()).collect();
+    let mutator = Mutator::new(seeds, &words(&agglo::scenario::schema()), true);
+    read_some("setting", &Bench::new(), &mutator, 1000);
+}
+
+#[test]
 fn summaries_of_anybody() {
     let bench = Bench::new();
     let names = [("finished/summary", ".json"), ("ended/summary", ".json"), ("ended/best/summary", ".json")];

@@ -17,7 +17,7 @@ use agglo::report::Report;
 use agglo::run;
 use agglo::scenario::{Faults, Scenario};
 use agglo::search::{self, Campaign};
-use agglo::watch::Follower;
+use agglo::watch::{Figure, Follower};
 
 use crate::seeds;
 
@@ -97,14 +97,16 @@ fn gather(root: &Path, below: &Path, files: &mut Vec<(PathBuf, Vec<u8>)>) {
 }
 
 /// Every reader by the name of its target.
-pub const READERS: [(&str, Reader); 8] = [
+pub const READERS: [(&str, Reader); 10] = [
     ("scenario", scenario),
+    ("setting", setting),
     ("plan", plan),
     ("campaign", campaign),
     ("table", table),
     ("checkpoint", checkpoint),
     ("journal", journal),
     ("frame", frame),
+    ("series", series),
     ("summary", summary),
 ];
 
@@ -125,16 +127,33 @@ fn faulty(faults: &Faults, text: &str) -> Verdict {
 /// A scenario's text: what is sound is written out and read back as the same.
 pub fn scenario(_: &Bench, bytes: &[u8]) -> Verdict {
     let text = String::from_utf8_lossy(bytes);
-    let scenario = match Scenario::from_toml(&text) {
-        Ok(scenario) => scenario,
-        Err(faults) => return faulty(&faults, &text),
-    };
-    for scenario in [&scenario, &scenario.resolved()] {
+    match Scenario::from_toml(&text) {
+        Ok(scenario) => {
+            comes_back(&scenario);
+            Ok(())
+        }
+        Err(faults) => faulty(&faults, &text),
+    }
+}
+
+/// A setting of a scenario that is sound without it.
+pub fn setting(_: &Bench, bytes: &[u8]) -> Verdict {
+    let (text, setting) = (seeds::sound(), String::from_utf8_lossy(bytes));
+    match Scenario::with_overrides(text, &[setting]) {
+        Ok(scenario) => {
+            comes_back(&scenario);
+            Ok(())
+        }
+        Err(faults) => faulty(&faults, text),
+    }
+}
+
+fn comes_back(scenario: &Scenario) {
+    for scenario in [scenario, &scenario.resolved()] {
         let written = scenario.to_toml().expect("a sound scenario has a text");
         let again = Scenario::from_toml(&written).unwrap_or_else(|faults| panic!("{faults}\n{written}"));
         assert!(again == *scenario, "it reads back as another:\n{written}");
     }
-    Ok(())
 }
 
 /// The plan of a scenario that is sound.
@@ -284,14 +303,30 @@ fn drawn(dir: &Path) {
     }
 }
 
+/// A table of a run over time: watched, and shown in a report.
+pub fn series(bench: &Bench, bytes: &[u8]) -> Verdict {
+    let dir = bench.with("finished", Path::new("finished/series/clusters.csv"), bytes);
+    shown(&dir);
+    followed(&dir)
+}
+
+fn followed(dir: &Path) -> Verdict {
+    match Follower::open(dir).and_then(|mut follower| follower.look()) {
+        Ok(sight) => {
+            let figures: Vec<String> = sight.figures.iter().map(Figure::text).collect();
+            assert!(figures.iter().all(|text| text.len() < 100), "{figures:?}");
+            Ok(())
+        }
+        Err(error) => refused(&error.to_string()),
+    }
+}
+
 /// A summary of a run or of a search: what is taken is written and read again, and shown.
 pub fn summary(bench: &Bench, bytes: &[u8]) -> Verdict {
     let dir = bench.with("finished", Path::new("finished/summary.json"), bytes);
     let read = run::summary(&dir);
     shown(&dir);
-    if let Err(error) = Follower::open(&dir).and_then(|mut follower| follower.look()) {
-        drop(refused(&error.to_string()));
-    }
+    let _ = followed(&dir);
     let campaign = bench.with("ended", Path::new("ended/summary.json"), bytes);
     let of_campaign = search::campaign::finished(&campaign);
     let _ = Report::of_campaign(&campaign);
