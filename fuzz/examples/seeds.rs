@@ -11,7 +11,7 @@ use agglo_fuzz::BENCH;
 /// Targets, and where the files are that they begin with: parts of their paths.
 const OF_FOLDERS: [(&str, &[&str]); 6] = [
     ("table", &["table/grains.csv"]),
-    ("checkpoint", &["stopped/checkpoints/", "finished/checkpoints/"]),
+    ("checkpoint", &["stopped/checkpoints/", "finished/checkpoints/", "grown/checkpoints/"]),
     ("journal", &["search/starts.journal"]),
     ("frame", &["finished/frames/"]),
     ("series", &["finished/series/"]),

@@ -139,12 +139,8 @@ fn tables_of_anybody() {
 #[test]
 fn checkpoints_of_anybody() {
     let bench = Bench::new();
-    read_some(
-        "checkpoint",
-        &bench,
-        &of_files(&bench, &[("stopped/", ".agglo"), ("finished/", ".agglo")], false),
-        500,
-    );
+    let names = [("stopped/", ".agglo"), ("grown/", ".agglo"), ("finished/", ".agglo")];
+    read_some("checkpoint", &bench, &of_files(&bench, &names, false), 500);
 }
 
 #[test]

@@ -162,13 +162,18 @@ pub fn plan(_: &Bench, bytes: &[u8]) -> Verdict {
     let Ok(scenario) = Scenario::from_toml(&text) else { return Err("no scenario".to_owned()) };
     match Plan::with(&scenario, Path::new("/nowhere"), LITTLE) {
         Ok(plan) => {
-            let said = plan.to_string().to_lowercase();
-            let odd = said.split(|c: char| !c.is_alphanumeric()).find(|word| ["nan", "inf"].contains(word));
-            assert!(odd.is_none(), "a plan of no numbers:\n{said}");
+            finite(&plan);
             Ok(())
         }
         Err(error) => refused(&error.to_string()),
     }
+}
+
+/// Holds what a plan says to be numbers.
+fn finite(plan: &Plan) {
+    let said = plan.to_string().to_lowercase();
+    let odd = said.split(|c: char| !c.is_alphanumeric()).find(|word| ["nan", "inf"].contains(word));
+    assert!(odd.is_none(), "a plan of no numbers:\n{said}");
 }
 
 /// A search or study: what is sound is written out and read back as the same.
@@ -199,15 +204,33 @@ pub fn table(bench: &Bench, bytes: &[u8]) -> Verdict {
     }
 }
 
-/// A checkpoint in the folder of its run, as it is and with a right checksum. A run that goes on is told to stop soon.
+/// A checkpoint in the folder of its run, and as the start of another, as it is and with a right checksum. A run that goes
+/// on is told to stop soon.
 pub fn checkpoint(bench: &Bench, bytes: &[u8]) -> Verdict {
     let names = bench.named("stopped/checkpoints/", ".agglo");
     let name = names.last().expect("the run has checkpoints");
-    let verdict = resumed(&bench.with("stopped", name, bytes));
-    if verdict.is_ok() {
-        return verdict;
+    let mut verdict = Err("not read".to_owned());
+    for bytes in [bytes, &seeds::sealed(bytes)] {
+        let found = [
+            resumed(&bench.with("stopped", name, bytes)),
+            begun(&bench.with("begun", Path::new("begun/state.agglo"), bytes)),
+            begun(&bench.with("begun-hard", Path::new("begun-hard/state.agglo"), bytes)),
+        ];
+        verdict = found.into_iter().fold(verdict, Verdict::or);
     }
-    resumed(&bench.with("stopped", name, &seeds::sealed(bytes)))
+    verdict
+}
+
+/// The plan of a scenario that starts from a state.
+fn begun(dir: &Path) -> Verdict {
+    let scenario = Scenario::load(&dir.join("scenario.toml")).expect("it is sound");
+    match Plan::with(&scenario, dir, LITTLE) {
+        Ok(plan) => {
+            finite(&plan);
+            Ok(())
+        }
+        Err(error) => refused(&error.to_string()),
+    }
 }
 
 fn resumed(dir: &Path) -> Verdict {

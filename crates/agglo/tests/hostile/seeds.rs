@@ -29,7 +29,16 @@ pub fn sound() -> &'static str {
     template("microscale").expect("it is there").text
 }
 
-/// Makes the folders `stopped` and `finished` of runs, `search` and `ended` of searches, and `table`.
+/// The same solid fraction with 60 hard grains.
+const FEW: [&str; 4] = [
+    "time.end=0.2 ms",
+    "grains.0.placement.fill.count=60",
+    "grains.0.size.length_ratio.count=60",
+    "output.frames=0.1 ms",
+];
+
+/// Makes the folders `stopped`, `finished` and `grown` of runs, `begun` and `begun-hard` of scenarios that start from a
+/// state, `search` and `ended` of searches, and `table`.
 pub fn make(place: &Path) {
     let scenario = Scenario::with_overrides(sound(), &SMALL).unwrap_or_else(|faults| panic!("{faults}"));
     fs::create_dir_all(place.join("table")).expect("a folder");
@@ -38,8 +47,20 @@ pub fn make(place: &Path) {
     tabled.grains[0].placement = Placement::Table(Table { file: "grains.csv".into() });
     fs::write(place.join("table/scenario.toml"), tabled.to_toml().expect("a text")).expect("a file");
 
+    let hard = Scenario::with_overrides(template("reacting").expect("it is there").text, &FEW)
+        .unwrap_or_else(|faults| panic!("{faults}"));
+    for (name, scenario) in [("begun", &scenario), ("begun-hard", &hard)] {
+        let mut next = scenario.clone();
+        next.grains.clear();
+        next.start.from = Some("state.agglo".into());
+        fs::create_dir_all(place.join(name)).expect("a folder");
+        fs::write(place.join(name).join("scenario.toml"), next.to_toml().expect("a text")).expect("a file");
+        fs::write(place.join(name).join("state.agglo"), "").expect("a file");
+    }
+
     let goes_on = |_: &run::Progress| ControlFlow::Continue(());
     run::run(&scenario, Path::new(""), &place.join("finished"), &mut { goes_on }).expect("it runs");
+    run::run(&hard, Path::new(""), &place.join("grown"), &mut { goes_on }).expect("it runs");
     // What it had when it was half done.
     run::run(&scenario, Path::new(""), &place.join("stopped"), &mut { goes_on }).expect("it runs");
     fs::remove_file(place.join("stopped/summary.json")).expect("it has finished");
