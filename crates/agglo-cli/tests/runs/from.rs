@@ -154,6 +154,22 @@ fn hard_grains_go_on_with_what_they_grew_from() {
     }
 }
 
+/// A step leaves grains in walls, in one another, and outside of an antipodal volume: any checkpoint will do.
+#[test]
+fn step_by_step_any_state_is_a_start() {
+    for boundary in ["reflecting", "antipodal", "periodic"] {
+        let scenario = STEPS.replace("\"reflecting\"", &format!("\"{boundary}\""));
+        assert!(scenario.contains(boundary), "{scenario}");
+        let first = Bench::with(&scenario);
+        ended(first.start(&["--no-report"]).output().unwrap(), 0);
+        for (step, checkpoint) in checkpoints(&first.run()) {
+            let next = Next::of(&next(&scenario));
+            let done = next.run(&checkpoint, &["--no-report"]).output().unwrap();
+            assert!(done.status.success(), "{boundary}, step {step}: {}", complained(&done));
+        }
+    }
+}
+
 /// An earlier state is named by its checkpoint, in the scenario as well, relative to where that lies.
 #[test]
 fn a_checkpoint_is_as_good_as_a_folder() {

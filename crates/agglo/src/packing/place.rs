@@ -8,7 +8,7 @@ use super::overlap::{first_outside, first_overlap};
 use super::random::{self, Request};
 use super::room::Room;
 use super::{GrainList, Placement, lattice, table};
-use crate::domain::{Volume, resolution};
+use crate::domain::{Boundary, Volume, resolution};
 use crate::math::Vec3;
 use crate::math::rng::{Purpose, Stream};
 use crate::particles::{Material, Particles, Row};
@@ -213,7 +213,9 @@ fn make_ready_for_impacts(
             let walls = !volume.boundary.wraps();
             return Err(PackingError::Outside { grain: grains.id[at], walls, x, y, z });
         }
-        grains.position.iter_mut().for_each(|position| *position = volume.wrap(*position));
+        if !may_overlap || volume.boundary == Boundary::Periodic {
+            grains.position.iter_mut().for_each(|position| *position = volume.wrap(*position));
+        }
     }
     match first_overlap(grains, volume) {
         Some(found) if !may_overlap => {
