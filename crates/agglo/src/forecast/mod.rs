@@ -167,6 +167,12 @@ impl Plan {
         if !self.impacts.is_finite() {
             self.impacts = 0.0;
         }
+        let is_no_number = |word: &str| matches!(word, "inf" | "NaN");
+        for (_, words) in &mut self.figures {
+            if words.split(|c: char| !c.is_alphanumeric()).any(is_no_number) {
+                UNKNOWN.clone_into(words);
+            }
+        }
     }
 
     /// Tries the first steps; nothing where that would take too long, or where the start fails.
@@ -201,7 +207,6 @@ impl Plan {
     }
 
     fn rows(&self) -> Vec<(String, String)> {
-        const UNKNOWN: &str = "not known";
         let mut rows = vec![("grains".to_owned(), self.grains.to_string())];
         let mut row = |label: &str, value: String| rows.push((label.to_owned(), value));
         if self.pulses > 0 {
@@ -220,6 +225,9 @@ impl Plan {
         rows
     }
 }
+
+/// What is said of what cannot be told.
+const UNKNOWN: &str = "not known";
 
 /// Radius [m] of the smallest grain; as the scenario asks for it where none were placed.
 fn smallest(scenario: &Scenario, placed: Option<&Particles>) -> f64 {
