@@ -110,11 +110,6 @@ impl PairList {
         )
     }
 
-    /// Forgets the list, so that the next check asks for a new one.
-    pub fn clear(&mut self) {
-        self.reference.clear();
-    }
-
     /// Skin of the list as built [m].
     pub fn skin(&self) -> f64 {
         self.skin

@@ -7,6 +7,8 @@ mod laws;
 mod loads;
 mod look;
 mod pulses;
+#[cfg(test)]
+mod relations_tests;
 mod relax;
 mod response;
 mod simulation;

@@ -98,6 +98,8 @@ pub struct Simulation {
     pub(super) paces: Paces,
     /// What the cut-off of the near field left out at the start.
     pub truncation: Option<Truncation>,
+    /// Steps between two sortings of the grains.
+    pub(super) sort_every: u64,
     end: f64,
 }
 
@@ -181,6 +183,7 @@ impl Simulation {
             clock,
             scheme: scheme_of(scenario),
             limits: scenario.limits.clone(),
+            sort_every: SORT_EVERY,
             end: scenario.time.end.si(),
         }
     }
@@ -213,6 +216,7 @@ impl Simulation {
             clock: state.clock,
             scheme: scheme_of(scenario),
             limits: scenario.limits.clone(),
+            sort_every: SORT_EVERY,
             end: scenario.time.end.si(),
         })
     }
@@ -283,7 +287,7 @@ impl Simulation {
 
     fn sort_grains_when_due(&mut self) {
         if self.clock.step > 0
-            && self.clock.step.is_multiple_of(SORT_EVERY)
+            && self.clock.step.is_multiple_of(self.sort_every)
             && let Some(place) = self.system.sort_in_space()
         {
             self.pulses.reindex(&place);

@@ -59,7 +59,7 @@ pub struct System {
     pub(super) contacts: Contacts,
     list: PairList,
     near: PairList,
-    skin: Skin,
+    pub(super) skin: Skin,
 }
 
 impl System {
@@ -270,6 +270,7 @@ impl System {
     /// Puts back the contacts' memory.
     pub fn remember(&mut self, remembered: &[Remembered]) {
         self.rebuild(false, remembered);
+        self.list_near(false);
     }
 
     fn bring_lists_up_to_date(&mut self) {
@@ -279,13 +280,17 @@ impl System {
             self.skin.adapt(self.list.len(), self.grains.len());
             self.rebuild(true, &remembered);
         }
-        let cutoff = self.laws.fields.near_field.as_ref().and_then(|law| law.cutoff);
-        if let Some(cutoff) = cutoff
-            && !self.near.holds_for(&self.trial.position)
-        {
-            let skin = 0.2 * cutoff.si();
-            self.near.build(&self.trial.position, &vec![0.0; self.grains.len()], cutoff.si(), skin);
+        if !self.near.holds_for(&self.trial.position) {
+            self.list_near(true);
         }
+    }
+
+    /// Lists the pairs of the near field anew, if it has a cut-off, at the trial or the committed positions.
+    fn list_near(&mut self, at_trial: bool) {
+        let Some(cutoff) = self.laws.fields.near_field.as_ref().and_then(|law| law.cutoff) else { return };
+        let positions = if at_trial { &self.trial.position } else { &self.grains.position };
+        let skin = self.skin.of_near_field(cutoff.si());
+        self.near.build(positions, &vec![0.0; self.grains.len()], cutoff.si(), skin);
     }
 
     /// Lists the pairs anew, at the trial or the committed positions.
@@ -301,6 +306,11 @@ impl System {
         if order.iter().zip(0..).all(|(a, b)| *a == b) {
             return None;
         }
+        Some(self.reorder(&order))
+    }
+
+    /// Puts the grains into another order: the one at `order[k]` comes to place k. Returns the new place of each.
+    pub(super) fn reorder(&mut self, order: &[u32]) -> Vec<u32> {
         let mut place = vec![0_u32; order.len()];
         for (new, &old) in order.iter().enumerate() {
             place[old as usize] = new as u32;
@@ -309,14 +319,14 @@ impl System {
         for (a, b, _) in &mut remembered {
             (*a, *b) = (place[*a as usize], place[*b as usize]);
         }
-        self.grains.reorder(&order);
-        self.loads.reorder(&order);
-        self.ray_loads.reorder(&order);
+        self.grains.reorder(order);
+        self.loads.reorder(order);
+        self.ray_loads.reorder(order);
         self.inertial_mass = order.iter().map(|&at| self.inertial_mass[at as usize]).collect();
         self.network.reindex(&place);
-        self.near.clear();
         self.rebuild(false, &remembered);
-        Some(place)
+        self.list_near(false);
+        place
     }
 }
 
