@@ -120,6 +120,73 @@ fn mixtures_have_the_last_word() {
     );
 }
 
+/// A hard sphere and a soft one, either named first: H is the softer's, so that e is what it is between two soft ones of the
+/// same masses; 1 - e = √(m* v²/(4 π b³ H)), b the smaller radius. Heat changes no hardness here.
+#[test]
+fn the_softer_partner_decides() {
+    let [hard, soft] = ["hardness = \"6 MPa\"", "hardness = \"0.3 MPa\""];
+    for solver in ["", "solver.fixed_point = { most_iterations = 1 }\n"] {
+        let rule = format!("{HARDNESS}\n{solver}");
+        let (one, two) = (sphere(0, 1e-3, [2.0, 0.0, 0.0]), sphere(1, 2e-3, [-1.0, 0.0, 0.0]));
+        let of =
+            |materials: [&str; 2]| laws(&rule, materials).impact([&one, &two], Vec3::AXES[0]).restitution;
+        let wanted = of([soft, soft]);
+        for materials in [[hard, soft], [soft, hard]] {
+            let found = of(materials);
+            assert!(found == wanted, "{materials:?} {solver}: e = {found}, expected {wanted}");
+        }
+        assert!(of([hard, hard]) > wanted, "the case is made for a hardness that matters");
+        if solver.is_empty() {
+            let reduced = one.mass * two.mass / (one.mass + two.mass);
+            let by_hand = 1.0 - (reduced * 9.0 / (4.0 * PI * 1e-9 * 3e5)).sqrt();
+            assert!((wanted - by_hand).abs() < 1e-14, "e = {wanted}, expected {by_hand}");
+        }
+    }
+}
+
+/// The same where partners differ in temperature, heat capacity, material and size, and only one of them softens: e against
+/// the hardness of each at its own temperature after, with half of the reaction's heat by mass.
+#[test]
+fn each_partner_has_its_own_temperature() {
+    let firm = "hardness = \"0.28 MPa\"\nreaction_heat = \"100 J/m2\"";
+    for (a, b) in [(REACTIVE, firm), (firm, REACTIVE), (REACTIVE, TOUGH), (TOUGH, REACTIVE)] {
+        let laws = laws(HARDNESS, [a, b]);
+        let hot = |body: Body, temperature: f64, capacity: f64| Body {
+            temperature,
+            heat_capacity: capacity * body.mass,
+            ..body
+        };
+        let one = hot(sphere(0, 1e-3, [6.0, 0.0, 0.0]), 280.0, 900.0);
+        let two = hot(sphere(1, 2e-3, [-2.0, 0.0, 0.0]), 520.0, 400.0);
+        let outcome = laws.impact([&one, &two], Vec3::AXES[0]);
+        let hardness = |material: &str, temperature: f64| match material {
+            REACTIVE => 3e5 * (600.0 / (GAS_CONSTANT * temperature)).exp(),
+            TOUGH => 5e5 * (200.0 / (GAS_CONSTANT * temperature)).exp(),
+            _ => 2.8e5,
+        };
+        let softer = hardness(a, outcome.temperatures[0]).min(hardness(b, outcome.temperatures[1]));
+        let reduced = one.mass * two.mass / (one.mass + two.mass);
+        let wanted = 1.0 - (reduced * 64.0 / (4.0 * PI * 1e-9 * softer)).sqrt();
+        let e = outcome.restitution;
+        assert!((e - wanted).abs() < 1e-13 && e > 0.1, "{a} on {b}: e = {e}, expected {wanted}");
+        let per_area = [a, b].map(|material| match material {
+            REACTIVE => 400.0,
+            TOUGH => 0.0,
+            _ => 100.0,
+        });
+        let reaction = 0.5 * (per_area[0] + per_area[1]) * (1.0 - e) * PI * 1e-6;
+        let heat = 0.5 * (1.0 - e * e) * reduced * 64.0 + reaction;
+        for (side, body) in [&one, &two].into_iter().enumerate() {
+            let warmer = heat * body.mass / (one.mass + two.mass) / body.heat_capacity;
+            let found = outcome.temperatures[side] - body.temperature;
+            assert!(
+                (found / warmer - 1.0).abs() < 1e-9,
+                "{a} on {b}: side {side} warms by {found} K, expected {warmer} K"
+            );
+        }
+    }
+}
+
 /// e against H(T'): both sides worked out anew from the outcome. Round-off of a square root near the root.
 #[test]
 fn coupled_solution_holds_its_equations() {
