@@ -293,6 +293,57 @@ fn the_best_is_told_by_starts_that_the_search_did_not_see() {
     assert!((deviation / 1000.0 - 1.0).abs() < 0.35, "{deviation}");
 }
 
+/// The best so far is the lowest cost of search and polish until then, the first of equals; the best in the end is the one
+/// of the lowest fresh mean, which is not always the search's own best.
+#[test]
+fn the_best_so_far_and_the_best_of_fresh_starts() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut changed = 0;
+    for seed in 0..8 {
+        let dir = folder.path().join(seed.to_string());
+        let model = Analytic { sigma: 8.0, ..noisy() };
+        let ensemble = Ensemble { common_random_numbers: false, ..settling() };
+        let setup = Setup { seed, ensemble, ..Setup::default() };
+        let go_on = &mut |_: &CampaignProgress| ControlFlow::Continue(());
+        let ended = conducted_with(&model, &dir, (2, &genetic()), &setup, go_on).unwrap();
+        let CampaignEnding::Finished(summary) = ended else { panic!("nobody asked it to stop") };
+        let evaluations = rows(&dir, "evaluations.csv");
+        let of = |stages: &[&str], generation: f64| {
+            let known = evaluations.iter().filter(|row| row["status"] == "ok");
+            let known = known.filter(|row| stages.contains(&row["stage"].as_str()));
+            let known = known.filter(|row| number(row, "generation") <= generation);
+            known.min_by(|a, b| number(a, "cost").total_cmp(&number(b, "cost"))).unwrap()
+        };
+        for row in rows(&dir, "generations.csv") {
+            let wanted = of(&["search", "polish"], number(&row, "generation"));
+            for (column, of_best) in [
+                ("best_evaluation", "evaluation"),
+                ("best_cost", "cost"),
+                ("best_cost_standard_error", "cost_standard_error"),
+            ] {
+                let (found, wanted) = (&row[column], &wanted[of_best]);
+                assert_eq!(found, wanted, "{column} after generation {}, seed {seed}", row["generation"]);
+            }
+        }
+        let (searched, fresh) = (of(&["search", "polish"], f64::INFINITY), of(&["confirm"], f64::INFINITY));
+        let best = summary.best.unwrap();
+        assert_eq!(best.confirm_cost, Some(number(fresh, "cost")), "cost of the chosen, seed {seed}");
+        let last = evaluations.last().unwrap();
+        assert_eq!((last["stage"].as_str(), best.cost), ("final", number(last, "cost")), "seed {seed}");
+        for column in ["x_m_s", "y_m_s"] {
+            let found =
+                best.parameters.0.iter().find(|(name, _)| name == column).unwrap().1.as_f64().unwrap();
+            assert_eq!(found, number(fresh, column), "{column} of the best, seed {seed}");
+            assert_eq!(number(last, column), number(fresh, column), "{column} of the last, seed {seed}");
+        }
+        changed += u32::from(searched["x_m_s"] != fresh["x_m_s"]);
+    }
+    assert!(
+        (2..8).contains(&changed),
+        "in {changed} of 8 searches fresh starts chose another than the search"
+    );
+}
+
 #[test]
 fn a_campaign_that_comes_to_nothing_is_given_up_with_the_reason() {
     let folder = tempfile::tempdir().unwrap();

@@ -226,6 +226,87 @@ mod tests {
         assert!(TestFunction::Sphere.at(&best.unwrap()) < 1e-3);
     }
 
+    fn search(parameters: Genetic, parents: &[Point]) -> Search {
+        let ranked = |(front, point): (usize, &Point)| Ranked {
+            candidate: Candidate { point: point.clone(), fitness: Fitness::new(vec![front as f64]) },
+            front,
+            distance: f64::INFINITY,
+        };
+        Search {
+            dimensions: parents[0].len(),
+            objectives: 1,
+            generation: 1,
+            parents: parents.iter().enumerate().map(ranked).collect(),
+            asked: Vec::new(),
+            points: stream(1, Part::Points),
+            mating: stream(1, Part::Mating),
+            parameters,
+        }
+    }
+
+    /// A thousand coordinates of two parents, 0.1 apart, far from bounds: half of them are crossed, with the mean spread
+    /// (η + 1)/2 (1/(η + 2) + 1/η) of the crossover's own index, and one in a thousand mutates, by 1/(η + 2) of the mutation's
+    /// own index. The two indices are far apart, so that one taken for the other shows.
+    #[test]
+    fn each_index_has_its_own_part() {
+        let dimensions = 1000;
+        let parameters =
+            Genetic { crossover: 1.0, crossover_index: 3.0, mutation_index: 80.0, ..Default::default() };
+        let parents = [vec![0.45; dimensions], vec![0.55; dimensions]];
+        let mut search = search(parameters, &parents);
+        let (mut matings, mut crossed, mut spread) = (0, 0, 0.0);
+        let (mut mutated, mut change) = (0, 0.0);
+        while matings < 300 {
+            let [a, b] = search.mate();
+            let middle = |k: usize| 0.5 * (a[k] + b[k]) - 0.5;
+            // Where one parent won both tournaments there is nothing to cross.
+            let is_crossed = a.iter().zip(&b).filter(|(a, b)| (*a - *b).abs() > 1e-9).count() > 100;
+            if !is_crossed {
+                continue;
+            }
+            matings += 1;
+            for k in 0..dimensions {
+                let is_parents = |x: f64| (x - 0.45).abs() < 1e-12 || (x - 0.55).abs() < 1e-12;
+                if middle(k).abs() > 1e-12 {
+                    // One of the two has moved; both at once in one place of a million.
+                    mutated += 1;
+                    change += 2.0 * middle(k).abs();
+                } else if !(is_parents(a[k]) && is_parents(b[k])) {
+                    crossed += 1;
+                    spread += (a[k] - b[k]).abs() / 0.1;
+                }
+            }
+        }
+        let coordinates = f64::from(matings) * dimensions as f64;
+        let (part, mean) = (f64::from(crossed) / coordinates, spread / f64::from(crossed));
+        // 300,000 coordinates: 0.1 % of scatter of the part, 5 sigma of 0.6/√150,000 of the spread.
+        assert!((part - 0.5).abs() < 0.005, "part crossed: found {part}, expected 0.5");
+        let wanted = 2.0 * (1.0 / 5.0 + 1.0 / 3.0);
+        assert!((mean - wanted).abs() < 0.008, "mean spread: found {mean}, expected {wanted} of index 3");
+        let rate = f64::from(mutated) / f64::from(matings);
+        // 600 mutations: 4 % of scatter, of their length too.
+        assert!((rate - 2.0).abs() < 0.4, "mutations of a pair: found {rate}, expected 2");
+        let length = change / f64::from(mutated);
+        let wanted = 1.0 / 82.0;
+        assert!(
+            (length / wanted - 1.0).abs() < 0.2,
+            "length of mutations: found {length}, expected {wanted} of index 80"
+        );
+    }
+
+    /// Of n parents the winner of a tournament of two is the k-th best with probability ((n - k + 1)² - (n - k)²)/n².
+    #[test]
+    fn the_better_of_two_mates() {
+        let parents: Vec<Point> = (0..4).map(|k| vec![0.1 * f64::from(k)]).collect();
+        let mut search = search(Genetic::default(), &parents);
+        let mut wins = [0_u32; 4];
+        (0..16_000).for_each(|_| wins[search.winner()] += 1);
+        for (won, wanted) in wins.into_iter().zip([7000.0, 5000.0, 3000.0, 1000.0]) {
+            // Five times the root of the count.
+            assert!((f64::from(won) - wanted).abs() < 400.0, "{wins:?} of 16,000, expected 7:5:3:1");
+        }
+    }
+
     /// ZDT1 (E. Zitzler, K. Deb, L. Thiele, Evol. Comput. 8, 173 (2000)): f1 = x1, f2 = g (1 - √(f1/g)), g = 1 + 9 mean.
     fn zdt1(point: &[f64]) -> Fitness {
         let g = 1.0 + 9.0 * point[1..].iter().sum::<f64>() / (point.len() - 1) as f64;

@@ -213,3 +213,7 @@ fn add_outer(matrix: &mut [f64], y: &[f64], factor: f64) {
 fn norm(x: &[f64]) -> f64 {
     x.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
+
+#[cfg(test)]
+#[path = "distribution_tests.rs"]
+mod tests;
