@@ -9,6 +9,7 @@ use agglo::math::Vec3;
 use agglo::packing;
 use agglo::particles::{Particles, Row};
 use agglo::scenario::Scenario;
+use serde_json::Value as Json;
 
 /// A scenario of text, which must be sound.
 pub fn scenario(text: &str) -> Scenario {
@@ -126,4 +127,37 @@ impl Listed {
     pub fn start(&self, change: impl FnOnce(&mut Particles)) -> Simulation {
         start(&self.text(), change)
     }
+}
+
+/// Holds two states to the same bits; what differs first is told by its name in the state.
+pub fn assert_same_state(found: &[u8], wanted: &[u8], when: &str) {
+    if found == wanted {
+        return;
+    }
+    let [found, wanted] = [found, wanted].map(|bytes| {
+        let state: SimulationState<'_> = postcard::from_bytes(bytes).unwrap();
+        serde_json::to_value(&state).unwrap()
+    });
+    panic!("{when}: {}", first_difference(&found, &wanted));
+}
+
+/// The first place in which two documents differ, with both values.
+pub fn first_difference(found: &Json, wanted: &Json) -> String {
+    fn walk(found: &Json, wanted: &Json, path: &str) -> Option<String> {
+        match (found, wanted) {
+            (Json::Object(a), Json::Object(b)) if a.keys().eq(b.keys()) => {
+                a.iter().find_map(|(key, value)| walk(value, &b[key], &format!("{path}.{key}")))
+            }
+            (Json::Array(a), Json::Array(b)) if a.len() == b.len() => {
+                (0..a.len()).find_map(|at| walk(&a[at], &b[at], &format!("{path}[{at}]")))
+            }
+            (Json::Array(a), Json::Array(b)) => {
+                Some(format!("{path} has {} entries, expected {}", a.len(), b.len()))
+            }
+            // As text, so that a negative zero is another number than zero.
+            _ if found.to_string() == wanted.to_string() => None,
+            _ => Some(format!("{path} is {found}, expected {wanted}")),
+        }
+    }
+    walk(found, wanted, "state").unwrap_or_else(|| "the field that differs cannot be shown".to_owned())
 }

@@ -11,11 +11,12 @@ fn assert_resumes(text: &str, before: usize, after: usize) {
     crowd::assert_busy(&whole);
     let scenario = common::scenario(text);
     let mut resumed = Simulation::resume(&scenario, common::written_and_read(&whole)).unwrap();
-    assert!(common::bytes(&resumed) == common::bytes(&whole), "reading changes the state");
+    common::assert_same_state(&common::bytes(&resumed), &common::bytes(&whole), "read again");
     for step in 0..after {
         common::steps(&mut whole, 1);
         common::steps(&mut resumed, 1);
-        assert!(common::bytes(&resumed) == common::bytes(&whole), "differs after {} steps: {text}", step + 1);
+        let when = format!("resumed, after {} steps", step + 1);
+        common::assert_same_state(&common::bytes(&resumed), &common::bytes(&whole), &when);
     }
 }
 
@@ -46,6 +47,7 @@ fn resumes_at_any_step() {
         let mut resumed = Simulation::resume(&scenario, common::written_and_read(&whole)).unwrap();
         common::steps(&mut whole, 1);
         common::steps(&mut resumed, 1);
-        assert!(common::bytes(&resumed) == common::bytes(&whole), "differs from step {step}");
+        let when = format!("resumed at step {step}");
+        common::assert_same_state(&common::bytes(&resumed), &common::bytes(&whole), &when);
     }
 }
