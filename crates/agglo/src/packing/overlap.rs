@@ -51,17 +51,13 @@ pub fn first_overlap(grains: &Particles, volume: Option<&Volume>) -> Option<Over
 }
 
 /// The first grain, by its place, that lies outside a volume whose faces hold grains in: with its centre where faces
-/// are periodic or antipodal, with any part of it where they are walls. With `may_reach_in` grains are as a step
-/// leaves them: they may reach into walls, and be outside of an antipodal volume.
+/// are periodic or antipodal, with any part of it where they are walls, unless it may reach into them.
 pub(super) fn first_outside(grains: &Particles, volume: &Volume, may_reach_in: bool) -> Option<usize> {
     let (lower, upper) = (volume.lower(), volume.upper());
     let wall = match volume.boundary {
-        // A step takes grains out, and those that it has mirrored are on their way in.
-        Boundary::Antipodal if may_reach_in => return None,
-        Boundary::Periodic | Boundary::Antipodal => 0.0,
-        Boundary::Reflecting if may_reach_in => 0.0,
-        Boundary::Reflecting => 1.0 - TOLERANCE,
         Boundary::Open => return None,
+        Boundary::Reflecting if !may_reach_in => 1.0 - TOLERANCE,
+        Boundary::Periodic | Boundary::Antipodal | Boundary::Reflecting => 0.0,
     };
     let is_inside = |center: Vec3, margin: f64| {
         (0..3).all(|axis| lower[axis] + margin <= center[axis] && center[axis] <= upper[axis] - margin)

@@ -9,6 +9,7 @@ use super::random::{self, Request};
 use super::room::Room;
 use super::{GrainList, Placement, lattice, table};
 use crate::domain::{Boundary, Volume, resolution};
+use crate::engine::Engine;
 use crate::math::Vec3;
 use crate::math::rng::{Purpose, Stream};
 use crate::particles::{Material, Particles, Row};
@@ -101,7 +102,9 @@ pub(crate) fn make_ready(
     refuse_far(grains)?;
     refuse_coincident(grains)?;
     if scenario.engine.is_hard() {
-        make_ready_for_impacts(grains, scenario.volume.as_ref(), may_overlap)?;
+        // A step leaves grains outside of an antipodal volume, on their way in; from impact to impact none are.
+        let may_be_out = may_overlap && matches!(scenario.engine, Engine::TimeStepped(_));
+        make_ready_for_impacts(grains, scenario.volume.as_ref(), may_overlap, may_be_out)?;
     }
     Ok(())
 }
@@ -206,14 +209,16 @@ fn make_ready_for_impacts(
     grains: &mut Particles,
     volume: Option<&Volume>,
     may_overlap: bool,
+    may_be_out: bool,
 ) -> Result<(), PackingError> {
     if let Some(volume) = volume {
-        if let Some(at) = first_outside(grains, volume, may_overlap) {
+        let is_out = may_be_out && volume.boundary == Boundary::Antipodal;
+        if let Some(at) = first_outside(grains, volume, may_overlap).filter(|_| !is_out) {
             let Vec3 { x, y, z } = grains.position[at];
             let walls = !volume.boundary.wraps();
             return Err(PackingError::Outside { grain: grains.id[at], walls, x, y, z });
         }
-        if !may_overlap || volume.boundary == Boundary::Periodic {
+        if !is_out {
             grains.position.iter_mut().for_each(|position| *position = volume.wrap(*position));
         }
     }

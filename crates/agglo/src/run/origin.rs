@@ -6,7 +6,7 @@ use super::hard::Hard;
 use super::job::{AnySaved, Job};
 use super::soft::Soft;
 use crate::contact::{Bonds, Friction};
-use crate::engine::{Engine, SimError, Start};
+use crate::engine::{SimError, Start};
 use crate::folder::RunFolder;
 use crate::packing::{ConstantSize, PackingError, PlaceWatch, Placement, Size, Table, UniformSize};
 use crate::packing::{make_ready, place_groups_watched};
@@ -99,9 +99,9 @@ fn taken(scenario: &Scenario, path: &Path) -> Result<Origin, Trouble> {
     hand_over_bonds(&start, scenario)?;
     start.warnings.extend(springs_dropped(&start, &past, scenario));
     refuse_short_cutoff(&start.grains, scenario)?;
-    // Steps end with grains that overlap, or that reach into a wall; the next one parts them.
-    let may_overlap = matches!(scenario.engine, Engine::TimeStepped(_));
-    make_ready(scenario, &mut start.grains, may_overlap).map_err(Trouble::Grains)?;
+    // A run of hard spheres leaves grains that overlap or reach into a wall: after a step, or where two became a larger one.
+    // They are about to part, and are dealt with as in the run itself.
+    make_ready(scenario, &mut start.grains, true).map_err(Trouble::Grains)?;
     let (groups, counts) = groups(&start.grains, scenario);
     let words = words(&start, &past, time);
     Ok(Origin { start, groups, counts, earlier: Some(Earlier { checkpoint, words }) })
