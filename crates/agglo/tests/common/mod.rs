@@ -155,8 +155,10 @@ pub fn first_difference(found: &Json, wanted: &Json) -> String {
                 Some(format!("{path} has {} entries, expected {}", a.len(), b.len()))
             }
             // As text, so that a negative zero is another number than zero.
-            _ if found.to_string() == wanted.to_string() => None,
-            _ => Some(format!("{path} is {found}, expected {wanted}")),
+            _ => {
+                let [found, wanted] = [found, wanted].map(Json::to_string);
+                (found != wanted).then(|| format!("{path} is {found}, expected {wanted}"))
+            }
         }
     }
     walk(found, wanted, "state").unwrap_or_else(|| "the field that differs cannot be shown".to_owned())
