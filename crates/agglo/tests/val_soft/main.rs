@@ -14,5 +14,6 @@ mod oblique;
 mod one_step;
 mod order;
 mod pulse;
+mod stability;
 mod unequal;
 mod unlike;

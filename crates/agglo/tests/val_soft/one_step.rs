@@ -107,6 +107,28 @@ fn a_drag_in_a_medium_that_moves() {
     }
 }
 
+/// Drag is booked as its mean force on the mean velocity, and so is its moment: by hand from both ends of a step that is
+/// iterated to its end, in a medium that speeds up.
+#[test]
+fn the_work_of_drag_in_a_medium_that_speeds_up() {
+    let more = "[medium]\ndensity = \"1000 kg/m3\"\nviscosity = \"0.2 Pa s\"\n[fields.drag]\nlaw = \"stokes\"\n\
+                medium_velocity = [\"0.4 + 3e5*t\", \"0 m/s\", \"0 m/s\"]";
+    let (velocity, spin) = (Vec3::new(-0.2, 0.0, 0.5), Vec3::new(700.0, 0.0, -400.0));
+    let push = Vec3::AXES[0] * (1000.0 * 4.0 / 3.0 * PI * RADIUS.powi(3) * 3e5);
+    let (drag, resistance) = (6.0 * PI * 0.2 * RADIUS, 8.0 * PI * 0.2 * RADIUS.powi(3));
+    for phi in [0.5, 0.75] {
+        let found = one_step(&common::staggered(STEP, 1e-15, phi), more, velocity, spin);
+        let after = grain(&found, 0);
+        let force = |t: f64, v: Vec3| (Vec3::AXES[0] * (0.4 + 3e5 * t) - v) * drag + push;
+        let mean = |early: Vec3, late: Vec3| early * (1.0 - phi) + late * phi;
+        let work = mean(force(0.0, velocity), force(STEP, after.velocity))
+            .dot(mean(velocity, after.velocity))
+            - mean(spin, after.spin).norm_squared() * resistance;
+        let booked = found.ledger.flows.supplies.drag.power;
+        assert_close(booked, work * STEP, 1e-7, &format!("φ = {phi}: work of the drag"), "J");
+    }
+}
+
 /// A rotation about a magnetic field that grows in the step: both ends with their own field,
 /// v' = v + h (φ v' × B' + (1 - φ) v × B), h = q Δt/m.
 #[test]

@@ -177,8 +177,12 @@ fn one_ray_on_two_grains_by_hand() {
         let aside = bounced.direction.cross(Vec3::new(1.0, 2.0, 3.0)).normalized();
         let first = bounced.origin + bounced.direction * 60e-6 + aside * 4e-6;
         let mut simulation = common::start(&text, |grains| {
-            grains.position = vec![first, second, Vec3::new(0.0, 500e-6, 0.0)];
+            grains.position = vec![first, second, Vec3::new(0.0, -500e-6, 0.0)];
         });
+        assert!(
+            place(&simulation, 0) != 0 && place(&simulation, 1) != 1,
+            "no grain stands at the place of its name"
+        );
         common::steps(&mut simulation, 1);
         let seen = simulation.pulses.flight().rays()[0];
         let ray = Ray { origin: seen.origin, direction: seen.direction, power: seen.power };
