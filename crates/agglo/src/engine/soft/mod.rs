@@ -21,6 +21,8 @@ mod step_size_tests;
 mod system;
 mod tempo;
 mod truncation;
+#[cfg(test)]
+mod twist_tests;
 mod types;
 mod validity;
 pub mod verlet;

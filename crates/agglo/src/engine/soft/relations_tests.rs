@@ -20,6 +20,9 @@ use crate::scenario::Scenario;
 const VERLET: &str = "[engine.verlet]\nsafety = 0.2\n";
 const ADAPTIVE: &str = "[engine.staggered]\ninitial_step = \"20 ns\"\nlargest_step = \"80 ns\"\n\
                         tolerance = 1e-5\ntarget_iterations = 8\n";
+/// Tries that go too far, so that many are rejected.
+const REJECTING: &str = "[engine.staggered]\ninitial_step = \"20 ns\"\nlargest_step = \"2 us\"\n\
+                         tolerance = 1e-6\ntarget_iterations = 4\n";
 const RELAXED: &str = "[start.relax]\nspeed = \"5 cm/s\"\nlongest = \"1 ms\"\ndamping_time = \"5 us\"\n";
 
 /// Two materials, many sizes, charges of both signs, two beams; every law that can act beside the others.
@@ -409,7 +412,7 @@ fn sorted_at_every_step_at_step_2000_or_never() {
 /// rejected go there and back again.
 #[test]
 fn lists_built_always_or_never_give_the_same_bits() {
-    for engine in [VERLET, ADAPTIVE] {
+    for engine in [VERLET, REJECTING] {
         let scenario = scenario(engine);
         let mut plain = busy(&scenario);
         plain.events.clear();
@@ -438,7 +441,8 @@ fn lists_built_always_or_never_give_the_same_bits() {
         let listed = |simulation: &Simulation| simulation.system.near_list().unwrap().len();
         assert_eq!(listed(&never), 60 * 59 / 2, "the list that never ends holds all pairs");
         assert!(listed(&always) < listed(&plain), "a list without a skin is the shortest");
-        assert_busy(&never);
+        let rejected = never.clock().rejected;
+        assert!(engine == VERLET || rejected > 10, "{rejected} tries were rejected");
     }
 }
 

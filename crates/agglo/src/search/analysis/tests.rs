@@ -218,6 +218,45 @@ fn generations_keep_the_best() {
     let mut first: Vec<f64> = feasible[..16].to_vec();
     first.sort_by(f64::total_cmp);
     assert_eq!(generations[0].costs, [first[0], 0.5 * (first[7] + first[8]), first[15]]);
+    // Where a generation is worse than the one before it, the best so far is still the earlier one.
+    evaluations
+        .rows
+        .iter_mut()
+        .skip(20)
+        .filter(|row| !row.costs.is_empty())
+        .for_each(|row| row.costs[0] += 1e3);
+    let generations = evaluations.generations();
+    let bests = [0, 1].map(|generation: usize| generations[generation].best.unwrap());
+    assert_eq!(bests[1], bests[0], "row of the best so far after the second generation");
+    assert!(bests[0] < 20, "row of the best: {bests:?}");
+}
+
+/// An interval leaves as much below as above: at 40 % it goes from the 30th to the 70th hundredth of the draws, which are nearly
+/// normal and so nearly as far from the middle. 20 %: a hundred blocks are a little askew.
+#[test]
+fn intervals_of_shares_leave_as_much_below_as_above() {
+    let sobol = SobolIndices { samples: 128, ..SobolIndices::default() };
+    let outcomes: Vec<Option<[f64; 2]>> = Plan::SobolIndices(sobol)
+        .points(&[None; 2], 1)
+        .iter()
+        .map(|point| Some([point[0] + 0.5 * point[1], 0.0]))
+        .collect();
+    let interval = |level: f64| variance_shares(2, &outcomes, 4000, level, 1).parameters[0].total_interval;
+    let [middle, same] = interval(0.0);
+    assert!(middle == same, "an interval of no width: {middle} to {same}");
+    let [lower, upper] = interval(0.4);
+    let ratio = (middle - lower) / (upper - middle);
+    assert!(
+        (ratio - 1.0).abs() < 0.2,
+        "{lower} to {upper} about {middle}: {ratio} as much below, expected 1"
+    );
+    // Of a normal distribution the 70th hundredth is 0.524 deviations off, the 97.5th 1.960.
+    let wide = interval(0.95);
+    let wider = (wide[1] - wide[0]) / (upper - lower);
+    assert!(
+        (wider / (1.960 / 0.524) - 1.0).abs() < 0.15,
+        "95 % is {wider} times as wide as 40 %, expected 3.74"
+    );
 }
 
 #[test]
