@@ -181,3 +181,78 @@ fn columns_and_values_are_as_many() {
     // Two singles for 1 s met never: no probability.
     assert!(rates.kernel_rows(2.0)[0].values()[11].is_nan());
 }
+
+/// Figures that are all different, each under its own name and bounds in their order.
+#[test]
+fn values_stand_under_their_columns() {
+    let kernel = KernelRow {
+        a: [4, 7],
+        b: [2, 3],
+        impacts: 101,
+        merges: 102,
+        breaking: 103,
+        exposure: 104.5,
+        collision_kernel: Some(105.5),
+        aggregation_kernel: Some(106.5),
+        breaking_kernel: Some(107.5),
+        sticking_probability: Some(0.125),
+    };
+    let wanted = [
+        ("a_lower_primaries", 4.0),
+        ("a_upper_primaries", 7.0),
+        ("b_lower_primaries", 2.0),
+        ("b_upper_primaries", 3.0),
+        ("impacts", 101.0),
+        ("merges", 102.0),
+        ("breaking_impacts", 103.0),
+        ("exposure_s_m3", 104.5),
+        ("collision_kernel_m3_s", 105.5),
+        ("aggregation_kernel_m3_s", 106.5),
+        ("breaking_kernel_m3_s", 107.5),
+        ("sticking_probability", 0.125),
+    ];
+    assert_columns("kernels.csv", KernelRow::COLUMNS, &kernel.values(), &wanted);
+    let breakage =
+        BreakageRow { class: [8, 15], grains: 3, grain_time: 2.5, breakages: 5, breakage_rate: Some(0.75) };
+    let wanted = [
+        ("lower_primaries", 8.0),
+        ("upper_primaries", 15.0),
+        ("grains", 3.0),
+        ("grain_time_s", 2.5),
+        ("breakages", 5.0),
+        ("breakage_rate_1_s", 0.75),
+    ];
+    assert_columns("breakage.csv", BreakageRow::COLUMNS, &breakage.values(), &wanted);
+    let daughter = DaughterRow {
+        parent: [8, 15],
+        daughter: [4, 7],
+        breakages: 9,
+        pieces: 20,
+        primaries: 100,
+        pieces_per_breakage: 2.5,
+        mass_fraction: 0.625,
+    };
+    let wanted = [
+        ("parent_lower_primaries", 8.0),
+        ("parent_upper_primaries", 15.0),
+        ("daughter_lower_primaries", 4.0),
+        ("daughter_upper_primaries", 7.0),
+        ("breakages", 9.0),
+        ("pieces", 20.0),
+        ("primaries", 100.0),
+        ("pieces_per_breakage", 2.5),
+        ("mass_fraction", 0.625),
+    ];
+    assert_columns("daughters.csv", DaughterRow::COLUMNS, &daughter.values(), &wanted);
+}
+
+fn assert_columns(place: &str, names: &[&str], row: &[f64], wanted: &[(&str, f64)]) {
+    let due: Vec<&str> = wanted.iter().map(|(name, _)| *name).collect();
+    assert_eq!(names, due, "{place}: columns: found on the left, due on the right");
+    for (found, (name, due)) in row.iter().zip(wanted) {
+        assert_eq!(
+            found, due,
+            "{place}: column {name}: found on the left, due on the right (in the unit of its name)"
+        );
+    }
+}

@@ -16,6 +16,9 @@ mod tables;
 mod timers;
 mod until;
 
+#[cfg(test)]
+mod distinct;
+
 use std::io::ErrorKind;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};

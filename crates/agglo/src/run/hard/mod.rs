@@ -182,4 +182,6 @@ fn write_once<const N: usize>(
 }
 
 #[cfg(test)]
+mod distinct_tests;
+#[cfg(test)]
 mod tests;

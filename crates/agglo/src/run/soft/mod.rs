@@ -4,6 +4,15 @@ mod rows;
 mod summary;
 mod together;
 
+#[cfg(test)]
+mod distinct;
+#[cfg(test)]
+mod frames_tests;
+#[cfg(test)]
+mod rows_tests;
+#[cfg(test)]
+mod summary_tests;
+
 pub use summary::{Clusters, EnergyFigures, PulseFigures, SoftSummary};
 
 use serde::{Deserialize, Serialize};
