@@ -282,3 +282,7 @@ mod tests {
         assert_eq!(chart.words[1], "2–3 primaries: 75.0 % of the mass at last");
     }
 }
+
+#[cfg(test)]
+#[path = "charts_tests.rs"]
+mod shown_tests;

@@ -139,3 +139,7 @@ fn unexplained(part: f64, limit: f64) -> String {
 fn drift(relative: f64) -> String {
     format!("Energy is accounted for to {:.1e} of all there was.", relative.abs())
 }
+
+#[cfg(test)]
+#[path = "story_tests.rs"]
+mod tests;

@@ -266,3 +266,7 @@ fn parameters(table: &mut Table, axes: &[Axis], values: &[f64]) {
         }
     }
 }
+
+#[cfg(test)]
+#[path = "records_tests.rs"]
+mod tests;
