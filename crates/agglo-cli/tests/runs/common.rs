@@ -106,10 +106,8 @@ impl Bench {
         until_it_succeeds(&self.run(), || {
             let child = self.start(more).spawn().unwrap();
             wait_for_step(&self.run(), step);
-            let asked = Instant::now();
-            signal(&child, name);
-            let output = child.wait_with_output().unwrap();
-            (output.status.code() != Some(0)).then(|| (ended(output, 1), asked.elapsed()))
+            let (output, taken) = interrupted(child, name);
+            (output.status.code() != Some(0)).then(|| (ended(output, 1), taken))
         })
     }
 
@@ -138,6 +136,20 @@ pub fn until_it_succeeds<T>(run: &Path, mut attempt: impl FnMut() -> Option<T>) 
 pub fn signal(child: &Child, name: &str) {
     let sent = Command::new("kill").args([&format!("-{name}"), &child.id().to_string()]).status().unwrap();
     assert!(sent.success(), "kill -{name} failed");
+}
+
+/// Sends a signal to a program that looks for it ten times a second, and waits for its end; gives how long it took.
+///
+/// It is held meanwhile, so that it is due to look as soon as it goes on: else a run of 50 ms would never see it.
+pub fn interrupted(child: Child, name: &str) -> (Output, Duration) {
+    if hold(&child) {
+        signal(&child, name);
+        std::thread::sleep(Duration::from_millis(120));
+    }
+    let asked = Instant::now();
+    // Where it has ended, nobody is there to be told.
+    let _ = Command::new("kill").args(["-CONT", &child.id().to_string()]).status();
+    (child.wait_with_output().unwrap(), asked.elapsed())
 }
 
 /// Holds a program where it is: when this returns, none of its threads writes anything. False if it has ended.

@@ -3,7 +3,8 @@
 use std::fs;
 
 use crate::common::{
-    STAGGERED, agglo, assert_same, command, complained, ended, signal, until_it_succeeds, wait_for_step,
+    STAGGERED, agglo, assert_same, command, complained, ended, hold, interrupted, signal, until_it_succeeds,
+    wait_for_step,
 };
 
 /// A scenario whose grains stand in a table.
@@ -51,8 +52,7 @@ fn a_moved_folder_runs_again_goes_on_and_is_reported() {
         let arguments = ["run", &path(&home, "scenario.toml"), "-o", stopped.to_str().unwrap()];
         let child = command(&arguments).spawn().unwrap();
         wait_for_step(&stopped, 200);
-        signal(&child, "INT");
-        (child.wait_with_output().unwrap().status.code() == Some(1)).then_some(())
+        (interrupted(child, "INT").0.status.code() == Some(1)).then_some(())
     });
     let text = fs::read_to_string(home.path().join("whole/scenario.toml")).unwrap();
     assert!(text.contains("file = \"tables/grains.csv\""), "{text}");
@@ -78,17 +78,33 @@ fn without_tables_there_is_no_folder_of_tables() {
 /// what is there now is as it was.
 #[test]
 fn a_folder_removed_while_a_run_goes_on_is_not_recommended() {
-    // Much longer than it will live, so that it writes again for sure.
-    const LONG: [&str; 2] = ["--set", "time.end=10 s"];
+    // Much longer than it will live, so that it writes again for sure; and seldom, so that it is not held while it writes.
+    const LONG: [&str; 8] = [
+        "--set",
+        "time.end=10 s",
+        "--set",
+        "output.series=0.1 s",
+        "--set",
+        "output.frames=0.1 s",
+        "--set",
+        "output.checkpoints=10 s",
+    ];
     let bench = crate::common::Bench::with(STAGGERED);
-    let child = bench.held_after(30, &LONG);
+    let held = || {
+        let child = bench.start(&LONG).spawn().unwrap();
+        wait_for_step(&bench.run(), 0);
+        std::thread::sleep(std::time::Duration::from_millis(20));
+        assert!(hold(&child), "it has ended");
+        child
+    };
+    let child = held();
     fs::remove_dir_all(bench.run()).unwrap();
     signal(&child, "CONT");
     let text = complained(&ended(child.wait_with_output().unwrap(), 1));
     assert!(text.contains("was removed or taken over") && !text.contains("agglo resume"), "{text}");
     assert!(!bench.run().exists(), "it was made again");
 
-    let child = bench.held_after(30, &LONG);
+    let child = held();
     fs::remove_dir_all(bench.run()).unwrap();
     ended(bench.start(&["--no-report"]).output().unwrap(), 0);
     let before = crate::common::bytes(&bench.run());

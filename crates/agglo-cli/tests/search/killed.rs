@@ -4,7 +4,7 @@ use std::fs;
 use std::time::Duration;
 
 use crate::bench::{Bench, SEARCH, assert_same, reference};
-use crate::common::{complained, ended, said, signal, until_it_succeeds};
+use crate::common::{complained, ended, interrupted, said, until_it_succeeds};
 
 fn runs() -> usize {
     reference().summary()["runs"].as_u64().unwrap() as usize
@@ -45,8 +45,7 @@ fn ctrl_c_keeps_what_ended_and_says_how_to_go_on() {
     let stopped = until_it_succeeds(&bench.out(), || {
         let child = bench.order("search", &[]).spawn().unwrap();
         bench.wait_for_starts(runs / 3);
-        signal(&child, "INT");
-        let output = child.wait_with_output().unwrap();
+        let output = interrupted(child, "INT").0;
         (output.status.code() != Some(0)).then(|| ended(output, 1))
     });
     let text = complained(&stopped);

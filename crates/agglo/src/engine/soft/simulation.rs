@@ -244,16 +244,11 @@ impl Simulation {
     /// behind, with a warning.
     pub fn into_start(self) -> Start {
         let rays = self.pulses.flight().rays().len();
-        let left =
-            format!("{rays} rays were in flight in the run that this one starts from, and are left behind");
-        let (system, contacts) = (&self.system, self.system.remembered());
-        Start {
-            contacts,
-            bonds: system.network.is_active().then(|| system.network.bonds().to_vec()),
-            grown: Vec::new(),
-            warnings: if rays > 0 { vec![left] } else { Vec::new() },
-            grains: self.system.grains,
-        }
+        let left = "rays were in flight in the run that this one starts from, and are left behind";
+        let warnings = if rays > 0 { vec![format!("{rays} {left}")] } else { Vec::new() };
+        let (network, contacts) = (&self.system.network, self.system.remembered());
+        let bonds = network.is_active().then(|| network.bonds().to_vec());
+        Start { contacts, bonds, warnings, ..Start::from(self.system.grains) }
     }
 
     /// Where the simulation stands in time.
