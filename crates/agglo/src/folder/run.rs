@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::tables::Tables;
 use super::{FolderError, Lock, Traces, names, traces};
-use crate::record::{RecordError, atomic};
+use crate::record::{RecordError, atomic, checkpoint};
 use crate::scenario::Scenario;
 
 /// The folder of a run.
@@ -109,6 +109,12 @@ impl RunFolder {
         } else {
             Err(FolderError::NoRun { dir: dir.to_owned() })
         }
+    }
+
+    /// The newest checkpoint, sound or not, where a path names a run's folder; else the path itself, which names one.
+    pub fn newest_state(path: &Path) -> PathBuf {
+        let all = checkpoint::newest_first(&Self::at(path).checkpoints()).unwrap_or_default();
+        all.into_iter().next().unwrap_or_else(|| path.to_owned())
     }
 
     /// A folder that should hold a run, to be gone on with: takes its lock.

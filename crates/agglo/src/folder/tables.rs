@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::{FolderError, RunFolder, names};
 use crate::packing::Placement;
-use crate::record::{RecordError, atomic, checkpoint, door};
+use crate::record::{RecordError, atomic, door};
 use crate::scenario::Scenario;
 
 /// The tables that are in a folder so far.
@@ -52,8 +52,7 @@ impl<'a> Tables<'a> {
     /// # Errors
     /// [`FolderError::Record`].
     pub fn adopt_state(&mut self, from: &Path) -> Result<PathBuf, FolderError> {
-        let all = checkpoint::newest_first(&RunFolder::at(from).checkpoints()).unwrap_or_default();
-        self.copy(all.first().map_or(from, PathBuf::as_path), door::MOST_OF_A_STATE)
+        self.copy(&RunFolder::newest_state(from), door::MOST_OF_A_STATE)
     }
 
     fn copy(&mut self, from: &Path, most: u64) -> Result<PathBuf, FolderError> {

@@ -7,7 +7,7 @@ use super::Plan;
 use crate::domain::{Region, Volume};
 use crate::folder::RunFolder;
 use crate::packing::{Lattice, LatticeKind, Placement, SATURATION};
-use crate::record::{checkpoint, door};
+use crate::record::door;
 use crate::scenario::{GrainGroup, Scenario};
 use crate::units::Time;
 
@@ -137,10 +137,8 @@ pub(super) fn expected(group: &GrainGroup, volume: Option<&Volume>, base: &Path)
 /// Grains that another run brings, by the size of its newest checkpoint; 0 where none is asked for, or found.
 pub(super) fn of_earlier_run(scenario: &Scenario, base: &Path) -> f64 {
     let Some(from) = &scenario.start.from else { return 0.0 };
-    let path = base.join(from);
-    let newest =
-        checkpoint::newest_first(&RunFolder::at(&path).checkpoints()).ok().into_iter().flatten().next();
-    let bytes = std::fs::metadata(newest.unwrap_or(path)).map_or(0, |found| found.len());
+    let state = RunFolder::newest_state(&base.join(from));
+    let bytes = std::fs::metadata(state).map_or(0, |found| found.len());
     bytes as f64 / BYTES_PER_SAVED_GRAIN
 }
 

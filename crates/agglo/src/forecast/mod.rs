@@ -102,17 +102,17 @@ impl Plan {
             is_known.then(|| Origin::of(scenario, base, &mut || ControlFlow::Continue(()))).transpose()?;
         let placed_s = began.elapsed().as_secs_f64();
         // Grains of another run are told by what they are, as if the scenario had asked for them.
-        let told =
-            origin.as_ref().map(|origin| Scenario { grains: origin.groups.clone(), ..scenario.clone() });
+        let earlier = origin.as_ref().and_then(|origin| origin.earlier.as_ref());
+        let told = earlier.map(|earlier| Scenario { grains: earlier.groups.clone(), ..scenario.clone() });
         let scenario = told.as_ref().unwrap_or(scenario);
         if let Some(origin) = &origin {
             plan.starts_from(origin);
         }
-        let gas = scenario.engine.is_hard().then(|| match &origin {
+        let gas = match &origin {
+            _ if !scenario.engine.is_hard() => None,
             Some(origin) => Gas::at_start(scenario, &origin.counts, Some(&origin.by_groups())),
             None => Gas::at_start(scenario, &counts, None),
-        });
-        let gas = gas.flatten();
+        };
         let start = origin.map(|origin| origin.start);
         let mut pushes = start.as_ref().map_or_else(Vec::new, |start| push::all(scenario, &start.grains));
         pushes.retain(|push| plan.can_tell(push));

@@ -15,7 +15,7 @@ mod velocity;
 pub use error::{PackingError, SATURATION};
 pub use overlap::{Overlap, first_overlap};
 pub(crate) use place::make_ready;
-pub use place::{PlaceWatch, place, place_groups, place_groups_watched, place_watched};
+pub use place::{PlaceWatch, place, place_groups, place_groups_watched};
 pub use placement::{Fill, GrainList, Lattice, LatticeKind, Placement, RandomAddition, Table};
 pub use random::fill_with;
 pub use size::{ConstantSize, LengthRatio, LognormalSize, Size, SizeTable, UniformSize};

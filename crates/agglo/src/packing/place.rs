@@ -32,18 +32,6 @@ pub fn place(scenario: &Scenario, base: &Path) -> Result<Particles, PackingError
 /// Asked now and then while grains are placed whether to go on.
 pub type PlaceWatch<'a> = dyn FnMut() -> ControlFlow<()> + 'a;
 
-/// As [`place`]; `watch` may stop it.
-///
-/// # Errors
-/// As for [`place`], and [`PackingError::Stopped`].
-pub fn place_watched(
-    scenario: &Scenario,
-    base: &Path,
-    watch: &mut PlaceWatch<'_>,
-) -> Result<Particles, PackingError> {
-    place_groups_watched(scenario, base, watch).map(|(grains, _)| grains)
-}
-
 /// As [`place`], with the number of grains of each group; those of a group follow one another.
 ///
 /// # Errors
@@ -55,7 +43,7 @@ pub fn place_groups(scenario: &Scenario, base: &Path) -> Result<(Particles, Vec<
 /// As [`place_groups`]; `watch` may stop it.
 ///
 /// # Errors
-/// As for [`place_watched`].
+/// As for [`place`], and [`PackingError::Stopped`].
 pub fn place_groups_watched(
     scenario: &Scenario,
     base: &Path,
@@ -102,9 +90,10 @@ pub(crate) fn make_ready(
     refuse_far(grains)?;
     refuse_coincident(grains)?;
     if scenario.engine.is_hard() {
-        // A step leaves grains outside of an antipodal volume, on their way in; from impact to impact none are.
-        let may_be_out = may_overlap && matches!(scenario.engine, Engine::TimeStepped(_));
-        make_ready_for_impacts(grains, scenario.volume.as_ref(), may_overlap, may_be_out)?;
+        bring_inside(scenario, grains, may_overlap)?;
+        if !may_overlap {
+            refuse_overlapping(grains, scenario.volume.as_ref())?;
+        }
     }
     Ok(())
 }
@@ -204,30 +193,31 @@ fn scatter(request: &GrainGroup, seed: u64, group: usize, spots: &mut [Spot]) {
     }
 }
 
-/// Hard spheres start apart from one another and within the faces; of the images of a grain, the one inside counts.
-fn make_ready_for_impacts(
-    grains: &mut Particles,
-    volume: Option<&Volume>,
-    may_overlap: bool,
-    may_be_out: bool,
-) -> Result<(), PackingError> {
-    if let Some(volume) = volume {
-        let is_out = may_be_out && volume.boundary == Boundary::Antipodal;
-        if let Some(at) = first_outside(grains, volume, may_overlap).filter(|_| !is_out) {
-            let Vec3 { x, y, z } = grains.position[at];
-            let walls = !volume.boundary.wraps();
-            return Err(PackingError::Outside { grain: grains.id[at], walls, x, y, z });
-        }
-        if !is_out {
-            grains.position.iter_mut().for_each(|position| *position = volume.wrap(*position));
-        }
+/// Hard spheres start within the faces; of the images of a grain, the one inside counts.
+fn bring_inside(scenario: &Scenario, grains: &mut Particles, may_reach_in: bool) -> Result<(), PackingError> {
+    let Some(volume) = &scenario.volume else { return Ok(()) };
+    let is_by_steps = matches!(scenario.engine, Engine::TimeStepped(_));
+    if may_reach_in && is_by_steps && volume.boundary == Boundary::Antipodal {
+        // A step leaves grains outside, on their way in; from impact to impact none are.
+        return Ok(());
     }
+    if let Some(at) = first_outside(grains, volume, may_reach_in) {
+        let Vec3 { x, y, z } = grains.position[at];
+        let walls = !volume.boundary.wraps();
+        return Err(PackingError::Outside { grain: grains.id[at], walls, x, y, z });
+    }
+    grains.position.iter_mut().for_each(|position| *position = volume.wrap(*position));
+    Ok(())
+}
+
+/// Hard spheres start apart from one another.
+fn refuse_overlapping(grains: &Particles, volume: Option<&Volume>) -> Result<(), PackingError> {
     match first_overlap(grains, volume) {
-        Some(found) if !may_overlap => {
+        None => Ok(()),
+        Some(found) => {
             let [first, second] = found.ids;
             Err(PackingError::Overlapping { first, second, overlap: found.overlap })
         }
-        _ => Ok(()),
     }
 }
 

@@ -101,10 +101,7 @@ pub fn load_newest_that<T: DeserializeOwned, U>(
 ) -> Result<(U, u64, Vec<Refused>), RecordError> {
     let mut refused = Vec::new();
     for (_, path) in list(dir)? {
-        let read = files::read(&path, door::MOST_OF_A_STATE).map_err(|error| error.to_string());
-        let accepted =
-            read.and_then(|bytes| decode(&bytes)).and_then(|(state, step)| Ok((accept(state)?, step)));
-        match accepted {
+        match read(&path).and_then(|(state, step)| Ok((accept(state)?, step))) {
             Ok((state, step)) => return Ok((state, step, refused)),
             Err(reason) => refused.push(Refused { path, reason }),
         }
@@ -117,8 +114,12 @@ pub fn load_newest_that<T: DeserializeOwned, U>(
 /// # Errors
 /// Why it cannot be used.
 pub fn load<T: DeserializeOwned>(path: &Path) -> Result<T, String> {
+    read(path).map(|(state, _)| state)
+}
+
+fn read<T: DeserializeOwned>(path: &Path) -> Result<(T, u64), String> {
     let bytes = files::read(path, door::MOST_OF_A_STATE).map_err(|error| error.to_string())?;
-    decode(&bytes).map(|(state, _)| state)
+    decode(&bytes)
 }
 
 /// The checkpoints in `dir`, newest first, sound or not.

@@ -1,5 +1,6 @@
 //! Where the grains of a run come from: placed as its scenario says, or taken out of another run.
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use super::hard::Hard;
@@ -12,16 +13,14 @@ use crate::packing::{ConstantSize, PackingError, PlaceWatch, Placement, Size, Ta
 use crate::packing::{make_ready, place_groups_watched};
 use crate::particles::{Material, Particles};
 use crate::record::checkpoint;
-use crate::scenario::{GrainGroup, Scenario, readable};
+use crate::scenario::{GrainGroup, Scenario, fault_of_cutoff, readable};
 use crate::units::Quantity;
 
 /// The grains of a run before its clock starts.
 pub(crate) struct Origin {
     /// The grains, with what they bring along.
     pub start: Start,
-    /// Their groups: the scenario's, or one for each material of another run's grains.
-    pub groups: Vec<GrainGroup>,
-    /// How many belong to each group.
+    /// How many belong to each of the scenario's groups, or of those that another run's grains make up.
     pub counts: Vec<u64>,
     /// Where they come from, if they come from another run.
     pub earlier: Option<Earlier>,
@@ -31,6 +30,8 @@ pub(crate) struct Origin {
 pub(crate) struct Earlier {
     /// The checkpoint that was taken.
     pub checkpoint: PathBuf,
+    /// One group for each material of the grains, as if the scenario had asked for them.
+    pub groups: Vec<GrainGroup>,
     /// What was there, in words.
     pub words: String,
 }
@@ -50,18 +51,20 @@ impl Origin {
             });
         }
         let (grains, counts) = place_groups_watched(scenario, base, watch)?;
-        Ok(Self { start: grains.into(), groups: scenario.grains.clone(), counts, earlier: None })
+        Ok(Self { start: grains.into(), counts, earlier: None })
     }
 
     /// The grains group by group, as they were placed; those of another run are brought into that order.
-    pub fn by_groups(&self) -> Particles {
-        let mut grains = self.start.grains.clone();
-        if self.earlier.is_some() {
-            let mut order: Vec<u32> = (0..grains.len() as u32).collect();
-            order.sort_by_key(|&at| grains.material[at as usize]);
-            grains.reorder(&order);
+    pub fn by_groups(&self) -> Cow<'_, Particles> {
+        let placed = &self.start.grains;
+        if self.earlier.is_none() {
+            return Cow::Borrowed(placed);
         }
-        grains
+        let mut order: Vec<u32> = (0..placed.len() as u32).collect();
+        order.sort_by_key(|&at| placed.material[at as usize]);
+        let mut grains = placed.clone();
+        grains.reorder(&order);
+        Cow::Owned(grains)
     }
 }
 
@@ -97,14 +100,14 @@ fn taken(scenario: &Scenario, path: &Path) -> Result<Origin, Trouble> {
     };
     hand_over_materials(&mut start.grains, &past, scenario)?;
     hand_over_bonds(&start, scenario)?;
-    start.warnings.extend(springs_dropped(&start, &past, scenario));
+    start.warnings.extend(springs_dropped(&start, scenario));
     refuse_short_cutoff(&start.grains, scenario)?;
     // A run of hard spheres leaves grains that overlap or reach into a wall: after a step, or where two became a larger one.
     // They are about to part, and are dealt with as in the run itself.
     make_ready(scenario, &mut start.grains, true).map_err(Trouble::Grains)?;
     let (groups, counts) = groups(&start.grains, scenario);
     let words = words(&start, &past, time);
-    Ok(Origin { start, groups, counts, earlier: Some(Earlier { checkpoint, words }) })
+    Ok(Origin { start, counts, earlier: Some(Earlier { checkpoint, groups, words }) })
 }
 
 /// The newest sound checkpoint of a run's folder, or one that was named.
@@ -189,28 +192,20 @@ fn hand_over_bonds(start: &Start, scenario: &Scenario) -> Result<(), String> {
 }
 
 /// That loaded springs find no law that has any.
-fn springs_dropped(start: &Start, past: &Scenario, scenario: &Scenario) -> Option<String> {
-    let has_springs = |scenario: &Scenario| {
-        let friction = scenario.contact.as_ref().and_then(|laws| laws.friction.as_ref());
-        matches!(friction, Some(Friction::Mindlin(_)))
-    };
+fn springs_dropped(start: &Start, scenario: &Scenario) -> Option<String> {
+    let friction = scenario.contact.as_ref().and_then(|laws| laws.friction.as_ref());
+    let has_springs = matches!(friction, Some(Friction::Mindlin(_)));
     let loaded = start.contacts.iter().filter(|(.., spring)| spring.force.norm() > 0.0).count();
-    (loaded > 0 && has_springs(past) && !has_springs(scenario)).then(|| {
+    (loaded > 0 && !has_springs).then(|| {
         format!("{loaded} loaded springs of the run that this one starts from are dropped: contact.friction is not mindlin")
     })
 }
 
 /// As the check does for grains that the scenario places.
 fn refuse_short_cutoff(grains: &Particles, scenario: &Scenario) -> Result<(), String> {
-    let Some(cutoff) = scenario.fields.near_field.as_ref().and_then(|law| law.cutoff) else { return Ok(()) };
     let largest = grains.radius.iter().copied().fold(0.0, f64::max);
-    if cutoff.si() > 2.0 * largest {
-        return Ok(());
-    }
-    let [found, least] = [cutoff.si(), 2.0 * largest].map(|length| readable(length, "m"));
-    Err(format!(
-        "fields.near_field.cutoff = {found} is not above the largest diameter {least} of its grains: touching ones are left out"
-    ))
+    let fault = scenario.fields.near_field.as_ref().and_then(|law| fault_of_cutoff(law, largest));
+    fault.map_or(Ok(()), |fault| Err(format!("fields.near_field.cutoff = {fault}")))
 }
 
 /// One group for each material, as far as grains tell; where they are is in no key.

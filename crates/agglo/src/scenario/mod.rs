@@ -18,6 +18,7 @@ mod tree;
 mod types;
 mod walk;
 
+pub(crate) use check::fault_of_cutoff;
 pub use explain::{PAGES, Page, explain, nearest_law};
 pub(crate) use fault::nearest;
 pub use fault::{Fault, Faults};

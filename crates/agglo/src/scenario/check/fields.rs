@@ -39,15 +39,18 @@ fn drag(check: &mut Check, scenario: &Scenario, law: &Drag) {
     }
 }
 
+/// What is wrong with the cut-off where the largest grain has this radius [m].
+pub(crate) fn fault_of_cutoff(law: &NearField, largest: f64) -> Option<String> {
+    let cutoff = law.cutoff?.si();
+    let [found, least] = told_apart([cutoff, 2.0 * largest], "m");
+    (cutoff <= 2.0 * largest)
+        .then(|| format!("{found} is not above the largest diameter {least}: touching grains are left out"))
+}
+
 fn near_field(check: &mut Check, scenario: &Scenario, law: &NearField) {
-    if let Some(cutoff) = law.cutoff {
-        let largest = scenario.grains.iter().map(|group| group.size.largest()).fold(0.0, f64::max);
-        if cutoff.si() <= 2.0 * largest {
-            let [found, least] = told_apart([cutoff.si(), 2.0 * largest], "m");
-            let message =
-                format!("{found} is not above the largest diameter {least}: touching grains are left out");
-            check.fail_with("fields.near_field.cutoff", message, "it counts from centre to centre");
-        }
+    let largest = scenario.grains.iter().map(|group| group.size.largest()).fold(0.0, f64::max);
+    if let Some(message) = fault_of_cutoff(law, largest) {
+        check.fail_with("fields.near_field.cutoff", message, "it counts from centre to centre");
     }
     check.above_zero("fields.near_field.truncation", law.truncation);
     match &law.law {

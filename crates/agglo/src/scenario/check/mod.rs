@@ -10,6 +10,8 @@ mod placement;
 mod time;
 mod volume;
 
+pub(crate) use fields::fault_of_cutoff;
+
 use std::collections::BTreeSet;
 use std::path::Path;
 
