@@ -2,6 +2,8 @@
 
 #![allow(dead_code, reason = "each test program uses its own part of it")]
 
+mod figures;
+
 use std::path::Path;
 
 use agglo::engine::soft::{Simulation, SimulationState};
@@ -10,6 +12,8 @@ use agglo::packing;
 use agglo::particles::{Particles, Row};
 use agglo::scenario::Scenario;
 use serde_json::Value as Json;
+
+pub use figures::found;
 
 /// A scenario of text, which must be sound.
 pub fn scenario(text: &str) -> Scenario {

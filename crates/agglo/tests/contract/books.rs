@@ -50,6 +50,7 @@ const LOSSY: &str = "[contact.normal.hertz]\n[contact.damping.restitution]\nrest
 fn elastic_collisions_keep_energy_to_second_order() {
     for engine in [common::verlet, |step| common::staggered(step, 1e-10, 0.5)] {
         let drifts = [2e-6, 1e-6].map(|step| drift(&engine(step), ELASTIC));
+        common::found("elastic_drift", &[("coarse", drifts[0]), ("fine", drifts[1])]);
         assert!(drifts[0] < 1e-4 && drifts[1] < drifts[0] / 3.0, "{drifts:?}");
     }
 }
@@ -58,6 +59,7 @@ fn elastic_collisions_keep_energy_to_second_order() {
 #[test]
 fn losses_are_booked() {
     let drifts = [2e-6, 1e-6, 0.5e-6].map(|step| drift(&common::verlet(step), LOSSY));
+    common::found("lossy_drift", &[("coarse", drifts[0]), ("half", drifts[1]), ("quarter", drifts[2])]);
     assert!(drifts[0] < 1e-3 && drifts[1] < drifts[0] / 3.0 && drifts[2] < drifts[1] / 3.0, "{drifts:?}");
 }
 
@@ -68,6 +70,7 @@ fn momentum_of_a_crowd_is_explained() {
         let mut simulation = crowd::start(engine, 300);
         common::steps(&mut simulation, 300);
         crowd::assert_busy(&simulation);
+        common::found("crowd_momentum", &[("off", simulation.momentum_drift_relative())]);
         assert!(simulation.momentum_drift_relative() < 1e-12);
     }
 }
@@ -82,5 +85,6 @@ fn a_crowd_drifts_to_second_order() {
         crowd::assert_busy(&simulation);
         simulation.balance().drift_relative.abs()
     });
+    common::found("crowd_drift", &[("coarse", drifts[0]), ("fine", drifts[1])]);
     assert!(drifts[0] < 2e-3 && drifts[1] < drifts[0] / 3.0, "{drifts:?}");
 }

@@ -7,6 +7,7 @@ use std::f64::consts::PI;
 use agglo::math::Vec3;
 use agglo::math::rng::{Purpose, Stream};
 
+use crate::common;
 use crate::support::{self, Gas, Mean, STICKY};
 
 /// Exponent ξ of M ~ t^ξ from a straight line through ln M over ln t between two mean masses, in primaries; `grains_at` says how
@@ -99,6 +100,10 @@ fn mean(what: &str, gas: &Gas<'_>, window: [f64; 2], starts: u64, of: fn(&Gas<'_
          ({starts} starts)",
         gas.count, gas.solid_fraction, window[0], window[1], found.mean, found.error
     ));
+    common::found(
+        &format!("aggregation_{what}_{}", gas.count),
+        &[("power", found.mean), ("error", found.error)],
+    );
     found
 }
 

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 
 use agglo::engine::hard::{EventKind, Simulation};
 
+use crate::common;
 use crate::support::{self, EVENTS, Gas, STEPS};
 
 const COUNT: u32 = 400;
@@ -75,6 +76,7 @@ fn break_and_merge(engine: &str, pieces: &str) -> Simulation {
         counts.no_room,
         simulation.grains()
     ));
+    common::found("breaking", &[("impacts", broken as f64)]);
     assert!(broken > 100 && counts.merges > 100, "{counts:?}");
     support::assert_books(&simulation);
     let balance = simulation.balance();

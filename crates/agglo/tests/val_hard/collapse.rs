@@ -1,5 +1,6 @@
 //! Inelastic collapse: infinitely many impacts in a finite time, S. McNamara and W. R. Young, Phys. Fluids A 4, 496 (1992).
 
+use crate::common;
 use crate::support::{self, Gas};
 
 /// A dense, strongly inelastic gas goes on beyond the times at which it would collapse, and never gains energy.
@@ -26,6 +27,9 @@ fn a_gas_that_would_collapse_goes_on() {
             before / start,
             simulation.balance().kinetic_drift_relative
         ));
+        let (impacts, guarded) = (counts.impacts as f64, counts.guarded as f64);
+        let figures = [("impacts", impacts), ("guarded", guarded), ("left", before / start)];
+        common::found(&format!("collapse_{restitution}"), &figures);
         assert!(counts.guarded > 0, "no collapse");
         assert!(before < 1e-2 * start);
         assert_eq!(counts.merges, 0);

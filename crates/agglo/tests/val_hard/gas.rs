@@ -2,6 +2,7 @@
 //! contact value of N. F. Carnahan and K. E. Starling, J. Chem. Phys. 51, 635 (1969), and with that of the virial series,
 //! N. Clisby and B. M. McCoy, J. Stat. Phys. 122, 15 (2006).
 
+use crate::common;
 use crate::support::{self, Gas, Mean};
 
 /// Coefficients of φ, φ², ... of the compressibility factor.
@@ -51,6 +52,8 @@ fn compare(count: u32, impacts: u64, solid_fraction: f64, [published, exact]: [f
         found.error,
         found.mean / series
     ));
+    let figures = [("ratio", found.mean), ("error", found.error), ("of_series", found.mean / series)];
+    common::found(&format!("enskog_{count}_{solid_fraction}"), &figures);
     assert!((found.mean - 1.0).abs() < published, "{found:?}");
     assert!((found.mean / series - 1.0).abs() < exact, "{found:?}");
     // So that each tolerance is three standard errors or more.

@@ -1,6 +1,7 @@
 //! Cooling of a granular gas, P. K. Haff, J. Fluid Mech. 134, 401 (1983): T = T0 (1 + t/t_H)^-2 with
 //! t_H = 6/(w (1 - e²)), w Enskog's rate of impacts of a sphere at the start.
 
+use crate::common;
 use crate::support::{self, Gas, Mean};
 
 /// √(T0/T) - 1 over t/t_H at three times, as means over starts that have been mixed by elastic impacts.
@@ -32,6 +33,7 @@ fn compare(restitution: f64, starts: u64) {
             "Haff, e = {restitution}: at {times} t_H the speed has fallen {:.4} +- {:.4} times as expected",
             found.mean, found.error
         ));
+        common::found(&format!("haff_{restitution}"), &[("ratio", found.mean), ("error", found.error)]);
         assert!((found.mean - 1.0).abs() < 0.02, "{found:?}");
         assert!(found.error < 0.01, "{found:?}");
     }

@@ -8,6 +8,7 @@ use std::f64::consts::PI;
 use agglo::engine::hard::Simulation;
 use agglo::measure::SizeRates;
 
+use crate::common;
 use crate::support::{self, EVENTS, Mean};
 
 const RADII: [f64; 2] = [0.5e-3, 10e-3];
@@ -102,6 +103,7 @@ fn compare(blocks: usize, impacts: u64, tolerance: f64) {
         "mixture 1 : 20: a large sphere has {:.3} +- {:.3} of the mean energy",
         found.mean, found.error
     ));
+    common::found("mixture_large", &[("energy", found.mean), ("error", found.error)]);
     assert!((found.mean - 1.0).abs() < 3.0 * found.error && found.error < 0.02, "{found:?}");
     let rows = simulation.cloud().state.rates.kernel_rows(simulation.clock().time);
     for row in rows {
@@ -113,6 +115,7 @@ fn compare(blocks: usize, impacts: u64, tolerance: f64) {
             "mixture 1 : 20, sizes {} and {}: {} impacts, {ratio:.4} +- {error:.4} of the rate of kinetic theory",
             a, b, row.impacts
         ));
+        common::found(&format!("mixture_{a}_{b}"), &[("ratio", ratio), ("error", error)]);
         assert!((ratio - 1.0).abs() < tolerance + 3.0 * error, "{row:?}");
     }
 }

@@ -11,6 +11,7 @@ use agglo::packing::place;
 use agglo::run::Growth;
 use agglo::scenario::Scenario;
 
+use crate::common;
 use crate::support::{self, Mean};
 
 const SETS: [&str; 6] = [
@@ -72,6 +73,8 @@ fn assert_reference(set: usize, found: Mean, what: &str) {
         reference.error,
         PUBLISHED[set]
     ));
+    let figures = [("ratio", found.mean), ("error", found.error), ("apart", found.apart(&reference))];
+    common::found(&format!("set_{}_{what}", set + 1), &figures);
     assert!(found.apart(&reference) < 3.0, "set {}: {found:?} for {reference:?}", set + 1);
 }
 

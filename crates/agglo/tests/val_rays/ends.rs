@@ -5,6 +5,7 @@ use agglo::domain::{Ball, Region};
 use agglo::math::Vec3;
 use agglo::units::Quantity;
 
+use crate::figures::found;
 use crate::{CERAMIC, FOLLOW_ALL, Packing, advance, beam};
 
 /// A grain flies on before 100 rays, far out of where all grains were at the start; there it stops and they reach it. A region
@@ -94,6 +95,7 @@ fn val_zohdi_2016_beam_power_of_all_rays() {
         let squares = 1e-4 - lost / count.power_in.powi(2);
         assert!((all.root_of_squares.powi(2) / squares - 1.0).abs() < 1e-10);
     }
+    found("beam_power", &[("axis", axis), ("magnitude", magnitude)]);
     assert!((axis + 0.155).abs() < 0.01, "{axis}");
     assert!((magnitude - 0.932).abs() < 0.003, "{magnitude}");
 }
@@ -124,6 +126,7 @@ fn val_a_ray_in_the_cusp_of_touching_spheres_is_absorbed() {
     let absorbed = shoot(10_000_000);
     assert!((absorbed.power_absorbed / absorbed.power_in - 1.0).abs() < 1e-12, "{absorbed:?}");
     assert_eq!((absorbed.power_truncated, absorbed.capped), (0.0, 0));
+    found("cusp", &[("bounces", absorbed.reflections as f64)]);
     assert!((300_000..1_500_000).contains(&absorbed.reflections), "{}", absorbed.reflections);
     let capped = shoot(1000);
     assert_eq!((capped.power_truncated, capped.capped, capped.reflections), (capped.power_in, 1, 1000));

@@ -1,6 +1,8 @@
 //! Rays against closed forms, independent counts and conservation laws.
 
 mod ends;
+#[path = "../common/figures.rs"]
+mod figures;
 
 use std::f64::consts::PI;
 
@@ -12,6 +14,8 @@ use agglo::acoustics::{
 use agglo::math::Vec3;
 use agglo::math::rng::{Purpose, Stream};
 use agglo::units::{Quantity, Time};
+
+use figures::found;
 
 const CERAMIC: Interface = Interface { impedance_ratio: 18.0, speed_ratio: 1.0 / 3.0, shear_ratio: 0.0 };
 /// Radiation pressure does not depend on what enters.
@@ -96,6 +100,7 @@ fn val_hits_per_ray_is_the_ratio_of_surfaces() {
     let mean = per_ray.iter().sum::<f64>() / n as f64;
     let variance = per_ray.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (n - 1) as f64;
     let error = (variance / n as f64).sqrt();
+    found("hits_per_ray", &[("mean", mean), ("error", error)]);
     assert!(error < 0.012, "the test has lost its edge: {error}");
     assert!((mean - 5.0).abs() < 3.0 * error, "{mean} +- {error}");
 }
@@ -121,6 +126,7 @@ fn val_hits_per_ray_of_two_sizes() {
     let mean = per_ray.iter().sum::<f64>() / n as f64;
     let variance = per_ray.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (n - 1) as f64;
     let error = (variance / n as f64).sqrt();
+    found("hits_of_two_sizes", &[("mean", mean), ("error", error)]);
     assert!(
         error < 0.005 * expected && (mean - expected).abs() < 3.0 * error,
         "{mean} +- {error}, {expected}"
@@ -153,6 +159,12 @@ fn val_zohdi_2016_segments_of_one_pulse() {
     assert!((reflections / packings).abs_diff(50_000) <= 480, "three standard errors about the exact mean");
     assert!((80..=130).contains(&(longest / packings as u32)), "{}", longest / packings as u32);
     let absorbed = absorbed / packings as f64;
+    let means = [reflections, segments, u64::from(longest)].map(|sum| (sum / packings) as f64);
+    found(
+        "forty_packings",
+        &[("reflections", means[0]), ("segments", means[1]), ("longest_chain", means[2])],
+    );
+    found("forty_packings", &[("absorbed", absorbed)]);
     assert!((0.065..0.075).contains(&absorbed), "{absorbed}");
 }
 
@@ -167,6 +179,7 @@ fn val_power_ledger_closes_at_every_instant() {
     beams[1].profile = Profile::Gaussian(agglo::acoustics::Gaussian { waist: Quantity(0.5) });
     let mut tracer = Tracer::new(Ends { truncation: 0.7, ..FOLLOW_ALL }, vec![CERAMIC]);
     let mut flight = Flight::default();
+    let mut worst = 0.0_f64;
     for step in 0..2000 {
         if step == 0 || step == 7 {
             let number = u32::from(step == 7);
@@ -176,12 +189,14 @@ fn val_power_ledger_closes_at_every_instant() {
         for (place, count) in flight.pulses().iter().enumerate() {
             let out = count.power_absorbed + count.power_escaped + count.power_truncated;
             let sum = out + flight.power_in_flight(place);
+            worst = worst.max((sum / count.power_in - 1.0).abs());
             assert!((sum / count.power_in - 1.0).abs() < 1e-12, "step {step}: {sum} of {}", count.power_in);
             let rays = flight.rays().iter().filter(|ray| ray.pulse as usize == place).count();
             assert_eq!(rays as u32, count.in_flight);
         }
     }
     assert!(flight.rays().is_empty());
+    found("power_ledger", &[("off", worst)]);
     assert!(flight.pulses().iter().all(|count| count.power_truncated > 1e-3 * count.power_in));
 }
 
@@ -201,6 +216,7 @@ fn val_radiation_force_on_a_perfect_reflector() {
         let force: Vec3 = hits.iter().map(|hit| law.force(hit, WHATEVER, &medium)).sum();
         let intensity = 4.7e10 / PI;
         let expected = intensity / 1500.0 * PI * 0.9 * 0.9;
+        found("reflector", &[("ratio", force.z / expected)]);
         assert!((force.z / expected - 1.0).abs() < 1e-3, "{pattern:?} {}", force.z / expected);
         assert!(force.x.hypot(force.y) < 1e-3 * expected);
     }
@@ -228,6 +244,7 @@ fn val_momentum_of_rays_goes_to_grains() {
     }
     assert!(flight.rays().is_empty());
     // Sums of 1e4 terms.
+    found("momentum_of_rays", &[("off", (force * 1500.0 + gone - before).norm() / before.norm())]);
     assert!((force * 1500.0 + gone - before).norm() < 1e-11 * before.norm());
     assert!(force.y * 1500.0 > 0.1 * before.norm());
 }

@@ -64,6 +64,7 @@ fn val_timoshenko_cantilever() {
     let slender = force * LENGTH.powi(3) / (3.0 * MODULUS * SECOND_MOMENT);
     let discrete = 1.0 - 0.25 / (BONDS * BONDS) as f64;
     let wanted = slender * discrete + force * LENGTH / (SHEAR_RATIO * MODULUS * AREA);
+    common::found("cantilever", &[("off", tip.position.y / wanted - 1.0)]);
     assert!((tip.position.y / wanted - 1.0).abs() < 2e-5, "{} for {wanted}", tip.position.y);
     assert!(tip.position.z == 0.0 && bent.momentum_drift_relative() < 1e-9);
 }
@@ -75,6 +76,7 @@ fn val_hooke_axial_stiffness() {
         let bar = chain("1 GPa", [format!("{force}"), no_force(), no_force()], 4e-3);
         let found = common::grain(&bar, BONDS as u32).position.x - LENGTH;
         let wanted = force * LENGTH / (MODULUS * AREA);
+        common::found("axial_stiffness", &[("off", found / wanted - 1.0)]);
         assert!((found / wanted - 1.0).abs() < 1e-3, "{found:e} for {wanted:e}");
     }
 }
@@ -93,6 +95,7 @@ fn val_breaking_load_of_a_bar() {
     assert!((found / wanted - 1.0).abs() < 0.003, "{found} for {wanted}");
     // What the bond held when it broke: σ² A l/(2 E).
     let energy = 1e12 * AREA * 2.0 * RADIUS / (2.0 * MODULUS);
+    common::found("bar", &[("load_off", found / wanted - 1.0), ("energy_off", event.energy / energy - 1.0)]);
     assert!((event.energy / energy - 1.0).abs() < 0.02, "{} for {energy}", event.energy);
 }
 
@@ -108,5 +111,6 @@ fn val_breaking_load_of_a_cantilever() {
     let event = bent.events[0];
     assert_eq!((event.ids, event.broke), ([0, 1], Some(Break::Tension)));
     let found = wanted * event.time / rise;
+    common::found("cantilever_load", &[("off", found / wanted - 1.0)]);
     assert!((found / wanted - 1.0).abs() < 0.005, "{found} for {wanted}");
 }

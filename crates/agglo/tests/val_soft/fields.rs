@@ -32,6 +32,7 @@ fn val_stokes_1851_terminal_velocity() {
         let mut simulation = grains(vec![[0.0; 3]], 25.0 * relaxation, engine, more).start(|_| {});
         common::finish(&mut simulation);
         let found = common::grain(&simulation, 0).velocity;
+        common::found("sinking", &[("off", found.z / -wanted - 1.0)]);
         assert!((found.z / -wanted - 1.0).abs() < 1e-6 && found.x == 0.0, "{found:?} for {wanted:e}");
     }
 }
@@ -49,6 +50,7 @@ fn a_sinking_grain_speeds_up_exponentially() {
     common::finish(&mut simulation);
     let wanted = -2.0 / 9.0 * 1500.0 * 9.81 * 1e-10 / 1e-3 * (1.0 - (-1.0_f64).exp());
     let found = common::grain(&simulation, 0).velocity.z;
+    common::found("speeding_up", &[("off", found / wanted - 1.0)]);
     assert!((found / wanted - 1.0).abs() < 1e-5, "{found:e} for {wanted:e}");
 }
 
@@ -79,6 +81,7 @@ fn val_coulomb_two_bodies_circle() {
         let apart = common::grain(&simulation, 1).position - common::grain(&simulation, 0).position;
         // Angle missed over the angle turned: the relative error of the period.
         let missed = apart.y.atan2(apart.x) / (turns * TAU);
+        common::found("circling_charges", &[("distance_off", worst), ("period_off", missed)]);
         assert!(missed.abs() < 1e-6, "period off by {missed:e}: {engine}");
         assert!((relative_velocity(&simulation).norm() / (distance * turning) - 1.0).abs() < 1e-6);
     }
@@ -108,6 +111,7 @@ fn val_cyclotron_radius_and_period() {
         });
         assert!(worst < 1e-6, "radius off by {worst:e}: {engine}");
         let back = (common::grain(&simulation, 0).position.norm() / radius) / TAU;
+        common::found("cyclotron", &[("radius_off", worst), ("period_off", back)]);
         assert!(back < 1e-6, "period off by {back:e}: {engine}");
         let kept = common::grain(&simulation, 0).velocity.norm() / speed - 1.0;
         assert!(kept.abs() < 1e-8, "speed off by {kept:e}: {engine}");

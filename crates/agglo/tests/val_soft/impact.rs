@@ -61,7 +61,9 @@ fn meeting(speed: f64) -> impl FnOnce(&mut Particles) {
 /// and the five digits of the references by 2e-5.
 const FIVE_DIGITS: f64 = 1e-4;
 
-fn assert_contact(found: &Contact, overlap: f64, force: f64, duration: f64) {
+fn assert_contact(case: &str, found: &Contact, overlap: f64, force: f64, duration: f64) {
+    let figures = [("overlap_m", found.overlap), ("force_N", found.force), ("duration_s", found.duration)];
+    common::found(case, &figures);
     for (found, wanted) in [(found.overlap, overlap), (found.force, force), (found.duration, duration)] {
         // Durations are given with four digits.
         let tolerance = if wanted == duration { 3e-4 } else { FIVE_DIGITS };
@@ -72,12 +74,12 @@ fn assert_contact(found: &Contact, overlap: f64, force: f64, duration: f64) {
 /// Test 1; overlap, force and duration computed independently.
 #[test]
 fn val_chung_ooi_2011_two_spheres() {
-    assert_contact(&contact(&mut glass().start(meeting(10.0))), 274.11e-6, 10.697e3, 40.34e-6);
+    assert_contact("glass", &contact(&mut glass().start(meeting(10.0))), 274.11e-6, 10.697e3, 40.34e-6);
     let limestone = Listed {
         material: "density = \"2500 kg/m3\"\nyoungs_modulus = \"20 GPa\"\npoisson_ratio = 0.25",
         ..glass()
     };
-    assert_contact(&contact(&mut limestone.start(meeting(10.0))), 368.30e-6, 7.108e3, 54.20e-6);
+    assert_contact("limestone", &contact(&mut limestone.start(meeting(10.0))), 368.30e-6, 7.108e3, 54.20e-6);
 }
 
 /// Stiffness of a plane that does not give way.
@@ -101,12 +103,13 @@ pub fn before_a_plane(radius: f64, material: &str, of_plane: &str, engine: &str,
 fn val_chung_ooi_2011_sphere_on_plane() {
     let aluminium = "density = \"2699 kg/m3\"\nyoungs_modulus = \"70 GPa\"\npoisson_ratio = 0.30";
     let magnesium = "density = \"1800 kg/m3\"\nyoungs_modulus = \"40 GPa\"\npoisson_ratio = 0.35";
-    for (material, [overlap, force, duration]) in
-        [(aluminium, [49.717e-6, 11.370e3, 731.7e-6]), (magnesium, [52.123e-6, 7.233e3, 767.1e-6])]
-    {
+    for (name, material, [overlap, force, duration]) in [
+        ("aluminium", aluminium, [49.717e-6, 11.370e3, 731.7e-6]),
+        ("magnesium", magnesium, [52.123e-6, 7.233e3, 767.1e-6]),
+    ] {
         let text = before_a_plane(0.1, material, RIGID, &common::verlet(2e-7), "[contact.normal.hertz]\n");
         let mut simulation = common::start(&text, |grains| grains.velocity[0].x = -0.2);
-        assert_contact(&contact(&mut simulation), overlap, force, duration);
+        assert_contact(name, &contact(&mut simulation), overlap, force, duration);
     }
 }
 
@@ -125,6 +128,7 @@ fn val_chung_ooi_2011_damped_impact() {
     let iron = "density = \"7000 kg/m3\"\nyoungs_modulus = \"100 GPa\"\npoisson_ratio = 0.25";
     for material in [alumina, iron] {
         for normal in ["[contact.normal.hertz]", "[contact.normal.hooke]\nstiffness = \"30 MN/m\""] {
+            let case = if normal.contains("hertz") { "damped_hertz" } else { "damped_hooke" };
             for wanted in [0.2, 0.4, 0.5, 0.6, 0.8, 1.0] {
                 let listed = Listed {
                     material,
@@ -135,6 +139,7 @@ fn val_chung_ooi_2011_damped_impact() {
                     ..glass()
                 };
                 let found = restitution(&listed, 1.95);
+                common::found(case, &[("off", (found - wanted).abs())]);
                 assert!((found - wanted).abs() < 1e-3, "{found} for {wanted}, {normal}");
             }
         }
@@ -145,5 +150,11 @@ fn val_chung_ooi_2011_damped_impact() {
 #[test]
 fn both_engines_agree_on_an_impact() {
     let implicit = Listed { engine: common::staggered(1e-8, 1e-10, 0.5), ..glass() };
-    assert_contact(&contact(&mut implicit.start(meeting(10.0))), 274.11e-6, 10.697e3, 40.34e-6);
+    assert_contact(
+        "glass_staggered",
+        &contact(&mut implicit.start(meeting(10.0))),
+        274.11e-6,
+        10.697e3,
+        40.34e-6,
+    );
 }

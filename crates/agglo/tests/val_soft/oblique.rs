@@ -65,11 +65,13 @@ fn val_gross_sliding_of_two_spheres() {
         collide(&mut simulation, |_| {});
         let slowed = friction * (1.0 + restitution) * v_n;
         let found = v_t - relative_velocity(&simulation).y;
+        common::found(&format!("sliding_{laws}"), &[("off", found / slowed - 1.0)]);
         assert!((found / slowed - 1.0).abs() < 0.005, "{laws}: {found} for {slowed}");
         for id in [0, 1] {
             let spin = common::grain(&simulation, id).spin;
             // The second grain's surface at the contact moves along +y past the first: both turn about +z.
             let wanted = 1.25 * slowed / RADIUS;
+            common::found("sliding_spins", &[("off", spin.z / wanted - 1.0)]);
             assert!((spin.z / wanted - 1.0).abs() < 0.002, "{laws}: {spin:?} for {wanted}");
         }
     }
@@ -123,6 +125,7 @@ fn energy_never_rises_at_76_degrees() {
                     assert!(energy < start * (1.0 + 3e-6), "{energy} of {start}: {more}");
                 });
                 let end = common::kinetic(&simulation);
+                common::found("at_76_degrees", &[("left", end / start)]);
                 assert!(end < start * 0.9, "friction took nothing: {more}");
             }
         }
@@ -153,6 +156,8 @@ fn unequal_sizes_keep_momentum_and_angular_momentum() {
     let end = simulation.momentum();
     assert!((end.linear - start.linear).norm() < 1e-14 * size);
     let turned = (end.angular - start.angular).norm();
+    let moved = (end.linear - start.linear).norm() / size;
+    common::found("unequal_sizes", &[("momentum", moved), ("moment", turned / (size * 0.5e-3))]);
     assert!(turned < 1e-11 * size * 0.5e-3, "{turned:e} of {:e}", size * 0.5e-3);
 }
 
@@ -174,6 +179,7 @@ fn val_kharaz_2001_tangential_restitution() {
         let found = kharaz(angle);
         assert!((found / measured - 1.0).abs() < tolerance, "{found} for {measured} at {degrees}");
         let sliding = 0.092 * 1.98 / angle.tan();
+        common::found("kharaz", &[("restitution", found), ("off", found / measured - 1.0)]);
         if sliding < 2.0 / 7.0 {
             assert!((found / (1.0 - sliding) - 1.0).abs() < 0.003, "{found} for {}", 1.0 - sliding);
         }

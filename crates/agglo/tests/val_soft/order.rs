@@ -131,6 +131,9 @@ fn assert_order(run: impl Fn(String) -> Vec3 + Copy, coarsest: f64) {
     let trapezoid = slopes(run, |step| common::staggered(step, 1e-13, 0.5), coarsest, exact);
     let euler = slopes(run, |step| common::staggered(step, 1e-13, 1.0), coarsest / 16.0, exact);
     for (found, order) in [(verlet, 2.0), (trapezoid, 2.0), (euler, 1.0)] {
+        for slope in &found {
+            common::found(if order == 1.0 { "first_order" } else { "second_order" }, &[("slope", *slope)]);
+        }
         assert!(found.iter().all(|slope| (slope - order).abs() < 0.1), "{found:?} for {order}");
     }
 }

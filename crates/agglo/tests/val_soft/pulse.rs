@@ -30,6 +30,11 @@ fn val_zohdi_2016_first_pulse() {
     assert_eq!(count.segments, count.reflections + 10_000, "{count:?}");
     // About 7 % of the power is absorbed.
     let absorbed = count.power_absorbed / count.power_in;
+    let (reflections, segments) = (count.reflections as f64, count.segments as f64);
+    common::found(
+        "first_pulse",
+        &[("reflections", reflections), ("segments", segments), ("absorbed", absorbed)],
+    );
     assert!((absorbed - 0.07).abs() < 0.01, "{absorbed}");
     let books = count.power_absorbed + count.power_escaped + count.power_truncated;
     assert!((books / count.power_in - 1.0).abs() < 1e-12);
