@@ -64,11 +64,11 @@ def run(scenario, settings, seed):
         return json.loads((folder / "summary.json").read_text(encoding="utf-8"))
 
 
-def mean(summaries, key, digits=4):
-    """The mean of a figure, with its standard error."""
+def mean(summaries, key):
+    """The mean of a figure, with its standard error; with digits to spare, since pages round them."""
     values = [summary[key] for summary in summaries]
     error = statistics.stdev(values) / len(values) ** 0.5 if len(values) > 1 else float("nan")
-    return f"{statistics.mean(values):.{digits}g} ± {error:.2g}"
+    return f"{statistics.mean(values):.6g} ± {error:.4g}"
 
 
 def row(*cells):
