@@ -223,7 +223,7 @@ def numbers_of(source):
     path, _, name = source.partition("::")
     text = (ROOT / path).read_text()
     if name:
-        found = re.search(rf"^( *)(?:pub )?(?:fn|const) {name}\b.*?(?:^\1\}}|;$)", text, re.DOTALL | re.MULTILINE)
+        found = re.search(rf"^( *)(?:pub )?fn {name}\b.*?^\1\}}", text, re.DOTALL | re.MULTILINE)
         assert found, f"{path} has no function {name}"
         text = found[0]
     text = re.sub(r"(?<=\d)_(?=\d)|(?<=\d),(?=\d{3})", "", text)
