@@ -5,7 +5,7 @@
 - `measured = "NAME"`: `values/NAME.toml`, written by `measure.py NAME`. `{key}` in the text stands for a value;
 - `computed = { key = "formula" }`: a formula of Python's `math`, for what follows from a closed form or from stored values, `of("NAME")`;
 - `source = "path/of/a/file"`, or a list of them: each number must be a number in these files, as it stands or in SI units.
-  A function of a Rust file is named behind `::`;
+  Behind `::` stands a function of a Rust file, or `blocks` for what a page shows in blocks of code;
 - `given = "reason"`: no figure of ours (a paper's, a year, the number of an equation), or one that nothing here can check.
 
 Slots have Python's formats (`{x:.3f}`), or `{x:r2}`: two digits that count, with commas. A value with its error, two numbers in
@@ -29,7 +29,7 @@ NUMBER = re.compile(r"(?<![\w.,])(?<![A-Za-z]-)(?:\d{1,3}(?:,\d{3})+|\d+)(?:\.\d
 SIGNS = "-+±<>≤≥≈"
 UNIT = re.compile(r"\s?(?:%|°|(?:[kMGTµunmp]?(?:m|s|J|N|Pa|Hz|W|B|K|kg|g|eV)(?:/\S+)?|million|billion)(?![\w`]))")
 SCALES = {"%": 1e-2, "µ": 1e-6, "u": 1e-6, "n": 1e-9, "p": 1e-12, "m": 1e-3, "c": 1e-2, "k": 1e3, "M": 1e6, "G": 1e9}
-PAGES = {path.stem: path for path in sorted((HERE / "pages").glob("*.toml"))}
+PAGES = {str(path.relative_to(HERE / "pages").with_suffix("")): path for path in sorted((HERE / "pages").rglob("*.toml"))}
 KINDS = ("measured", "computed", "source", "given")
 
 
@@ -222,7 +222,9 @@ def numbers_of(source):
     """All numbers in a file, or in one function of a Rust file, and what they are as parts of a hundred."""
     path, _, name = source.partition("::")
     text = (ROOT / path).read_text()
-    if name:
+    if name == "blocks":
+        text = "".join(re.findall(r"^```.*?^```", text, re.DOTALL | re.MULTILINE))
+    elif name:
         found = re.search(rf"^( *)(?:pub )?fn {name}\b.*?^\1\}}", text, re.DOTALL | re.MULTILINE)
         assert found, f"{path} has no function {name}"
         text = found[0]

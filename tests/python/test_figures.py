@@ -21,7 +21,10 @@ import figures  # noqa: E402
 import measure  # noqa: E402
 from test_defaults import SCENARIO  # noqa: E402
 
-WANTED = {"README", "CHANGELOG", "convergence", "differences", "files", "gallery", "performance", "search", "validation", "validity"}
+WANTED = {
+    "README", "CHANGELOG", "convergence", "differences", "embedding", "files", "gallery", "performance", "pictures", "report", "search",
+    "validation", "validity", "watch", *(f"tutorials/{path.stem}" for path in (ROOT / "docs/tutorials").glob("*.md")),
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("page", sorted(figures.PAGES))
