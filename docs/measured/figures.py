@@ -3,8 +3,10 @@
 `pages/NAME.toml` has, for a page, claims: pieces of its text, each with where its figures come from, which is one of
 
 - `measured = "NAME"`: `values/NAME.toml`, written by `measure.py NAME`. `{key}` in the text stands for a value;
-- `computed = { key = "formula" }`: a formula of Python's `math`, for what follows from a closed form or from stored values, `of("NAME")`;
-- `source = "path/of/a/file"`, or a list of them: each number must be a number in these files, as it stands or in SI units.
+- `computed = { key = "formula" }`: a formula of Python's `math`, for what follows from a closed form or from stored values,
+  `of("NAME")`;
+- `source = "path/of/a/file"`, or a list of them: each number must be in one of these files, as it stands or in SI units, `3 %`
+  as 0.03.
   Behind `::` stands a function of a Rust file, or `blocks` for what a page shows in blocks of code;
 - `given = "reason"`: no figure of ours (a paper's, a year, the number of an equation), or one that nothing here can check.
 
@@ -127,15 +129,15 @@ def nearest(text, claim):
     """What stands on the page in the place of a text: the piece of as many words that is most like it, and where."""
     words = list(re.finditer(r"\S+", text))
     wanted = claim.text.split()
-    count, best = len(wanted), (0.0, 0, "")
+    count, best, ratio_of_best = len(wanted), (0, "", 0), 0.0
     known = set(wanted)
     for at in range(max(len(words) - count + 1, 1)):
         piece = [word[0] for word in words[at : at + count]]
-        if len(known & set(piece)) * 2 < best[0] * len(known):
+        if len(known & set(piece)) * 2 < ratio_of_best * len(known):
             continue
         ratio = difflib.SequenceMatcher(None, " ".join(piece), " ".join(wanted), autojunk=False).ratio()
-        if ratio > best[0]:
-            best = (ratio, words[at].start(), " ".join(piece))
+        if ratio > ratio_of_best:
+            ratio_of_best, best = ratio, (words[at].start(), " ".join(piece), words[at + len(piece) - 1].end())
     return best
 
 
@@ -163,7 +165,8 @@ def check(name):
             lines = ", ".join(str(line_of(text, start)) for start, _ in places)
             found.append(f"{path}: {claim.text!r} stands in lines {lines}: give {file} more of the words around it")
         else:
-            _, at, piece = nearest(text, claim)
+            at, piece, end = nearest(text, claim)
+            spans.append((at, end))
             found.append(
                 f"{path}:{line_of(text, at)}: the page says\n    {piece!r}\n  but by {claim.why} it is\n    {claim.text!r}\n"
                 f"  {advice(claim, file)}"
@@ -219,7 +222,7 @@ def is_once(text, piece):
 
 @functools.cache
 def numbers_of(source):
-    """All numbers in a file, or in one function of a Rust file, and what they are as parts of a hundred."""
+    """All numbers in a file, in one function of a Rust file, or in the blocks of code of a page."""
     path, _, name = source.partition("::")
     text = (ROOT / path).read_text()
     if name == "blocks":
@@ -236,7 +239,10 @@ def in_source(number, after, sources):
     """Whether a number of a page is one of a source, as it stands or in SI units."""
     value = float(number.replace(",", ""))
     unit = re.match(r"[\s)]*([%µunpmckMG])", after)
-    wanted = [value, value * SCALES[unit[1]]] if unit else [value]
+    wanted = {value, value * SCALES[unit[1]]} if unit else {value}
+    if unit and unit[1] == "%":
+        # Code has no percentages.
+        wanted = {value / 100}
     return any(math.isclose(known, want, rel_tol=1e-9) for source in sources for known in numbers_of(source) for want in wanted)
 
 
