@@ -7,11 +7,18 @@
 #
 # --long repeats the storms of kills and of two processes in one folder 500 times, not 20 times, and reads thirty times as many
 # hostile files.
+# --mutants runs no such tests: it puts small mistakes into the physics for an hour and says which of them no test notices; see
+# tests/mutants/check.py. AGGLO_MUTANTS_MINUTES asks for more or less than 60.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
-if [[ ${1:-} == --long ]]; then
-    export AGGLO_STORMS=500 AGGLO_CASES=30
-fi
+case ${1:-} in
+'' | --mutants) ;;
+--long) export AGGLO_STORMS=500 AGGLO_CASES=30 ;;
+*)
+    echo "error: $1 is not known; test.sh takes --long, --mutants or nothing" >&2
+    exit 2
+    ;;
+esac
 
 venv=target/venv
 log=target/test.log
@@ -40,12 +47,15 @@ need_command() {
     fi
 }
 
-prepare() {
+need_toolchain() {
     need_command cargo "see https://rustup.rs"
     need_command python3 "apt-get install python3"
     # Rust links with the C compiler.
     command -v cc >/dev/null || install_debian gcc libc6-dev
     mkdir -p target
+}
+
+prepare() {
     if ! "$venv/bin/python" -m pip --version >/dev/null 2>&1; then
         say "making the Python environment $venv"
         # Debian keeps what a virtual environment needs in a package of its own.
@@ -66,12 +76,28 @@ prepare_browser() {
     [[ -x $CHROMIUM ]] || install_debian chromium
 }
 
+# Looks for mistakes that no test notices.
+try_mutants() {
+    local version=27.1.0
+    export CARGO_MUTANTS=$PWD/target/tools/bin/cargo-mutants
+    if [[ $("$CARGO_MUTANTS" mutants --version 2>/dev/null) != "cargo-mutants $version" ]]; then
+        say "installing cargo-mutants $version into target/tools"
+        cargo install --locked cargo-mutants --version "$version" --root target/tools
+    fi
+    say "mutants"
+    exec python3 tests/mutants/check.py
+}
+
 # Runs a command and keeps what it says, for the closing lines.
 run() {
     say "$*"
     "$@" 2>&1 | tee -a "$log"
 }
 
+need_toolchain
+if [[ ${1:-} == --mutants ]]; then
+    try_mutants
+fi
 prepare
 prepare_browser
 : >"$log"

@@ -1,0 +1,226 @@
+"""Puts small mistakes into the physics, one at a time, and says which of them no test noticed. `./test.sh --mutants` runs it.
+
+cargo-mutants makes the mistakes: a sign, an operator, a comparison, a case left out, a function that returns 0. They are made in a copy
+of the sources, target/mutants/tree, and tried by more and more tests: those of the same folder, which are quick and notice most;
+those of the library; all in Rust. The order is shuffled, so that a run within a budget looks at a sample of all.
+
+AGGLO_MUTANTS_MINUTES: the budget, 60 if not given. After it no further mistake is begun.
+AGGLO_MUTANTS_SEED: another order; if not given, each commit has its own.
+AGGLO_MUTANTS_FILES: globs of files, for a look at these alone: "crates/agglo/src/contact/**/*.rs".
+"""
+
+import json
+import os
+import random
+import re
+import shutil
+import subprocess
+import sys
+import time
+import tomllib
+from collections import Counter
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+ACCEPTED = Path(__file__).with_name("accepted.toml")
+HERE = ROOT / "target/mutants"
+TREE = HERE / "tree"
+
+# The laws, the engines, the measures and the rows.
+FILES = [
+    *(f"crates/agglo/src/{folder}/**/*.rs" for folder in ("acoustics", "contact", "engine", "fields", "impact", "measure")),
+    *(f"crates/agglo/src/run/{name}" for name in ("hard/*.rs", "soft/*.rs", "summary.rs", "tables.rs")),
+    *(f"crates/agglo/src/record/{name}" for name in ("series.rs", "frames/*.rs")),
+]
+
+# By what a mutant is tried, and until which share of the budget: first the tests of its folder, at last everything that is in Rust.
+ROUNDS = [
+    ("of its folder", 0.5, lambda mutant: ["--lib", "--", f"{module(mutant)}::"]),
+    ("of the library", 0.7, lambda mutant: ["--lib"]),
+    ("in Rust", 1.0, lambda mutant: ["--workspace", "--bins", "--tests"]),
+]
+
+# How cargo-mutants calls what came of one.
+OUTCOMES = {
+    "CaughtMutant": "caught",
+    "MissedMutant": "survived",
+    "Unviable": "not built",
+    "Timeout": "timed out",
+}
+
+# A mutant that hangs is given up after so many times what the tests take, or after this [s] where they are quick.
+PATIENCE = 5
+LEAST_PATIENCE_S = 60
+
+
+def copy_sources():
+    """Brings the copy to the state of the sources. Files that are the same keep their times, so that little is built anew."""
+    command = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
+    listed = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout
+    names = {name for name in listed.split("\0") if name and (ROOT / name).is_file()}
+    for name in names:
+        source, copy = ROOT / name, TREE / name
+        if not copy.is_file() or copy.read_bytes() != source.read_bytes():
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(source, copy)
+            shutil.copymode(source, copy)
+    for folder, folders, files in os.walk(TREE):
+        if Path(folder) == TREE and "target" in folders:
+            folders.remove("target")
+        for file in files:
+            path = Path(folder) / file
+            if str(path.relative_to(TREE)) not in names:
+                path.unlink()
+
+
+def cargo_mutants(*words, **more):
+    program = os.environ.get("CARGO_MUTANTS", "cargo-mutants")
+    return subprocess.run([program, "mutants", "--no-config", *words], cwd=TREE, text=True, **more)
+
+
+def all_mutants():
+    """Every mutant of the files: its name, its file, what it does, and the line of code that it changes."""
+    files = os.environ.get("AGGLO_MUTANTS_FILES", "").split() or FILES
+    globs = [word for file in files for word in ("--file", file)]
+    done = cargo_mutants("--list", "--json", "--package", "agglo", *globs, stdout=subprocess.PIPE, check=True)
+    found = []
+    for entry in json.loads(done.stdout):
+        line = entry["span"]["start"]["line"]
+        code = (TREE / entry["file"]).read_text().splitlines()[line - 1].strip()
+        change = re.sub(r"^[^ ]*:\d+:\d+: ", "", entry["name"])
+        found.append({"name": entry["name"], "file": entry["file"], "change": change, "code": code})
+    return found
+
+
+def is_accepted(mutant, entry):
+    """Numbers of lines change with every edit: a mutant is known by its file, what it does, and the code of its line."""
+    same = mutant["file"] == entry["file"] and mutant["change"] == entry["change"]
+    return same and entry.get("code", "") in mutant["code"]
+
+
+def sort_out(mutants):
+    """Leaves those that are accepted out; what is accepted and no longer there is a fault."""
+    accepted = tomllib.loads(ACCEPTED.read_text()).get("accepted", [])
+    for entry in accepted:
+        if missing := {"file", "change", "reason"} - set(entry):
+            sys.exit(f"error: {ACCEPTED}: an entry has no {', '.join(sorted(missing))}: {entry}")
+    left = [mutant for mutant in mutants if not any(is_accepted(mutant, entry) for entry in accepted)]
+    seen = {mutant["file"] for mutant in mutants}
+    looked_for = [entry for entry in accepted if entry["file"] in seen or "AGGLO_MUTANTS_FILES" not in os.environ]
+    stale = [entry for entry in looked_for if not any(is_accepted(mutant, entry) for mutant in mutants)]
+    return left, stale
+
+
+def order(mutants):
+    """Shuffles them, each commit in its own way if nothing else is said."""
+    seed = os.environ.get("AGGLO_MUTANTS_SEED")
+    if seed is None:
+        command = ["git", "rev-parse", "--short", "HEAD"]
+        seed = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout.strip()
+    random.Random(seed).shuffle(mutants)
+    return seed
+
+
+def module(mutant):
+    """The folder of a mutant's file as the names of tests have it: "engine::soft" of engine/soft/pulses.rs."""
+    return "::".join(Path(mutant["file"]).parts[3:-1])
+
+
+def tests_pass(tests):
+    """Builds and runs tests on the copy without a mistake; gives the seconds that the tests took."""
+    command = ["cargo", "test", "--quiet", "--locked", "--profile", "mutants", "--package", "agglo", *tests]
+    build = command[: command.index("--")] if "--" in command else command
+    subprocess.run([*build, "--no-run"], cwd=TREE, check=True, stdin=subprocess.DEVNULL)
+    begun = time.monotonic()
+    done = subprocess.run(command, cwd=TREE, stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(f"error: without a mistake, cargo test {' '.join(tests)} fails:\n{done.stdout}\n{done.stderr}")
+    return time.monotonic() - begun
+
+
+def outcome(mutant, tests, patience_s):
+    """What these tests say of a mutant."""
+    shutil.rmtree(HERE / "mutants.out", ignore_errors=True)
+    named = ["--file", mutant["file"], "--re", f"^{re.escape(mutant['name'])}$"]
+    built = ["--in-place", "--baseline=skip", "--profile=mutants", "--cargo-arg=--locked", f"--output={HERE}"]
+    limits = [f"--timeout={patience_s:.0f}", "--build-timeout=1800", "--colors=never"]
+    asked = cargo_mutants("--package", "agglo", *named, *built, *limits, "--", *tests, capture_output=True)
+    results = json.loads((HERE / "mutants.out/outcomes.json").read_text())["outcomes"]
+    if len(results) != 1 or results[0]["summary"] not in OUTCOMES:
+        sys.exit(f"error: cargo-mutants tried {len(results)} mutants by the name {mutant['name']}:\n{asked.stderr}")
+    return OUTCOMES[results[0]["summary"]]
+
+
+class Round:
+    """Mutants tried by some tests until a time."""
+
+    def __init__(self, what, deadline, tests_for):
+        self.what = what
+        self.deadline = deadline
+        self.tests_for = tests_for
+        self.patience_s = {}
+        self.verdicts = {}
+
+    def is_over(self):
+        return time.monotonic() > self.deadline
+
+    def patience(self, tests):
+        """How long these tests may take [s]; without a mistake they must pass."""
+        key = " ".join(tests)
+        if key not in self.patience_s:
+            self.patience_s[key] = max(LEAST_PATIENCE_S, PATIENCE * tests_pass(tests))
+        return self.patience_s[key]
+
+    def try_all(self, mutants):
+        """Gives those that survived; `verdicts` tells of each that was tried."""
+        if mutants and not self.is_over():
+            print(f"by the tests {self.what}:", flush=True)
+        survivors = []
+        for mutant in mutants:
+            if self.is_over():
+                break
+            tests = self.tests_for(mutant)
+            patience_s = self.patience(tests)
+            begun = time.monotonic()
+            verdict = outcome(mutant, tests, patience_s)
+            self.verdicts[mutant["name"]] = verdict
+            if verdict == "survived":
+                survivors.append(mutant)
+            print(f"{verdict:<9} {time.monotonic() - begun:4.0f} s  {mutant['name']}", flush=True)
+        return survivors
+
+
+def tell(what, mutants):
+    for mutant in mutants:
+        print(f"\n{what}: {mutant['name']}\n    {mutant['code']}")
+
+
+def main():
+    minutes = float(os.environ.get("AGGLO_MUTANTS_MINUTES", "60"))
+    begun = time.monotonic()
+    copy_sources()
+    mutants = all_mutants()
+    left, stale = sort_out(mutants)
+    seed = order(left)
+    print(f"{len(mutants)} mutants, {len(mutants) - len(left)} of them accepted; seed {seed}, {minutes:g} minutes", flush=True)
+    rounds = [Round(what, begun + 60 * minutes * share, tests_for) for what, share, tests_for in ROUNDS]
+    verdicts, passed, undecided = {}, left, []
+    for number, tried in enumerate(rounds):
+        survivors = tried.try_all(passed)
+        verdicts.update(tried.verdicts)
+        if number > 0:
+            undecided += [mutant for mutant in passed if mutant["name"] not in tried.verdicts]
+        passed = survivors
+    tell("no test noticed", passed)
+    tell("passed by some tests, and there was no time for the others", undecided)
+    for entry in stale:
+        print(f"\nno longer there, take it off {ACCEPTED.relative_to(ROOT)}: {entry['change']} in {entry['file']}")
+    counts = Counter(verdicts.values())
+    counts["survived"] -= len(undecided)
+    told = ", ".join(f"{counts[verdict]} {verdict}" for verdict in OUTCOMES.values())
+    print(f"\n{len(verdicts)} of {len(left)} mutants tried: {told}, {len(undecided)} undecided; seed {seed}")
+    return 1 if passed or undecided or stale else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
