@@ -9,6 +9,20 @@ use agglo::search::Campaign;
 
 use crate::Failure;
 
+/// A place that must be a folder to be read: of a run, search or study.
+pub(crate) fn folder(place: &Path) -> Result<(), Failure> {
+    let shown = place.display();
+    if place.is_dir() {
+        Ok(())
+    } else if place.exists() {
+        Err(Failure::bad_input(format!(
+            "error: {shown} is a file; give the folder that `agglo run`, `search` or `study` wrote into"
+        )))
+    } else {
+        Err(Failure::bad_input(format!("error: there is no folder {shown}")))
+    }
+}
+
 /// What a file is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {

@@ -115,9 +115,7 @@ pub(crate) fn render(wishes: &Wishes) -> Result<(), Failure> {
     let refused =
         |error: agglo::render::RenderError| Failure::with_code(format!("error: {error}"), error.exit_code());
     let (folder, path) = (&wishes.folder, wishes.output.display());
-    if !folder.is_dir() {
-        return Err(Failure::bad_input(format!("error: there is no folder {}", folder.display())));
-    }
+    crate::read::folder(folder)?;
     let output = Output::of(&wishes.output).map_err(refused)?;
     let is_movie = output.is_movie();
     let shots = Shots { frames: wishes.frames.clone(), every: wishes.every as usize, rate: wishes.fps };

@@ -44,9 +44,7 @@ fn companion(_: &RunOrders, _: &Path, _: Arc<AtomicBool>) -> Option<Box<dyn Comp
 /// Goes on with the run in a folder.
 pub(crate) fn resume(orders: &ResumeOrders) -> Result<(), Failure> {
     let folder = orders.folder.as_path();
-    if !folder.is_dir() {
-        return Err(Failure::bad_input(format!("error: there is no folder {}", folder.display())));
-    }
+    read::folder(folder)?;
     if let Some(until) = &orders.until {
         let end = parse_quantity(until, Time::DIMENSION)
             .map_err(|error| Failure::bad_input(format!("error: --until: {error}")))?;

@@ -45,9 +45,7 @@ enum Leave {
 
 /// Watches the run in a folder.
 pub(crate) fn watch(dir: &Path) -> Result<(), Failure> {
-    if !dir.is_dir() {
-        return Err(Failure::bad_input(format!("error: there is no folder {}", dir.display())));
-    }
+    crate::read::folder(dir)?;
     if agglo::search::campaign::is_one(dir) {
         let shown = dir.display();
         let best = if dir.join("best").is_dir() { format!(", such as {shown}/best") } else { String::new() };

@@ -1,7 +1,7 @@
 //! Scenarios, runs, and the comparison of run folders.
 
 use std::collections::BTreeMap;
-use std::fs;
+use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::sync::OnceLock;
@@ -23,6 +23,8 @@ pub const SCENARIOS: [(&str, &str); 4] =
 
 /// Bytes at the end of a checkpoint that tell the wall time [8] and the checksum [4].
 const AFTER_THE_STATE: usize = 12;
+/// The file that the process locks whose folder it is.
+const LOCK: &str = "lock";
 
 /// A command of the program that has not started.
 pub fn command(arguments: &[&str]) -> Command {
@@ -111,6 +113,13 @@ impl Bench {
         })
     }
 
+    /// A run that was killed once it had a checkpoint of this step or a later one.
+    pub fn killed_after(&self, step: u64, more: &[&str]) {
+        let mut held = self.held_after(step, more);
+        held.kill().unwrap();
+        held.wait().unwrap();
+    }
+
     /// A run that is alive and held where it is, once it had a checkpoint of this step or a later one.
     pub fn held_after(&self, step: u64, more: &[&str]) -> Child {
         until_it_succeeds(&self.run(), || {
@@ -134,8 +143,13 @@ pub fn until_it_succeeds<T>(run: &Path, mut attempt: impl FnMut() -> Option<T>) 
 
 /// Sends a signal by its name.
 pub fn signal(child: &Child, name: &str) {
-    let sent = Command::new("kill").args([&format!("-{name}"), &child.id().to_string()]).status().unwrap();
-    assert!(sent.success(), "kill -{name} failed");
+    assert!(is_signaled(child, name), "kill -{name} failed");
+}
+
+/// Whether a process was there to get a signal. Every shell knows how to send one; the program `kill` is not on every machine.
+fn is_signaled(child: &Child, name: &str) -> bool {
+    let order = format!("kill -{name} {}", child.id());
+    Command::new("sh").args(["-c", &order]).stderr(Stdio::null()).status().unwrap().success()
 }
 
 /// Sends a signal to a program that looks for it ten times a second, and waits for its end; gives how long it took.
@@ -148,7 +162,7 @@ pub fn interrupted(child: Child, name: &str) -> (Output, Duration) {
     }
     let asked = Instant::now();
     // Where it has ended, nobody is there to be told.
-    let _ = Command::new("kill").args(["-CONT", &child.id().to_string()]).status();
+    is_signaled(&child, "CONT");
     (child.wait_with_output().unwrap(), asked.elapsed())
 }
 
@@ -251,12 +265,9 @@ pub fn assert_same(run: &Path, reference: &Path) {
 pub fn reference(scenario: &'static str) -> &'static Path {
     static RUNS: [OnceLock<PathBuf>; 4] = [const { OnceLock::new() }; 4];
     let which = SCENARIOS.iter().position(|known| known.1 == scenario).unwrap();
-    let name = SCENARIOS[which].0;
     RUNS[which].get_or_init(|| {
-        let references = Path::new(env!("CARGO_TARGET_TMPDIR")).join("references");
-        let folder = references.join(std::process::id().to_string()).join(name);
-        fs::create_dir_all(&folder).unwrap();
-        sweep(&references);
+        let folder = lasting().join(SCENARIOS[which].0);
+        fs::create_dir(&folder).unwrap();
         let (file, run) = (folder.join("scenario.toml"), folder.join("run"));
         fs::write(&file, scenario).unwrap();
         ended(agglo(&["run", file.to_str().unwrap(), "-o", run.to_str().unwrap()]), 0);
@@ -264,13 +275,38 @@ pub fn reference(scenario: &'static str) -> &'static Path {
     })
 }
 
+/// A folder that lasts as long as this process and is no other's.
+///
+/// Nobody can remove it at the end of a process; the tests of a later one do. A lock tells whose process still lives: numbers of
+/// processes come again, and are counted by themselves in each container.
+pub fn lasting() -> &'static Path {
+    static FOLDER: OnceLock<(PathBuf, File)> = OnceLock::new();
+    let (folder, _) = FOLDER.get_or_init(|| {
+        let all = Path::new(env!("CARGO_TARGET_TMPDIR")).join("references");
+        fs::create_dir_all(&all).unwrap();
+        sweep(&all);
+        loop {
+            let folder = tempfile::tempdir_in(&all).unwrap().keep();
+            let lock = File::create(folder.join(LOCK)).unwrap();
+            lock.lock().unwrap();
+            // Another process may have swept it away before it was locked.
+            if folder.join(LOCK).exists() {
+                return (folder, lock);
+            }
+        }
+    });
+    folder
+}
+
 /// Removes what the tests of processes that have ended left behind.
-fn sweep(references: &Path) {
-    for entry in fs::read_dir(references).unwrap() {
-        let entry = entry.unwrap();
-        if !Path::new("/proc").join(entry.file_name()).exists() {
-            // Another process may sweep at the same time.
-            let _ = fs::remove_dir_all(entry.path());
+fn sweep(all: &Path) {
+    for entry in fs::read_dir(all).unwrap() {
+        let folder = entry.unwrap().path();
+        // Without a lock it is just being made, or swept by another.
+        if let Ok(lock) = File::open(folder.join(LOCK))
+            && lock.try_lock().is_ok()
+        {
+            let _ = fs::remove_dir_all(folder);
         }
     }
 }

@@ -7,7 +7,6 @@ use std::time::Duration;
 
 use crate::common::{
     Bench, EVENTS, STEPS, agglo, assert_same, bytes, command, complained, ended, reference, said, signal,
-    wait_for_step,
 };
 
 /// How often storms are repeated; `AGGLO_STORMS` asks for more.
@@ -43,10 +42,7 @@ fn a_second_process_is_refused_while_the_first_lives_and_readers_are_not() {
 #[test]
 fn the_lock_of_a_killed_process_holds_nobody_up() {
     let bench = Bench::with(STEPS);
-    let mut first = bench.start(&[]).spawn().unwrap();
-    wait_for_step(&bench.run(), 1);
-    first.kill().unwrap();
-    first.wait().unwrap();
+    bench.killed_after(1, &[]);
     assert!(bench.run().join(".agglo.lock").exists());
     ended(bench.resume().output().unwrap(), 0);
     assert_same(&bench.run(), reference(STEPS));

@@ -9,6 +9,7 @@ mod company;
 mod damage;
 mod disk;
 mod end;
+mod folders;
 mod foreign;
 mod from;
 mod hard;

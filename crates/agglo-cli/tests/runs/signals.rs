@@ -64,6 +64,25 @@ fn holds_nothing(folder: &Path) {
     assert_eq!(left, ["scenario.toml"], "something is left");
 }
 
+/// A program that listens to signals, some time after it began to.
+fn listening(mut order: Command) -> Child {
+    // SIGINT is the second.
+    const INTERRUPT: u64 = 1 << 1;
+    let child = order.spawn().unwrap();
+    let begun = Instant::now();
+    loop {
+        let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap();
+        let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:")).unwrap();
+        if u64::from_str_radix(caught.trim(), 16).unwrap() & INTERRUPT != 0 {
+            break;
+        }
+        assert!(begun.elapsed() < Duration::from_secs(60), "it does not listen to signals after a minute");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    std::thread::sleep(Duration::from_secs(1));
+    child
+}
+
 fn started(mut order: Command, after: Duration) -> Child {
     let child = order.spawn().unwrap();
     std::thread::sleep(after);
@@ -74,7 +93,7 @@ fn started(mut order: Command, after: Duration) -> Child {
 fn placing_grains_is_stopped_and_leaves_nothing() {
     for name in ["INT", "TERM", "HUP"] {
         let bench = Bench::with(PACKING);
-        let text = answer(started(bench.start(&[]), Duration::from_secs(1)), name, 1);
+        let text = answer(listening(bench.start(&[])), name, 1);
         assert!(text.contains("stopped before the run began; nothing was written"), "{text}");
         holds_nothing(bench.folder());
     }
@@ -84,7 +103,7 @@ fn placing_grains_is_stopped_and_leaves_nothing() {
 fn coming_to_rest_is_stopped_and_leaves_nothing() {
     for name in ["INT", "TERM"] {
         let bench = Bench::with(RESTING);
-        let text = answer(started(bench.start(&[]), Duration::from_secs(1)), name, 1);
+        let text = answer(listening(bench.start(&[])), name, 1);
         assert!(text.contains("stopped while grains came to rest"), "{text}");
         holds_nothing(bench.folder());
     }

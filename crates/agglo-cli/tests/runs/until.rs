@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::common::{
     Bench, EVENTS, STAGGERED, STEPS, VERLET, agglo, bytes, checkpoints, complained, ended, reference,
-    results, said, state,
+    results, said, state, until_it_succeeds,
 };
 
 /// Of each scenario the end that it has, half of it, and a step that lies before the half.
@@ -79,15 +79,18 @@ fn a_run_killed_while_it_gets_another_end_is_whole() {
     before.stopped_after(step, &["--set", &format!("time.end={half}"), "--no-report"]);
     // The checkpoint has the new end, the scenario is still that of before.
     let bench = Bench::with(scenario);
-    let copied = std::process::Command::new("cp").arg("-r").arg(before.run()).arg(bench.run()).status();
-    assert!(copied.unwrap().success());
-    let old = fs::read(bench.run().join("scenario.toml")).unwrap();
-    let child = bench.resume().args(["--until", whole]).spawn().unwrap();
-    while fs::read(bench.run().join("scenario.toml")).unwrap() == old {
-        std::thread::sleep(std::time::Duration::from_millis(1));
-    }
-    crate::common::signal(&child, "KILL");
-    child.wait_with_output().unwrap();
+    let old = fs::read(before.run().join("scenario.toml")).unwrap();
+    until_it_succeeds(&bench.run(), || {
+        let copied = std::process::Command::new("cp").arg("-r").arg(before.run()).arg(bench.run()).status();
+        assert!(copied.unwrap().success());
+        let mut child = bench.resume().args(["--until", whole]).spawn().unwrap();
+        while fs::read(bench.run().join("scenario.toml")).unwrap() == old {
+            std::thread::sleep(std::time::Duration::from_millis(1));
+        }
+        child.kill().unwrap();
+        child.wait().unwrap();
+        (!bench.run().join("summary.json").exists()).then_some(())
+    });
     fs::write(bench.run().join("scenario.toml"), old).unwrap();
     ended(bench.resume().arg("--no-report").output().unwrap(), 0);
     assert_same_course(&bench, scenario);

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value as Json;
 
-use crate::common::{bytes, command, ended};
+use crate::common::{bytes, command, ended, lasting};
 
 /// Hard spheres that stick or do not; a run takes some milliseconds.
 pub const SCENARIO: &str = include_str!("scenario.toml");
@@ -19,26 +19,34 @@ const AFTER_THE_STATE: usize = 12;
 
 /// A folder with a scenario and a campaign file in it, and the place of the results.
 pub struct Bench {
-    folder: tempfile::TempDir,
+    folder: PathBuf,
+    /// Removes it at the end of a test.
+    _guard: Option<tempfile::TempDir>,
 }
 
 impl Bench {
     /// With this campaign.
     pub fn with(campaign: &str) -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        std::fs::write(folder.path().join("scenario.toml"), SCENARIO).unwrap();
-        std::fs::write(folder.path().join("campaign.toml"), campaign).unwrap();
-        Self { folder }
+        let guard = tempfile::tempdir().unwrap();
+        let bench = Self::at(guard.path().to_owned(), campaign);
+        Self { _guard: Some(guard), ..bench }
+    }
+
+    /// With this campaign, in a folder that is there.
+    fn at(folder: PathBuf, campaign: &str) -> Self {
+        std::fs::write(folder.join("scenario.toml"), SCENARIO).unwrap();
+        std::fs::write(folder.join("campaign.toml"), campaign).unwrap();
+        Self { folder, _guard: None }
     }
 
     /// A file of the folder.
     pub fn file(&self, name: &str) -> String {
-        self.folder.path().join(name).display().to_string()
+        self.folder.join(name).display().to_string()
     }
 
     /// The folder of the results.
     pub fn out(&self) -> PathBuf {
-        self.folder.path().join("out")
+        self.folder.join("out")
     }
 
     /// A verb on the campaign file into the folder of the results.
@@ -119,7 +127,8 @@ pub fn assert_same(found: &Path, wanted: &Path) {
 pub fn reference() -> &'static Bench {
     static REFERENCE: OnceLock<Bench> = OnceLock::new();
     REFERENCE.get_or_init(|| {
-        let bench = Bench::with(SEARCH);
+        // What a static holds is never dropped.
+        let bench = Bench::at(lasting().to_owned(), SEARCH);
         bench.ends("search", &["--threads", "2"], 0);
         bench
     })

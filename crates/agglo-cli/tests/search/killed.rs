@@ -23,18 +23,21 @@ fn a_search_killed_at_ten_moments_ends_with_the_same_files() {
     const KILLS: usize = 10;
     let (bench, runs) = (Bench::with(SEARCH), runs());
     // A third of the search is left at the last kill, and none comes later than that by a tenth of the search.
-    let part = reference().summary()["wall_s"].as_f64().unwrap() / 10.0;
-    let mut killed = 0;
-    for kill in 0..KILLS {
-        let mut order = if kill == 0 { bench.order("search", &[]) } else { bench.resume() };
-        let mut child = order.spawn().unwrap();
-        bench.wait_for_starts(runs * kill / (KILLS + 4));
-        std::thread::sleep(Duration::from_secs_f64(part * (kill * 7 % 23) as f64 / 23.0));
-        child.kill().unwrap();
-        killed += usize::from(child.wait().unwrap().code().is_none());
-    }
-    // The last sittings may have reached the end before their kill where the machine is fast.
-    assert!(killed >= KILLS - 2, "only {killed} of {KILLS} kills hit a search");
+    let mut part = reference().summary()["wall_s"].as_f64().unwrap() / 10.0;
+    until_it_succeeds(&bench.out(), || {
+        let mut killed = 0;
+        for kill in 0..KILLS {
+            let mut order = if kill == 0 { bench.order("search", &[]) } else { bench.resume() };
+            let mut child = order.spawn().unwrap();
+            bench.wait_for_starts(runs * kill / (KILLS + 4));
+            std::thread::sleep(Duration::from_secs_f64(part * (kill * 7 % 23) as f64 / 23.0));
+            child.kill().unwrap();
+            killed += usize::from(child.wait().unwrap().code().is_none());
+        }
+        // On a busy machine a sitting may have reached the end before its kill; then sooner.
+        part /= 2.0;
+        (killed == KILLS).then_some(())
+    });
     ended(bench.resume().output().unwrap(), 0);
     assert_same(&bench.out(), &reference().out());
 }

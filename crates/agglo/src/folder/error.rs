@@ -31,13 +31,12 @@ pub enum FolderError {
         dir: PathBuf,
     },
     /// It holds something.
-    #[error(
-        "the folder {} is not empty\nhelp: `agglo resume {}` goes on with a run; -o FOLDER writes elsewhere",
-        dir.display(), dir.display()
-    )]
+    #[error("the folder {} is not empty\nhelp: {help}", dir.display())]
     NotEmpty {
         /// The folder.
         dir: PathBuf,
+        /// What can be done, according to what is in it.
+        help: String,
     },
     /// It is no folder.
     #[error("{} is a file; choose a folder with -o", dir.display())]
@@ -66,10 +65,12 @@ pub enum FolderError {
         path: PathBuf,
     },
     /// There is no run to go on with.
-    #[error("{} holds no run that can be resumed; start one with `agglo run SCENARIO -o {}`", dir.display(), dir.display())]
+    #[error("{} holds no run that can be resumed; {help}", dir.display())]
     NoRun {
         /// The folder.
         dir: PathBuf,
+        /// What can be done, according to what is in it.
+        help: String,
     },
     /// There is no campaign to go on with.
     #[error("{} holds no campaign that can be resumed: {reason}", dir.display())]

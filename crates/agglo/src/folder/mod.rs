@@ -32,14 +32,21 @@ pub fn vacant(dir: &Path) -> Result<(), FolderError> {
     if dir.exists() && !dir.is_dir() {
         return Err(FolderError::NoFolder { dir: dir.to_owned() });
     }
-    let Ok(entries) = std::fs::read_dir(dir) else { return Ok(()) };
-    // A process that was killed leaves its lock's file.
-    let is_other = |entry: &std::fs::DirEntry| entry.file_name() != names::LOCK;
-    if entries.flatten().any(|entry| is_other(&entry)) {
+    if holds_something(dir) {
         if dir.join(names::LOCK).exists() {
             drop(Lock::take(dir)?);
         }
-        return Err(FolderError::NotEmpty { dir: dir.to_owned() });
+        // Advice to resume what is no run would only lead to advice to run.
+        let goes_on = dir.join(names::CHECKPOINTS).is_dir() || CampaignFolder::holds(dir);
+        let resume = format!("`agglo resume {}` goes on with what is in it; ", dir.display());
+        let help = format!("{}-o FOLDER writes elsewhere", if goes_on { &resume } else { "" });
+        return Err(FolderError::NotEmpty { dir: dir.to_owned(), help });
     }
     Ok(())
+}
+
+/// Whether there is a folder with anything in it. A process that was killed leaves its lock's file, which does not count.
+fn holds_something(dir: &Path) -> bool {
+    let mut entries = std::fs::read_dir(dir).into_iter().flatten().flatten();
+    entries.any(|entry| entry.file_name() != names::LOCK)
 }

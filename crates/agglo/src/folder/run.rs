@@ -107,7 +107,12 @@ impl RunFolder {
         if folder.checkpoints().is_dir() {
             Ok(folder)
         } else {
-            Err(FolderError::NoRun { dir: dir.to_owned() })
+            let help = if super::holds_something(dir) {
+                "there is no folder checkpoints/ in it, which every run has".to_owned()
+            } else {
+                format!("start one with `agglo run SCENARIO -o {}`", dir.display())
+            };
+            Err(FolderError::NoRun { dir: dir.to_owned(), help })
         }
     }
 

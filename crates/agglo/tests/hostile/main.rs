@@ -1,7 +1,7 @@
 //! Hostile input: every reader of files is given made-up ones, always the same. `fuzz/` looks for further ones.
 //!
-//! The input of the case at hand lies in `target/tmp/hostile-READER` while it is read, so that it is there after a crash
-//! or a hang; that of one that fails stays as `hostile-READER.CASE`. `AGGLO_INPUT=FILE cargo test -p agglo --test hostile READER` reads that again, and
+//! The input of the case at hand lies in `target/tmp/hostile-READER-PROCESS` while it is read, so that it is there after a crash
+//! or a hang; that of one that fails stays as `hostile-READER-PROCESS.CASE`. `AGGLO_INPUT=FILE cargo test -p agglo --test hostile READER` reads that again, and
 //! `AGGLO_CASES=30 cargo test -p agglo --test hostile` reads thirty times as many cases.
 
 mod mutate;
@@ -27,7 +27,7 @@ fn read(name: &str, bench: &Bench, mutator: &Mutator, cases: u32) -> u32 {
         let verdict = reader(bench, &std::fs::read(input).expect("the input"));
         panic!("{name}: {verdict:?}");
     }
-    let kept = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("hostile-{name}"));
+    let kept = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("hostile-{name}-{}", std::process::id()));
     let (mut taken, mut failed) = (0, Vec::new());
     for case in 0..cases {
         let bytes = mutator.case(case);
