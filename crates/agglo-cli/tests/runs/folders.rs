@@ -44,7 +44,11 @@ const NO_RUN: [(&str, fn(&Path), &[&str]); 7] = [
     ),
     (
         "a run killed before its first checkpoint",
-        |place| fs::create_dir_all(place.join("checkpoints")).unwrap(),
+        |place| {
+            for part in ["checkpoints", "frames", "series"] {
+                fs::create_dir_all(place.join(part)).unwrap();
+            }
+        },
         &["before its first checkpoint", "remove the folder and start again"],
     ),
 ];
