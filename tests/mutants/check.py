@@ -33,11 +33,11 @@ FILES = [
     *(f"crates/agglo/src/record/{name}" for name in ("series.rs", "frames/*.rs")),
 ]
 
-# By what a mutant is tried, and until which share of the budget: first the tests of its folder, at last everything that is in Rust.
+# By what a mutant is tried, until which share of the budget, what of which packages is built, and the names of the tests.
 ROUNDS = [
-    ("of its folder", 0.5, lambda mutant: ["--lib", "--", f"{module(mutant)}::"]),
-    ("of the library", 0.7, lambda mutant: ["--lib"]),
-    ("in Rust", 1.0, lambda mutant: ["--workspace", "--bins", "--tests"]),
+    ("of its folder", 0.5, ["--package", "agglo"], ["--lib"], lambda mutant: [f"{module(mutant)}::"]),
+    ("of the library", 0.7, ["--package", "agglo"], ["--lib"], lambda mutant: []),
+    ("in Rust", 1.0, ["--workspace"], ["--bins", "--tests"], lambda mutant: []),
 ]
 
 # How cargo-mutants calls what came of one.
@@ -126,49 +126,53 @@ def module(mutant):
     return "::".join(Path(mutant["file"]).parts[3:-1])
 
 
-def tests_pass(tests):
+def tests_pass(packages, targets, names):
     """Builds and runs tests on the copy without a mistake; gives the seconds that the tests took."""
-    command = ["cargo", "test", "--quiet", "--locked", "--profile", "mutants", "--package", "agglo", *tests]
-    build = command[: command.index("--")] if "--" in command else command
-    subprocess.run([*build, "--no-run"], cwd=TREE, check=True, stdin=subprocess.DEVNULL)
+    command = ["cargo", "test", "--quiet", "--locked", "--profile", "mutants", *packages, *targets]
+    subprocess.run([*command, "--no-run"], cwd=TREE, check=True, stdin=subprocess.DEVNULL)
     begun = time.monotonic()
-    done = subprocess.run(command, cwd=TREE, stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    done = subprocess.run([*command, *names], cwd=TREE, stdin=subprocess.DEVNULL, capture_output=True, text=True)
     if done.returncode != 0:
-        sys.exit(f"error: without a mistake, cargo test {' '.join(tests)} fails:\n{done.stdout}\n{done.stderr}")
+        sys.exit(f"error: without a mistake, {' '.join(command)} {' '.join(names)} fails:\n{done.stdout}\n{done.stderr}")
     return time.monotonic() - begun
 
 
-def outcome(mutant, tests, patience_s):
+def outcome(mutant, packages, targets, names, patience_s):
     """What these tests say of a mutant."""
     shutil.rmtree(HERE / "mutants.out", ignore_errors=True)
-    named = ["--file", mutant["file"], "--re", f"^{re.escape(mutant['name'])}$"]
-    built = ["--in-place", "--baseline=skip", "--profile=mutants", "--cargo-arg=--locked", f"--output={HERE}"]
-    limits = [f"--timeout={patience_s:.0f}", "--build-timeout=1800", "--colors=never"]
-    asked = cargo_mutants("--package", "agglo", *named, *built, *limits, "--", *tests, capture_output=True)
-    results = json.loads((HERE / "mutants.out/outcomes.json").read_text())["outcomes"]
+    named = ["--package", "agglo", "--file", mutant["file"], "--re", f"^{re.escape(mutant['name'])}$"]
+    # What to build is said to every cargo: else each mutant would build all tests before it runs some.
+    built = [f"--cargo-arg={word}" for word in ("--locked", *targets)]
+    tested = ["--test-workspace=true" if "--workspace" in packages else "--test-package=agglo"]
+    how = ["--in-place", "--baseline=skip", "--profile=mutants", f"--output={HERE}", "--colors=never"]
+    limits = [f"--timeout={patience_s:.0f}", "--build-timeout=1800"]
+    asked = cargo_mutants(*named, *built, *tested, *how, *limits, "--", *names, capture_output=True)
+    told = HERE / "mutants.out/outcomes.json"
+    results = json.loads(told.read_text())["outcomes"] if told.exists() else []
     if len(results) != 1 or results[0]["summary"] not in OUTCOMES:
-        sys.exit(f"error: cargo-mutants tried {len(results)} mutants by the name {mutant['name']}:\n{asked.stderr}")
+        sys.exit(f"error: cargo-mutants tried {len(results)} mutants by the name {mutant['name']}:\n{asked.stdout}{asked.stderr}")
     return OUTCOMES[results[0]["summary"]]
 
 
 class Round:
     """Mutants tried by some tests until a time."""
 
-    def __init__(self, what, deadline, tests_for):
+    def __init__(self, what, deadline, packages, targets, names_for):
         self.what = what
         self.deadline = deadline
-        self.tests_for = tests_for
+        self.built = (packages, targets)
+        self.names_for = names_for
         self.patience_s = {}
         self.verdicts = {}
 
     def is_over(self):
         return time.monotonic() > self.deadline
 
-    def patience(self, tests):
+    def patience(self, names):
         """How long these tests may take [s]; without a mistake they must pass."""
-        key = " ".join(tests)
+        key = " ".join(names)
         if key not in self.patience_s:
-            self.patience_s[key] = max(LEAST_PATIENCE_S, PATIENCE * tests_pass(tests))
+            self.patience_s[key] = max(LEAST_PATIENCE_S, PATIENCE * tests_pass(*self.built, names))
         return self.patience_s[key]
 
     def try_all(self, mutants):
@@ -179,10 +183,10 @@ class Round:
         for mutant in mutants:
             if self.is_over():
                 break
-            tests = self.tests_for(mutant)
-            patience_s = self.patience(tests)
+            names = self.names_for(mutant)
+            patience_s = self.patience(names)
             begun = time.monotonic()
-            verdict = outcome(mutant, tests, patience_s)
+            verdict = outcome(mutant, *self.built, names, patience_s)
             self.verdicts[mutant["name"]] = verdict
             if verdict == "survived":
                 survivors.append(mutant)
@@ -203,7 +207,7 @@ def main():
     left, stale = sort_out(mutants)
     seed = order(left)
     print(f"{len(mutants)} mutants, {len(mutants) - len(left)} of them accepted; seed {seed}, {minutes:g} minutes", flush=True)
-    rounds = [Round(what, begun + 60 * minutes * share, tests_for) for what, share, tests_for in ROUNDS]
+    rounds = [Round(what, begun + 60 * minutes * share, *how) for what, share, *how in ROUNDS]
     verdicts, passed, undecided = {}, left, []
     for number, tried in enumerate(rounds):
         survivors = tried.try_all(passed)
