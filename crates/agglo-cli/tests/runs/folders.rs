@@ -6,8 +6,11 @@ use std::process::Command;
 
 use crate::common::{Bench, EVENTS, STEPS, agglo, bytes, complained, ended, reference};
 
+/// What is there, how it is made, and the words with which it is refused.
+type Case = (&'static str, fn(&Path), &'static [&'static str]);
+
 /// What lies where a run is to go, and the words with which that is refused.
-const OCCUPIED: [(&str, fn(&Path), &[&str]); 8] = [
+const OCCUPIED: [Case; 8] = [
     ("texts of one's own", |place| put(place, "thesis.tex"), &["is not empty", "help: -o FOLDER"]),
     ("a hidden file", |place| put(place, ".notes"), &["is not empty"]),
     ("a folder that is empty", |place| fs::create_dir_all(place.join("frames")).unwrap(), &["is not empty"]),
@@ -23,7 +26,7 @@ const OCCUPIED: [(&str, fn(&Path), &[&str]); 8] = [
 ];
 
 /// What is given instead of the folder of a run, and the words with which going on is refused.
-const NO_RUN: [(&str, fn(&Path), &[&str]); 7] = [
+const NO_RUN: [Case; 7] = [
     ("nothing", |_| (), &["there is no folder"]),
     ("an empty folder", |place| fs::create_dir(place).unwrap(), &["holds no run", "agglo run SCENARIO -o"]),
     ("texts of one's own", |place| put(place, "thesis.tex"), &["holds no run", "no folder checkpoints/"]),
