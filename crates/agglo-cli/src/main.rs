@@ -2,6 +2,10 @@
 //!
 //! Exit codes: 0 done, 1 a run failed or was interrupted, 2 bad input.
 
+#[cfg(test)]
+#[macro_use]
+extern crate agglo_testing;
+
 mod arguments;
 mod explain;
 mod laws;

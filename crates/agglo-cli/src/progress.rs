@@ -312,7 +312,7 @@ mod tests {
         let left = pace.left(&report(time, 140)).unwrap();
         let wanted = (2.0 - time) / 0.02;
         assert!((left / wanted - 1.0).abs() < 0.01, "{left} s instead of {wanted} s");
-        assert!((pace.steps() - 1.0).abs() < 1e-12);
+        assert_near!(pace.steps(), 1.0, 1e-12);
     }
 
     #[test]

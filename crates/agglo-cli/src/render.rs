@@ -207,9 +207,15 @@ mod tests {
         for refused in [size("640"), size("8x720"), size("1e3x720")] {
             assert!(refused.is_err(), "{refused:?}");
         }
-        assert!(frames("9..3").is_err() && frames("..").is_err());
-        assert!(range("2,1").is_err() && range("nan,1").is_err() && range("1").is_err());
-        assert!(view("left").is_err() && view("1,2").is_err() && positive("0").is_err());
-        assert!(angle::<90>("-91").is_err() && map("jet").is_err());
+        assert_err!(frames("9..3"));
+        assert_err!(frames(".."));
+        assert_err!(range("2,1"));
+        assert_err!(range("nan,1"));
+        assert_err!(range("1"));
+        assert_err!(view("left"));
+        assert_err!(view("1,2"));
+        assert_err!(positive("0"));
+        assert_err!(angle::<90>("-91"));
+        assert_err!(map("jet"));
     }
 }

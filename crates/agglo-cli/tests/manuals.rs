@@ -2,6 +2,9 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot read its files has failed")]
 
+#[macro_use]
+extern crate agglo_testing;
+
 use std::fs;
 use std::io::Write;
 use std::path::Path;
@@ -77,7 +80,7 @@ fn completions_parse_and_know_every_verb() {
     assert_eq!(parses("bash", "if then"), Some(false), "the check itself");
     let unknown = agglo(&["completions", "rc"]);
     assert_eq!(unknown.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&unknown.stderr).contains("bash"));
+    assert_contains!(String::from_utf8_lossy(&unknown.stderr), "bash");
 }
 
 #[test]
@@ -97,7 +100,7 @@ fn the_man_page_has_every_verb_and_every_verb_a_page() {
         assert!(of_verb.contains(&format!(".TH agglo-{verb} 1")), "{of_verb}");
     }
     assert_eq!(written.lines().count(), verbs.len() + 1);
-    assert!(written.lines().all(|path| Path::new(path).is_file()));
+    assert_all!(written.lines(), |path| Path::new(path).is_file());
     let blocked = agglo(&["man", "-o", into.join("agglo.1").to_str().unwrap()]);
     assert_eq!(blocked.status.code(), Some(2));
 }

@@ -2,6 +2,9 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot read its files has failed")]
 
+#[macro_use]
+extern crate agglo_testing;
+
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
@@ -43,12 +46,13 @@ fn templates_pass_their_own_check() {
         fs::write(folder.path().join("my.toml"), &printed.stdout).unwrap();
         let checked = agglo(folder.path(), &["check", "my.toml"]);
         assert_eq!(code(&checked), 0, "{}", complained(&checked));
-        assert!(said(&checked).contains("my.toml is sound") && said(&checked).contains("grains"));
-        assert!(complained(&checked).is_empty());
+        assert_contains!(said(&checked), "my.toml is sound");
+        assert_contains!(said(&checked), "grains");
+        assert_empty!(complained(&checked));
     }
     let unknown = agglo(folder.path(), &["new", "acustic"]);
     assert_eq!(code(&unknown), 2);
-    assert!(complained(&unknown).contains("did you mean \"acoustic\"?"));
+    assert_contains!(complained(&unknown), "did you mean \"acoustic\"?");
 }
 
 #[test]
@@ -65,7 +69,7 @@ fn bad_input_is_2_with_all_faults_and_nothing_is_written() {
             text.contains("did you mean \"density\"?") && text.contains("3 faults in bad.toml"),
             "{text}"
         );
-        assert!(said(&refused).is_empty());
+        assert_empty!(said(&refused));
         assert_eq!(listing(folder.path()), ["bad.toml"]);
     }
 }
@@ -76,7 +80,7 @@ fn settings_are_checked_like_the_file() {
     fs::write(folder.path().join("good.toml"), GOOD).unwrap();
     let refused = agglo(folder.path(), &["check", "good.toml", "--set", "time.end=3 kg"]);
     assert_eq!(code(&refused), 2);
-    assert!(complained(&refused).contains("is a mass"));
+    assert_contains!(complained(&refused), "is a mass");
     assert_eq!(code(&agglo(folder.path(), &["check", "good.toml", "--set", "time.end=3 s"])), 0);
     let seed = agglo(folder.path(), &["run", "good.toml", "--seed", "18446744073709551615"]);
     assert_eq!(code(&seed), 2);
@@ -100,7 +104,7 @@ fn wrong_usage_is_2() {
         assert_eq!(code(&refused), 2, "{arguments:?}");
         assert!(!complained(&refused).is_empty() && said(&refused).is_empty(), "{arguments:?}");
     }
-    assert!(listing(folder.path()).is_empty());
+    assert_empty!(listing(folder.path()));
 }
 
 #[test]
@@ -131,10 +135,12 @@ fn laws_and_schema_are_printed() {
     let folder = tempfile::tempdir().unwrap();
     let page = agglo(folder.path(), &["explain", "hertz"]);
     assert_eq!(code(&page), 0);
-    assert!(said(&page).starts_with("hertz (contact/normal)"));
+    assert_starts!(said(&page), "hertz (contact/normal)");
     let all = agglo(folder.path(), &["explain"]);
-    assert!(said(&all).contains("viscous_area") && said(&all).contains("schiller_naumann"));
+    assert_contains!(said(&all), "viscous_area");
+    assert_contains!(said(&all), "schiller_naumann");
     let schema = agglo(folder.path(), &["schema"]);
     assert_eq!(code(&schema), 0);
-    assert!(said(&schema).contains("\"$schema\"") && said(&schema).contains("x-dimension"));
+    assert_contains!(said(&schema), "\"$schema\"");
+    assert_contains!(said(&schema), "x-dimension");
 }

@@ -76,7 +76,8 @@ fn campaign(threads: usize, starts: u32) {
         closing: &mut |_, _| Ok(ControlFlow::Continue(())),
     };
     let ended = conduct(&model, course, (&folder, ""), &mut |_| ControlFlow::Continue(()));
-    assert!(matches!(ended, Ok(CampaignEnding::Finished(summary)) if summary.evaluations == 19_998));
+    let Ok(CampaignEnding::Finished(summary)) = ended else { panic!("not finished: {ended:?}") };
+    assert_eq!(summary.evaluations, 19_998);
 }
 
 /// Candidates per second with one start each.

@@ -2,6 +2,10 @@
 //!
 //! The modules stand in the order in which data flows.
 
+#[cfg(test)]
+#[macro_use]
+extern crate agglo_testing;
+
 pub mod constants;
 pub mod units;
 

@@ -5,6 +5,9 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot read its files has failed")]
 
+#[macro_use]
+extern crate agglo_testing;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -175,12 +178,16 @@ fn settings_replace_values_by_path() {
 #[test]
 fn faults_of_settings_show_the_setting() {
     let refused = |setting: &str| Scenario::with_overrides(SHORT, &[setting]).unwrap_err().to_string();
-    assert!(refused("time.end=2 m").starts_with("--set time.end=2 m: time.end: \"2 m\" is a length"));
-    assert!(refused("time.ende=2 s").contains("did you mean \"end\"?"));
-    assert!(refused("grains.1.charge=1 pC").contains("no entry of a list of 1"));
-    assert!(refused("time.end").contains("key.path=value is wanted"));
-    assert!(refused("time..end=1 s").contains("not a path of keys"));
-    assert!(refused("seed.x=1").contains("unknown key") || refused("seed.x=1").contains("found a table"));
+    assert_starts!(refused("time.end=2 m"), "--set time.end=2 m: time.end: \"2 m\" is a length");
+    assert_contains!(refused("time.ende=2 s"), "did you mean \"end\"?");
+    assert_contains!(refused("grains.1.charge=1 pC"), "no entry of a list of 1");
+    assert_contains!(refused("time.end"), "key.path=value is wanted");
+    assert_contains!(refused("time..end=1 s"), "not a path of keys");
+    assert!(
+        refused("seed.x=1").contains("unknown key") || refused("seed.x=1").contains("found a table"),
+        "{}",
+        refused("seed.x=1")
+    );
     assert!(refused("title.x=1").contains("found a table"), "{}", refused("title.x=1"));
     assert!(refused("time.end=-1 s").contains("more than 0"), "rules hold for settings too");
     let page = Scenario::with_overrides(SHORT, &["time.end=2 m"]).unwrap_err().render(SHORT, "x.toml", false);
@@ -216,11 +223,11 @@ fn settings_replace_values_of_searches_too() {
     let text = agglo::scenario::template("search").unwrap().text;
     let read = |setting: &str| Campaign::with_overrides(text, &[setting]);
     let campaign = read("parameters.1.range.linear.upper=0.7").unwrap();
-    assert!(campaign.to_toml().unwrap().contains("upper = 0.7"));
+    assert_contains!(campaign.to_toml().unwrap(), "upper = 0.7");
     let refused = |setting: &str| read(setting).unwrap_err().to_string();
     let message = refused("parameters.1.range.linear.upper=0.7 m");
     assert!(message.starts_with("--set parameters.1.range.linear.upper=0.7 m: parameters.1"), "{message}");
-    assert!(refused("sed=3").contains("did you mean \"seed\"?"));
+    assert_contains!(refused("sed=3"), "did you mean \"seed\"?");
 }
 
 /// Spoiled files are refused or read, but never end the program.
@@ -230,7 +237,8 @@ fn spoiled_files_do_no_harm() {
     spoil(include_str!("scenario/good/hard_every_choice.toml"));
     spoil_with(agglo::scenario::template("study-rays").unwrap().text, &|text| {
         if let Err(faults) = Campaign::from_toml(text) {
-            assert!(!faults.is_empty() && faults.iter().all(|fault| !fault.message.is_empty()));
+            assert_filled!(faults);
+            assert_all!(faults.iter(), |fault| !fault.message.is_empty());
         }
     });
 }
@@ -265,8 +273,9 @@ fn survive(text: &str) {
             assert!(!plan.memory.is_nan() && !plan.impacts.is_nan(), "{plan}\n{text}");
         }
         Err(faults) => {
-            assert!(!faults.is_empty() && faults.iter().all(|fault| !fault.message.is_empty()));
-            assert!(faults.render(text, "spoiled.toml", true).contains("nothing was run"));
+            assert_filled!(faults);
+            assert_all!(faults.iter(), |fault| !fault.message.is_empty());
+            assert_contains!(faults.render(text, "spoiled.toml", true), "nothing was run");
         }
     }
 }

@@ -57,7 +57,7 @@ fn lines(buffer: &Buffer) -> Vec<String> {
 fn all_figures_are_shown_with_their_units() {
     let lines = lines(&screen(&sight(), [120, 40], &[]));
     let shows = |words: &[&str]| lines.iter().any(|line| words.iter().all(|word| line.contains(word)));
-    assert!(lines[0].starts_with("a run"));
+    assert_starts!(lines[0], "a run");
     assert!(lines[1].contains("31.0 %  0.310 of 1 s, 812 steps/s, 0:04 left"), "{}", lines[1]);
     for words in [
         ["clusters", "1234"],
@@ -68,10 +68,14 @@ fn all_figures_are_shown_with_their_units() {
         assert!(shows(&[words[0], words[1].trim_end()]), "{words:?} in\n{}", lines.join("\n"));
     }
     // Curves have the ends of their axes, and are drawn in Braille.
-    assert!(shows(&["2.401 km/s"]) && shows(&["980 ms"]));
+    assert_true!(shows(&["2.401 km/s"]), "in one line of the screen");
+    assert_true!(shows(&["980 ms"]), "in one line of the screen");
     let is_braille = |letter: char| ('\u{2801}'..='\u{28ff}').contains(&letter);
-    assert!(lines.iter().flat_map(|line| line.chars()).filter(|&letter| is_braille(letter)).count() > 20);
-    assert!(lines[39].starts_with("q leave"));
+    assert_above!(
+        lines.iter().flat_map(|line| line.chars()).filter(|&letter| is_braille(letter)).count(),
+        20
+    );
+    assert_starts!(lines[39], "q leave");
 }
 
 /// Terminals obey more than the controls that the library of the screen leaves out: marks that turn the direction too.
@@ -80,14 +84,15 @@ fn titles_and_notes_do_not_act_on_the_terminal() {
     let notes = ["warning: \u{1b}[2Jgone \u{202e}turned".to_owned()];
     let lines = lines(&screen_of("red \u{1b}[31m\u{2066}", &sight(), [120, 40], &notes));
     assert!(lines[0].starts_with("red \\u{1b}[31m\\u{2066}"), "{}", lines[0]);
-    assert!(lines.iter().any(|line| line.contains("warning: \\u{1b}[2Jgone \\u{202e}turned")));
+    assert_any!(lines.iter(), |line| line.contains("warning: \\u{1b}[2Jgone \\u{202e}turned"));
 }
 
 #[test]
 fn the_last_notes_are_shown() {
     let notes: Vec<String> = (0..5).map(|k| format!("warning: number {k}")).collect();
     let lines = lines(&screen(&sight(), [100, 30], &notes));
-    assert!(lines[26].starts_with("warning: number 2") && lines[28].starts_with("warning: number 4"));
+    assert_starts!(lines[26], "warning: number 2");
+    assert_starts!(lines[28], "warning: number 4");
 }
 
 /// However small the terminal, nothing breaks.
@@ -111,12 +116,15 @@ fn a_picture_is_drawn_in_half_cells() {
     cells::draw(&image, Depth::Full, area, &mut buffer);
     let middle = &buffer[(area.x + area.width / 2, area.y + area.height / 2)];
     let (Color::Rgb(upper, ..), Color::Rgb(lower, ..)) = (middle.fg, middle.bg) else { panic!("{middle:?}") };
-    assert!(middle.symbol() == "▀" && upper > 100 && lower > 100);
+    assert_eq!(middle.symbol(), "▀");
+    assert_above!(upper, 100);
+    assert_above!(lower, 100);
     assert_eq!(buffer[(area.x, area.y)].symbol(), " ");
     // The upper edge of the ball goes through cells that are half covered.
     let symbols: Vec<&str> = buffer.content.iter().map(ratatui::buffer::Cell::symbol).collect();
-    assert!(symbols.contains(&"▄") && symbols.contains(&"▀"));
+    assert_has!(symbols, &"▄");
+    assert_has!(symbols, &"▀");
     cells::draw(&image, Depth::Indexed, area, &mut buffer);
     let middle = &buffer[(area.x + area.width / 2, area.y + area.height / 2)];
-    assert!(matches!((middle.fg, middle.bg), (Color::Indexed(_), Color::Indexed(_))));
+    assert_matches!((middle.fg, middle.bg), (Color::Indexed(_), Color::Indexed(_)));
 }

@@ -43,7 +43,7 @@ fn a_second_process_is_refused_while_the_first_lives_and_readers_are_not() {
 fn the_lock_of_a_killed_process_holds_nobody_up() {
     let bench = Bench::with(STEPS);
     bench.killed_after(1, &[]);
-    assert!(bench.run().join(".agglo.lock").exists());
+    assert_there!(bench.run().join(".agglo.lock"));
     ended(bench.resume().output().unwrap(), 0);
     assert_same(&bench.run(), reference(STEPS));
     // A folder in which nothing but such a file is left is as good as an empty one.
@@ -64,7 +64,7 @@ fn without_locks_a_run_warns_and_goes_on() {
     fs::write(&source, WITHOUT).unwrap();
     let mut compiler = std::process::Command::new("cc");
     let made = compiler.args(["-shared", "-fPIC", "-o"]).arg(&library).arg(&source).status();
-    assert!(made.unwrap().success());
+    assert_eq!(made.unwrap().code(), Some(0), "exit code");
     let mut order = bench.start(&[]);
     let done = ended(order.env("LD_PRELOAD", &library).output().unwrap(), 0);
     assert!(complained(&done).contains("has no locks"), "{}", complained(&done));
@@ -121,7 +121,7 @@ fn two_resumes_at_once_lose_no_row() {
     for storm in 0..storms() {
         let bench = Bench::with(STEPS);
         let copied = std::process::Command::new("cp").arg("-r").arg(stopped.run()).arg(bench.run()).status();
-        assert!(copied.unwrap().success());
+        assert_eq!(copied.unwrap().code(), Some(0), "exit code");
         both([bench.resume(), bench.resume()], Duration::from_millis(storm * 3 % 17));
         assert_same_but_the_page(&bench);
     }

@@ -52,10 +52,10 @@ fn a_full_disk_ends_the_run_and_room_lets_it_go_on() {
     assert!(text.contains("cannot write ") && text.contains("the disk is full"), "{text}");
     assert!(text.contains(&format!("agglo resume {shown}")), "{text}");
     // Without room the checkpoint is refused nothing: it is read, and the same message comes again.
-    assert!(!checkpoints(&run).is_empty());
+    assert_filled!(checkpoints(&run));
     let again = ended(agglo(&["resume", shown]), 1);
     assert!(complained(&again).contains("the disk is full"), "{}", complained(&again));
-    assert!(mount(&["-o", "remount,size=10M"], &disk.at));
+    assert_true!(mount(&["-o", "remount,size=10M"], &disk.at), "needs the rights of root");
     let done = ended(agglo(&["resume", shown]), 0);
     assert!(!complained(&done).contains("damaged"), "{}", complained(&done));
     assert_same(&run, reference(STAGGERED));
@@ -98,7 +98,7 @@ fn a_place_that_cannot_be_written_is_named_and_left_alone() {
     let place = disk.at.join("run");
     let refused = ended(agglo(&["run", &bench.scenario(), "-o", place.to_str().unwrap()]), 1);
     assert!(complained(&refused).contains("read-only"), "{}", complained(&refused));
-    assert!(!place.exists());
+    assert_gone!(place);
 }
 
 /// A closed standard output must not look like success.
@@ -108,7 +108,7 @@ fn a_summary_that_cannot_be_shown_is_an_error() {
         return left_out("there is no /dev/full");
     };
     let shown = command(&["explain", "hertz"]).stdout(full).output().unwrap();
-    assert!(complained(&ended(shown, 1)).contains("cannot write"));
+    assert_contains!(complained(&ended(shown, 1)), "cannot write");
 }
 
 /// Without anybody who ignores the signal: the program itself does not end without a word.

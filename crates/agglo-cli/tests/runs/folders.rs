@@ -63,7 +63,11 @@ fn put(place: &Path, name: &str) {
 
 fn copy(run: &Path, place: &Path) {
     fs::create_dir_all(place.parent().unwrap()).unwrap();
-    assert!(Command::new("cp").arg("-r").args([run, place]).status().unwrap().success());
+    assert_eq!(
+        Command::new("cp").arg("-r").args([run, place]).status().unwrap().code(),
+        Some(0),
+        "exit code"
+    );
 }
 
 /// A finished run of which something was removed.

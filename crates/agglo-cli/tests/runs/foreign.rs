@@ -125,7 +125,11 @@ fn stopped(seed: &str) -> Bench {
 fn copied(run: &Path, to: &Path) {
     // What an earlier change left.
     let _ = fs::remove_dir_all(to);
-    assert!(std::process::Command::new("cp").arg("-r").args([run, to]).status().unwrap().success());
+    assert_eq!(
+        std::process::Command::new("cp").arg("-r").args([run, to]).status().unwrap().code(),
+        Some(0),
+        "exit code"
+    );
 }
 
 /// Each kind of change is refused by name, and nothing in the folder is touched.
@@ -221,7 +225,7 @@ fn copies_by_hard_links_stay_as_they_were() {
     let bench = stopped("7");
     let copy = bench.folder().join("linked");
     let linked = std::process::Command::new("cp").arg("-al").arg(bench.run()).arg(&copy).status();
-    assert!(linked.unwrap().success());
+    assert_eq!(linked.unwrap().code(), Some(0), "exit code");
     let before = bytes(&copy);
     ended(bench.resume().output().unwrap(), 0);
     assert!(bytes(&copy) == before, "the copy was changed");

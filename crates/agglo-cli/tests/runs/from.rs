@@ -85,7 +85,11 @@ fn soft_grains_go_on_with_bonds_and_names() {
     let next = Next::of(&next(VERLET));
     let (home, run) = (tempfile::tempdir().unwrap(), next.bench.run());
     let copied = home.path().join("first");
-    assert!(std::process::Command::new("cp").arg("-r").arg(first).arg(&copied).status().unwrap().success());
+    assert_eq!(
+        std::process::Command::new("cp").arg("-r").arg(first).arg(&copied).status().unwrap().code(),
+        Some(0),
+        "exit code"
+    );
 
     let mut check = command(&["check", &next.bench.scenario()]);
     let plan = said(&ended(check.arg("--from").arg(&copied).output().unwrap(), 0));
@@ -103,7 +107,8 @@ fn soft_grains_go_on_with_bonds_and_names() {
         // Sums are made in another order.
         assert!((after - before).abs() <= 1e-12 * before, "{column}: {before} J before, {after} J after");
     }
-    assert!(bonds > 10.0 && entry(&run, "series/clusters.csv", false, "bonds") == bonds);
+    assert_above!(bonds, 10.0);
+    assert_eq!(entry(&run, "series/clusters.csv", false, "bonds"), bonds);
     let ends = summary(first)["clusters"].clone();
     let starts = summary(&run)["clusters_start"].clone();
     assert_eq!(number(&ends, "count"), number(&starts, "count"));
@@ -115,14 +120,16 @@ fn soft_grains_go_on_with_bonds_and_names() {
     ended(order.current_dir(&run).output().unwrap(), 0);
     assert_same(&again, &run);
     let stopped = Bench::with(&fs::read_to_string(run.join("scenario.toml")).unwrap());
-    assert!(
+    assert_eq!(
         std::process::Command::new("cp")
             .arg("-r")
             .arg(run.join("tables"))
             .arg(stopped.folder())
             .status()
             .unwrap()
-            .success()
+            .code(),
+        Some(0),
+        "exit code"
     );
     stopped.stopped_after(60, &[]);
     ended(stopped.resume().output().unwrap(), 0);

@@ -109,12 +109,13 @@ fn events_add_up_to_the_summary() {
         assert_eq!(count("merge"), number(&all, "merges"));
         // An impact may break both partners.
         let breaks = count("break");
-        assert!(breaks > 10.0 && breaks <= number(&all, "fragmentations"));
+        assert_above!(breaks, 10.0);
+        assert_at_most!(breaks, number(&all, "fragmentations"));
         assert_eq!(count("merge") + breaks, number(&all, "events"));
         let (impacts, bounces) = (number(&all, "impacts"), number(&all, "bounces"));
         assert_eq!(impacts, bounces + number(&all, "events"));
         let times = events.numbers("time_s");
-        assert!(times.windows(2).all(|pair| pair[0] <= pair[1]));
+        assert_all!(times.windows(2), |pair| pair[0] <= pair[1]);
         let [normal, tangential, reaction, surface, heat] =
             ["lost_normal_J", "lost_friction_J", "reaction_J", "surface_J", "heat_J"]
                 .map(|name| events.numbers(name));
@@ -131,11 +132,12 @@ fn events_add_up_to_the_summary() {
 fn books_balance() {
     for scenario in [EVENTS, STEPS] {
         let all = summary(reference(scenario));
-        assert!(number(&all, "momentum_drift_relative") < 1e-13);
+        assert_below!(number(&all, "momentum_drift_relative"), 1e-13);
         let energy = &all["energy"];
-        assert!(number(energy, "drift_relative").abs() < 1e-12);
-        assert!(number(energy, "kinetic_drift_relative").abs() < 1e-12);
-        assert!(number(energy, "surface_J") > 0.0 && number(energy, "cooled_J") > 0.0);
+        assert_below!(number(energy, "drift_relative").abs(), 1e-12);
+        assert_below!(number(energy, "kinetic_drift_relative").abs(), 1e-12);
+        assert_above!(number(energy, "surface_J"), 0.0);
+        assert_above!(number(energy, "cooled_J"), 0.0);
         let walls = number(&all, "impacts_walls");
         assert_eq!(walls > 0.0, scenario == STEPS);
     }
@@ -156,8 +158,8 @@ fn size_classes_hold_all_grains_and_all_mass() {
         assert_eq!(sum(&grains, last), number(&all, "grains_end"));
         assert_eq!(sum(&grains, 0.0), number(&all, "grains_start"));
         // Sums of some hundred masses round at 1e-14 or so.
-        assert!((sum(&masses, last) / sum(&masses, 0.0) - 1.0).abs() < 1e-12);
-        assert!((sum(&parts, last) - 1.0).abs() < 1e-12);
+        assert_close!(sum(&masses, last), sum(&masses, 0.0), 1e-12);
+        assert_near!(sum(&parts, last), 1.0, 1e-12);
     }
 }
 
@@ -184,14 +186,14 @@ fn growth_in_the_summary_is_that_of_the_tables() {
         // Equal grains of 0.4 mm at the start: b* = n^(1/3) 0.4 mm.
         assert_eq!(number(&all, "mean_radius_start_m"), 4e-4);
         let united = number(&all, "grains_start").cbrt() * 4e-4;
-        assert!(
-            (number(&all, "growth_deficit") - (1.0 - number(&all, "mean_radius_m") / united)).abs() < 1e-12
-        );
+        assert_near!(number(&all, "growth_deficit"), 1.0 - number(&all, "mean_radius_m") / united, 1e-12);
         let ratio = number(&all, "radius_ratio");
-        assert!((number(&all, "n_f") / ratio.powi(3) - 1.0).abs() < 1e-14);
-        assert!(number(&all, "largest_radius_ratio") > ratio && ratio > 1.0);
-        assert!(number(&all, "biot_number") < 0.1 && number(&all, "largest_over_self_gravity") < 1e-6);
-        assert!(all["reynolds_number"].is_null());
+        assert_close!(number(&all, "n_f"), ratio.powi(3), 1e-14);
+        assert_above!(number(&all, "largest_radius_ratio"), ratio);
+        assert_above!(ratio, 1.0);
+        assert_below!(number(&all, "biot_number"), 0.1);
+        assert_below!(number(&all, "largest_over_self_gravity"), 1e-6);
+        assert_eq!(all["reynolds_number"], serde_json::Value::Null);
     }
 }
 
@@ -261,7 +263,7 @@ checkpoints = "1 ms"
     {
         assert!(text.contains(words), "no {words} in {text}");
     }
-    assert!(!bench.run().join("summary.json").exists());
+    assert_gone!(bench.run().join("summary.json"));
     let last = checkpoints(&bench.run()).last().unwrap().0;
     assert!(last > 10, "the last checkpoint is that of event {last}");
     // It fails again in the same way: a run is the same to the last bit.

@@ -29,7 +29,7 @@ fn the_standard_input_is_a_scenario() {
         assert!(said(&checked).contains("is sound"), "{}", said(&checked));
     }
     ended(fed(folder.path(), &["run", "-", "--no-report", "--set", "time.end=0.1 ms"], EVENTS), 0);
-    assert!(folder.path().join("out/stdin/summary.json").is_file());
+    assert_there!(folder.path().join("out/stdin/summary.json"));
     let refused = ended(fed(folder.path(), &["check", "-"], "version = 2\n"), 2);
     assert!(complained(&refused).contains("faults in standard input"), "{}", complained(&refused));
 }
@@ -122,5 +122,5 @@ fn what_the_machine_cannot_hold_is_refused_with_figures() {
         let refused = ended(agglo(arguments), 2);
         assert!(complained(&refused).contains("of memory"), "{}", complained(&refused));
     }
-    assert!(!Path::new(&out).exists());
+    assert_gone!(Path::new(&out));
 }

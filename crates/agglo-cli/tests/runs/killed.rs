@@ -115,7 +115,7 @@ fn ctrl_c_stops_with_a_checkpoint_and_says_how_to_go_on() {
         let text = complained(&bench.stopped_by(name, 60, &[]).0);
         let advice = format!("`agglo resume {}` goes on from there", bench.run().display());
         assert!(text.contains("stopped at t = ") && text.contains(&advice), "{text}");
-        assert!(!bench.run().join("summary.json").exists());
+        assert_gone!(bench.run().join("summary.json"));
         let done = ended(bench.resume().output().unwrap(), 0);
         assert!(said(&done).contains("simulated time"), "{}", said(&done));
         assert_same(&bench.run(), reference(STAGGERED));

@@ -4,6 +4,9 @@
 #![cfg(unix)]
 #![allow(clippy::unwrap_used, reason = "a test that cannot start the program or read its files has failed")]
 
+#[macro_use]
+extern crate agglo_testing;
+
 mod common;
 mod company;
 mod damage;

@@ -71,7 +71,7 @@ fn a_moved_folder_runs_again_goes_on_and_is_reported() {
 /// Scenarios without tables have no folder for them.
 #[test]
 fn without_tables_there_is_no_folder_of_tables() {
-    assert!(!crate::common::reference(STAGGERED).join("tables").exists());
+    assert_gone!(crate::common::reference(STAGGERED).join("tables"));
 }
 
 /// A folder that is removed, or removed and used by another run, while a run writes into it: no advice to resume it, and

@@ -63,7 +63,7 @@ fn threads_do_not_show() {
         ended(render(reference(STAGGERED), &to, &["--threads", threads]), 0);
         fs::read(to).unwrap()
     });
-    assert!(made[0] == made[1]);
+    assert_eq!(made[0], made[1]);
 }
 
 #[test]
@@ -113,7 +113,7 @@ fn a_movie_that_was_stopped_leaves_no_part_of_it() {
     // Pictures that take so long that the program ends in the middle of one.
     let mut slow = command(&["render", &run, "-o", to.to_str().unwrap(), "--size", "6000x6000"]);
     ended(slow.env("PATH", path).output().unwrap(), 1);
-    assert!(programs.path().join("began").exists());
+    assert_there!(programs.path().join("began"));
     assert!(names(folder.path()).is_empty(), "{:?}", names(folder.path()));
 }
 
@@ -124,7 +124,7 @@ fn without_ffmpeg_the_package_is_named() {
     let mut without = command(&["render", &run, "-o", to.to_str().unwrap(), "--size", "64x64"]);
     let made = without.env("PATH", folder.path()).output().unwrap();
     refused(made, 2, &["install the package `ffmpeg`", "-o frames/"]);
-    assert!(names(folder.path()).is_empty());
+    assert_empty!(names(folder.path()));
 }
 
 #[test]
@@ -165,7 +165,7 @@ fn wishes_that_cannot_be_met() {
     refused(render(run, &movie, &["--background", "transparent"]), 2, &["cannot be transparent"]);
     refused(render(folder.path(), &to, &[]), 2, &["has no frames", "grains.pvd"]);
     refused(render(&folder.path().join("nowhere"), &to, &[]), 2, &["there is no folder"]);
-    assert!(names(folder.path()).is_empty());
+    assert_empty!(names(folder.path()));
 }
 
 #[test]

@@ -42,7 +42,7 @@ fn a_run_ends_with_the_page_that_report_writes() {
             let is_soft_only = part.contains("energy") && scenario == STAGGERED;
             assert!(page.contains(if is_soft_only { "id=\"chart-stores\"" } else { part }), "{part}");
         }
-        assert!(page.len() < 25_000_000);
+        assert_below!(page.len(), 25_000_000);
     }
 }
 
@@ -50,7 +50,8 @@ fn a_run_ends_with_the_page_that_report_writes() {
 fn no_report_means_none_and_the_results_are_the_same() {
     let bench = Bench::with(STAGGERED);
     let output = ended(bench.start(&["--no-report"]).output().unwrap(), 0);
-    assert!(!bench.run().join("report.html").exists() && !said(&output).contains("report.html"));
+    assert_gone!(bench.run().join("report.html"));
+    assert_lacks!(said(&output), "report.html");
     let other = copy(STAGGERED);
     fs::remove_file(other.run().join("report.html")).unwrap();
     assert_same(&bench.run(), &other.run());
@@ -89,8 +90,10 @@ fn damaged_tables_and_frames_are_said_and_the_rest_is_shown() {
         let words = note.trim_start_matches("note: ");
         assert!(page.contains(words), "{note} is not on the page");
     }
-    assert!(page.contains("id=\"replay\"") && page.contains("id=\"chart-stores\""));
-    assert!(!page.contains("id=\"chart-dispersion\"") && !page.contains("id=\"chart-step\""));
+    assert_contains!(page, "id=\"replay\"");
+    assert_contains!(page, "id=\"chart-stores\"");
+    assert_lacks!(page, "id=\"chart-dispersion\"");
+    assert_lacks!(page, "id=\"chart-step\"");
 }
 
 #[test]
@@ -107,8 +110,10 @@ fn without_frames_tables_and_summary_the_scenario_is_shown() {
     {
         assert!(told.contains(note), "{note}: {told}");
     }
-    assert!(!page.contains("id=\"replay\"") && !page.contains("id=\"charts\""));
-    assert!(page.contains("[impact") && page.contains("What to cite"));
+    assert_lacks!(page, "id=\"replay\"");
+    assert_lacks!(page, "id=\"charts\"");
+    assert_contains!(page, "[impact");
+    assert_contains!(page, "What to cite");
 }
 
 #[test]
@@ -121,9 +126,10 @@ fn another_version_is_named() {
     let (told, page) = reported(&run);
     assert!(told.contains("scenario.toml is damaged or of another version (line 2"), "{told}");
     assert!(told.contains("summary.json is of agglo 9.8.7"), "{told}");
-    assert!(page.contains("version = 7") && page.contains("id=\"chart-grains\""));
+    assert_contains!(page, "version = 7");
+    assert_contains!(page, "id=\"chart-grains\"");
     fs::write(run.join("summary.json"), "{\"version\": ").unwrap();
-    assert!(reported(&run).0.contains("summary.json is cut or damaged"));
+    assert_contains!(reported(&run).0, "summary.json is cut or damaged");
 }
 
 #[test]

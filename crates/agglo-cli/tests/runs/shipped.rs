@@ -86,16 +86,18 @@ fn assert_genealogy(run: &Path) {
 fn assert_figures(run: &Path, grains: f64) {
     let all = summary(run);
     let [ratio, n_f, pi] = ["radius_ratio", "n_f", "growth_deficit"].map(|key| number(&all, key));
-    assert!((n_f / ratio.powi(3) - 1.0).abs() < 1e-14);
+    assert_close!(n_f, ratio.powi(3), 1e-14);
     let [mean, start] = ["mean_radius_m", "mean_radius_start_m"].map(|key| number(&all, key));
-    assert!((ratio - mean / start).abs() < 2e-15 * ratio);
+    assert_near!(ratio, mean / start, 2e-15 * ratio);
     // Equal spheres at the start: all the solid in one has the radius b n^(1/3). Sums of hundreds of terms.
-    assert!((pi - (1.0 - mean / (start * grains.cbrt()))).abs() < 1e-13);
+    assert_near!(pi, 1.0 - mean / (start * grains.cbrt()), 1e-13);
     let largest = number(&all, "largest_radius_ratio");
-    assert!((largest - number(&all, "largest_radius_m") / start).abs() < 2e-15 * largest);
-    assert!((largest.powi(3) / number(&all, "largest_primaries") - 1.0).abs() < 1e-12);
+    assert_near!(largest, number(&all, "largest_radius_m") / start, 2e-15 * largest);
+    assert_close!(largest.powi(3), number(&all, "largest_primaries"), 1e-12);
     let [impacts, bounces, merges] = ["impacts", "bounces", "merges"].map(|key| number(&all, key));
-    assert!(impacts > 100.0 && bounces + merges <= impacts && merges > 50.0);
+    assert_above!(impacts, 100.0);
+    assert_at_most!(bounces + merges, impacts);
+    assert_above!(merges, 50.0);
     assert_eq!(number(&all, "grains_start"), grains);
     assert_eq!(number(&all, "grains_end"), number(&all, "grains"));
     let last = |table: &str, column: &str| value::<f64>(rows(run, table).last().unwrap(), column);
@@ -112,8 +114,8 @@ fn assert_figures(run: &Path, grains: f64) {
         let wanted = number(&all, key);
         assert!((last(table, column) - wanted).abs() <= 4e-16 * wanted, "{key}");
     }
-    assert!(number(&all["energy"], "drift_relative").abs() < 1e-12);
-    assert!(number(&all, "momentum_drift_relative") < 1e-12);
+    assert_below!(number(&all["energy"], "drift_relative").abs(), 1e-12);
+    assert_below!(number(&all, "momentum_drift_relative"), 1e-12);
 }
 
 #[test]
@@ -147,9 +149,9 @@ fn the_shipped_reacting_cloud() {
     }
     let frames = bytes(&run.join("frames"));
     assert_eq!(frames.keys().filter(|name| name.contains(".vtp")).count(), 41);
-    assert!(!checkpoints(&run).is_empty());
+    assert_filled!(checkpoints(&run));
     // An independent reference has 2.54 as the mean of twelve starts, each about 0.14 from it.
-    assert!((number(&summary(&run), "radius_ratio") - 2.54).abs() < 5.0 * 0.14);
+    assert_near!(number(&summary(&run), "radius_ratio"), 2.54, 5.0 * 0.14);
 }
 
 /// What the pages and plans of hard spheres say can be had by their words.

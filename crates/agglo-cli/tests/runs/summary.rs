@@ -12,17 +12,20 @@ fn summary(scenario: &'static str) -> Value {
 fn every_figure_is_there() {
     for (scenario, seed) in [(STAGGERED, 11), (VERLET, 12)] {
         let all = summary(scenario);
-        assert!(number(&all, "wall_s") > 0.0 && number(&all, "threads") >= 1.0);
+        assert_above!(number(&all, "wall_s"), 0.0);
+        assert_at_least!(number(&all, "threads"), 1.0);
         assert_eq!((number(&all, "grains"), number(&all, "seed")), (200.0, f64::from(seed)));
-        assert!(number(&all, "steps") > 100.0);
+        assert_above!(number(&all, "steps"), 100.0);
         assert_eq!(all["pulses"].as_array().unwrap().len(), 2);
         let clusters = &all["clusters"];
         let largest = number(clusters, "largest_fraction");
-        assert!(number(clusters, "count") >= 1.0 && largest > 0.0 && largest <= 1.0);
+        assert_at_least!(number(clusters, "count"), 1.0);
+        assert_above!(largest, 0.0);
+        assert_at_most!(largest, 1.0);
         // 1 - x is exact to half a unit in the last place.
-        assert!((number(&all, "dispersion_degree") - (1.0 - largest)).abs() < 1e-15);
-        assert!(number(&all, "momentum_drift_relative").abs() < 1e-12);
-        assert!(all["warnings"].is_object());
+        assert_near!(number(&all, "dispersion_degree"), 1.0 - largest, 1e-15);
+        assert_below!(number(&all, "momentum_drift_relative").abs(), 1e-12);
+        assert_matches!(all["warnings"], Value::Object(_));
     }
 }
 
@@ -67,6 +70,6 @@ fn the_channels_of_energy_add_up_to_the_drift() {
         // Differences of some hundred joules carry rounding of 1e-13 J.
         assert!((drift - number(energy, "drift_J")).abs() < 1e-10, "{drift}");
         // Bonds break and contacts open within steps: the scheme holds energy to about the step squared.
-        assert!(number(energy, "drift_relative").abs() < 0.02);
+        assert_below!(number(energy, "drift_relative").abs(), 0.02);
     }
 }

@@ -6,7 +6,7 @@ fn failing(scenario: &str, settings: &[&str]) -> (Bench, String) {
     let bench = Bench::with(scenario);
     let more: Vec<&str> = settings.iter().flat_map(|setting| ["--set", setting]).collect();
     let failed = ended(bench.start(&more).output().unwrap(), 1);
-    assert!(!bench.run().join("summary.json").exists());
+    assert_gone!(bench.run().join("summary.json"));
     (bench, complained(&failed))
 }
 
@@ -85,7 +85,7 @@ fn a_start_that_fails_leaves_nothing() {
     let near = MEETING.replace("\"3 mm\"", "\"1.9 mm\"").replace("[contact", relax);
     let (bench, text) = failing(&near, &[]);
     assert_says(&text, &["start.relax", "m/s"]);
-    assert!(!bench.run().exists());
+    assert_gone!(bench.run());
 }
 
 /// Warned, counted, and not stopped.
@@ -138,7 +138,7 @@ fn unexplained_energy_is_an_error_or_a_warning() {
         .collect();
     let calm = Bench::with(&unstable);
     let done = ended(calm.start(&more).output().unwrap(), 0);
-    assert!(!complained(&done).contains("drift_warning"));
+    assert_lacks!(complained(&done), "drift_warning");
 }
 
 /// Warnings of validity are the same after a stop; they are told once and counted at each look.

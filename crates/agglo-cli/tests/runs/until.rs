@@ -82,9 +82,11 @@ fn a_run_killed_while_it_gets_another_end_is_whole() {
     let old = fs::read(before.run().join("scenario.toml")).unwrap();
     until_it_succeeds(&bench.run(), || {
         let copied = std::process::Command::new("cp").arg("-r").arg(before.run()).arg(bench.run()).status();
-        assert!(copied.unwrap().success());
+        assert_eq!(copied.unwrap().code(), Some(0), "exit code");
         let mut child = bench.resume().args(["--until", whole]).spawn().unwrap();
+        let mut turns = agglo_testing::Turns::at_most(60_000, "the scenario with the new end");
         while fs::read(bench.run().join("scenario.toml")).unwrap() == old {
+            turns.take();
             std::thread::sleep(std::time::Duration::from_millis(1));
         }
         child.kill().unwrap();

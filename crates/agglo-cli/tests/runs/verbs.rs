@@ -28,7 +28,7 @@ fn every_shipped_scenario_passes_its_check_with_a_plan() {
             count += 1;
         }
     }
-    assert!(count >= 3);
+    assert_at_least!(count, 3);
 }
 
 #[test]

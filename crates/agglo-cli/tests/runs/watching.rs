@@ -77,5 +77,5 @@ fn a_dashboard_comes_and_goes() {
     assert_same(&run, reference(STAGGERED));
     // A second look at the same folder finds it finished.
     let watched = command(&["watch", run.to_str().unwrap()]).output().unwrap();
-    assert!(said(&ended(watched, 0)).contains("has finished"));
+    assert_contains!(said(&ended(watched, 0)), "has finished");
 }

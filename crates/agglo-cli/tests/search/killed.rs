@@ -54,7 +54,7 @@ fn ctrl_c_keeps_what_ended_and_says_how_to_go_on() {
     let text = complained(&stopped);
     let advice = format!("`agglo resume {}` goes on from there", bench.out().display());
     assert!(text.contains("stopped (") && text.contains(&advice), "{text}");
-    assert!(!bench.out().join("summary.json").exists());
+    assert_gone!(bench.out().join("summary.json"));
     // Torn, as by a loss of power: the last line is cut in half, one in the middle is damaged.
     let journal = bench.out().join("starts.journal");
     let mut bytes = fs::read(&journal).unwrap();

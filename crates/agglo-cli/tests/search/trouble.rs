@@ -36,7 +36,7 @@ fn a_search_in_which_all_fail_is_given_up() {
     let text = complained(&bench.ends("search", &[], 1));
     assert!(text.contains("none of 20 candidates could be evaluated: 20 failed"), "{text}");
     assert!(text.contains("the first one failed so: \"biot_number\" has no value"), "{text}");
-    assert!(!bench.out().join("summary.json").exists());
+    assert_gone!(bench.out().join("summary.json"));
     assert_eq!(bench.rows("failures.csv").len(), 20);
 }
 

@@ -47,9 +47,8 @@ fn the_closing_table_and_the_folder_tell_the_best() {
     assert!(cost < 0.8, "{cost}");
     let ranked = bench.rows("best.csv");
     assert_eq!(ranked.len(), 3);
-    assert!(
-        bench.out().join("best/summary.json").is_file() && bench.out().join("pictures/cost.svg").is_file()
-    );
+    assert_there!(bench.out().join("best/summary.json"));
+    assert_there!(bench.out().join("pictures/cost.svg"));
     // The run in best/ is the first of its fresh starts.
     let evaluation = best["evaluation"].to_string();
     let first =
@@ -84,7 +83,8 @@ fn a_study_runs_its_plan() {
     let text = said(&bench.ends("study", &["--set", "ensemble.until={ fixed = { starts = 2 } }"], 0));
     assert!(text.contains("9 in 1 batch"), "{text}");
     assert_eq!((bench.rows("evaluations.csv").len(), bench.rows("runs.csv").len()), (9, 18));
-    assert!(bench.out().join("measures.csv").is_file() && !bench.out().join("best").exists());
+    assert_there!(bench.out().join("measures.csv"));
+    assert_gone!(bench.out().join("best"));
     let text = complained(&ended(agglo(&["search", &bench.file("campaign.toml")]), 2));
     assert!(text.contains("is a study") && text.contains("`agglo study "), "{text}");
 }
@@ -106,7 +106,7 @@ fn a_study_without_objectives_measures() {
     let header = header.lines().next().unwrap();
     let once = header.split(',').filter(|name| *name == "radius_ratio").count();
     assert!(once == 1 && !header.contains("cost"), "{header}");
-    assert!(bench.summary()["best"].is_null());
+    assert_eq!(bench.summary()["best"], serde_json::Value::Null);
 }
 
 /// Grains of a table: the search takes it into its folder and goes on, moved and without what it was made from, with the

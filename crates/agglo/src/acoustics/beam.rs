@@ -307,7 +307,7 @@ mod tests {
             ..beam(Pattern::Random, 10)
         };
         // 2.25e16 pi / 1.5e6 = 1.5e10 pi.
-        assert!((paper.power(&Medium::default()) / (1.5e10 * PI) - 1.0).abs() < 1e-14);
+        assert_close!(paper.power(&Medium::default()), 1.5e10 * PI, 1e-14, "in W");
     }
 
     /// Mean of s²/R² over a uniform disc is 1/2; of n random points its standard error is 1/sqrt(12 n). The
@@ -325,7 +325,8 @@ mod tests {
             let (mut second, mut first) = (0.0, Vec3::ZERO);
             for start in beam.ray_starts(&Medium::default(), 3, 0, 0) {
                 let from = start.position - vector(beam.start);
-                assert!(from.dot(axis).abs() < 1e-15 && from.norm() <= 0.3 + 1e-15);
+                assert_below!(from.dot(axis).abs(), 1e-15);
+                assert_at_most!(from.norm(), 0.3 + 1e-15);
                 second += from.norm_squared() / 0.09 / f64::from(n);
                 first += from / (0.3 * f64::from(n));
             }
@@ -356,7 +357,7 @@ mod tests {
         let base = of(1, 0, 0);
         assert_eq!(base, of(1, 0, 0));
         for other in [of(2, 0, 0), of(1, 1, 0), of(1, 0, 1)] {
-            assert!(other.iter().all(|start| !base.contains(start)));
+            assert_all!(other.iter(), |start| !base.contains(start));
         }
     }
 
@@ -368,7 +369,7 @@ mod tests {
         let starts = beam.ray_starts(&Medium::default(), 0, 0, 0);
         let total: f64 = starts.iter().map(|start| start.power).sum();
         // 20,000 roundings in a sum of positive terms.
-        assert!((total / 5.0 - 1.0).abs() < 1e-12);
+        assert_close!(total, 5.0, 1e-12);
         let within = |s: f64| {
             let inner = starts.iter().filter(|start| (start.position - vector(beam.start)).norm() <= s);
             inner.map(|start| start.power).sum::<f64>() / 5.0
@@ -376,7 +377,7 @@ mod tests {
         let part = |s: f64| -(-2.0 * (s / 0.2_f64).powi(2)).exp_m1();
         for s in [0.05, 0.1, 0.2] {
             // One ray of 20,000 more or less at the edge.
-            assert!((within(s) / (part(s) / part(0.3)) - 1.0).abs() < 2e-3);
+            assert_close!(within(s), part(s) / part(0.3), 2e-3);
         }
     }
 
@@ -399,7 +400,7 @@ mod tests {
         };
         let positions = [Vec3::new(5.0, 0.0, 0.0), Vec3::new(2.0, 0.35, 0.0), Vec3::new(0.0, 0.41, 0.0)];
         let first = along.first_meeting(&positions, &[0.1; 3]).unwrap();
-        assert!((first - (3.0 - (0.01_f64 - 0.0025).sqrt())).abs() < 1e-14);
+        assert_near!(first, 3.0 - (0.01_f64 - 0.0025).sqrt(), 1e-14);
         assert_eq!(along.first_meeting(&positions[2..], &[0.1]), None);
     }
 
@@ -411,7 +412,8 @@ mod tests {
             let corner = [x, 1.0, z].map(Quantity);
             Region::Box(crate::domain::Block { lower: corner.map(|c| Quantity(-c.si())), upper: corner })
         };
-        assert!(across.starts_inside(&block(0.31, 1e-3)) && !across.starts_inside(&block(0.29, 1.0)));
+        assert_true!(across.starts_inside(&block(0.31, 1e-3)), "the whole beam starts inside");
+        assert_false!(across.starts_inside(&block(0.29, 1.0)), "the whole beam starts inside");
         let cylinder = |radius: f64| {
             Region::Cylinder(crate::domain::Cylinder {
                 center: [Quantity(0.0); 3],
@@ -420,6 +422,7 @@ mod tests {
                 length: Quantity(0.1),
             })
         };
-        assert!(across.starts_inside(&cylinder(0.31)) && !across.starts_inside(&cylinder(0.29)));
+        assert_true!(across.starts_inside(&cylinder(0.31)), "the whole beam starts inside");
+        assert_false!(across.starts_inside(&cylinder(0.29)), "the whole beam starts inside");
     }
 }

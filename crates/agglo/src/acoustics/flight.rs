@@ -249,20 +249,20 @@ mod tests {
         assert_eq!(flight.beam_power(), BeamPower::default());
         let medium = Medium::default();
         flight.launch(&beam([0.0, 3.0, 4.0], 2.0), &medium, 1, 0, 2);
-        let close = |found: BeamPower, known: [f64; 4]| {
-            let [x, y, z, magnitude] = known;
-            (found.flow - Vec3::new(x, y, z)).norm() < 1e-14 && (found.magnitude - magnitude).abs() < 1e-14
+        let assert_power = |found: BeamPower, [x, y, z, magnitude]: [f64; 4]| {
+            assert_near_vector!(found.flow, Vec3::new(x, y, z), 1e-14, "per unit of power");
+            assert_near!(found.magnitude, magnitude, 1e-14, "per unit of power");
         };
         assert!((flight.beam_power().root_of_squares - 1.0 / 8.0).abs() < 1e-14, "of 64 rays");
-        assert!(close(flight.beam_power(), [0.0, 0.6, 0.8, 1.0]));
+        assert_power(flight.beam_power(), [0.0, 0.6, 0.8, 1.0]);
         flight.launch(&beam([-1.0, 0.0, 0.0], 6.0), &medium, 1, 1, 0);
-        assert!(close(flight.beam_power(), [-0.75, 0.15, 0.2, 1.0]));
-        assert!(close(flight.pulse_power(0), [0.0, 0.6, 0.8, 1.0]));
+        assert_power(flight.beam_power(), [-0.75, 0.15, 0.2, 1.0]);
+        assert_power(flight.pulse_power(0), [0.0, 0.6, 0.8, 1.0]);
         // A second pulse of beam 0 while all of its first is about: that counts among those in flight, (2 + 2 + 6)/(2 + 6),
         // and not among the rays of the latest pulses.
         flight.launch(&beam([0.0, 3.0, 4.0], 2.0), &medium, 1, 0, 3);
-        assert!(close(flight.power_flying(), [-0.75, 0.3, 0.4, 1.25]));
-        assert!(close(flight.beam_power(), [-0.75, 0.15, 0.2, 1.0]));
+        assert_power(flight.power_flying(), [-0.75, 0.3, 0.4, 1.25]);
+        assert_power(flight.beam_power(), [-0.75, 0.15, 0.2, 1.0]);
         assert_eq!([0, 1, 2].map(|k| flight.pulses()[k].start_s), [2.0, 1.0, 2.5]);
     }
 

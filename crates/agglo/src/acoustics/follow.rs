@@ -102,7 +102,7 @@ mod tests {
             let ball = ball(mach);
             let origin = ball.center + Vec3::new(-3.0, ball.radius, 0.0);
             let behind = (1.0 - (1.0 - beta * beta).sqrt()) / beta * ball.radius;
-            assert!((ball.exit_distance(origin, Vec3::AXES[0]) - 3.0 - behind).abs() < 1e-12);
+            assert_near!(ball.exit_distance(origin, Vec3::AXES[0]) - 3.0, behind, 1e-12);
         }
     }
 
@@ -130,7 +130,7 @@ mod tests {
             assert!(clearance(exit - 1e-3) < 0.0, "{k}: {}", clearance(exit - 1e-3));
             grazing += usize::from(offset.norm() > 0.99 * ball.radius);
         }
-        assert!(grazing > 100);
+        assert_above!(grazing, 100);
     }
 
     #[test]
@@ -138,16 +138,16 @@ mod tests {
         let (positions, radii) = ([Vec3::new(4.0, 0.0, 0.0), Vec3::new(5.0, 1.0, 0.0)], [0.5, 0.1]);
         let ball = Followed::of(&positions, &radii, 0.0);
         for (position, radius) in positions.iter().zip(radii) {
-            assert!((*position - ball.center).norm() + radius <= ball.radius);
+            assert_at_most!((*position - ball.center).norm() + radius, ball.radius);
         }
         // From 3.5 to 5.1 and from -0.5 to 1.1: the second grain's far side is 0.1 + |(0.7, 0.7)| from the middle.
-        assert!((ball.radius - 0.1 - 0.7 * 2.0_f64.sqrt()).abs() < 1e-8);
+        assert_near!(ball.radius - 0.1, 0.7 * 2.0_f64.sqrt(), 1e-8);
         assert_eq!(Followed::of(&[], &[], 0.0).radius, 0.0);
     }
 
     #[test]
     fn grains_as_fast_as_sound_keep_every_ray() {
         assert_eq!(ball(0.9).exit_distance(Vec3::ZERO, Vec3::AXES[0]), f64::INFINITY);
-        assert!(ball(0.89).exit_distance(Vec3::ZERO, Vec3::AXES[0]).is_finite());
+        assert_finite!(ball(0.89).exit_distance(Vec3::ZERO, Vec3::AXES[0]));
     }
 }

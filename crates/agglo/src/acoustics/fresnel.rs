@@ -219,27 +219,27 @@ mod tests {
     #[test]
     fn normal_incidence_on_ceramic_is_not_the_paper_s_misprint() {
         // (17/19)^2 = 289/361; a few roundings.
-        assert!((CERAMIC.reflectance(1.0) - 289.0 / 361.0).abs() < 1e-15);
-        assert!((CERAMIC.reflectance(1.0) - 0.800_554).abs() < 1e-6);
-        assert!((CERAMIC.reflectance(1.0) - 0.944).abs() > 0.1);
+        assert_near!(CERAMIC.reflectance(1.0), 289.0 / 361.0, 1e-15);
+        assert_near!(CERAMIC.reflectance(1.0), 0.800_554, 1e-6);
+        assert_above!((CERAMIC.reflectance(1.0) - 0.944).abs(), 0.1);
     }
 
     #[test]
     fn water_and_ceramic_make_the_paper_s_interface() {
         let interface = Interface::new(&Medium::default(), 6000.0, 4500.0, 0.0);
-        assert!((interface.impedance_ratio - 18.0).abs() < 1e-14);
-        assert!((interface.speed_ratio - 1.0 / 3.0).abs() < 1e-16);
+        assert_near!(interface.impedance_ratio, 18.0, 1e-14);
+        assert_near!(interface.speed_ratio, 1.0 / 3.0, 1e-16);
     }
 
     #[test]
     fn total_reflection_starts_at_the_critical_angle() {
         let critical = CERAMIC.critical_angle().unwrap();
         // asin(1/3), to the digits of the reference.
-        assert!((critical.to_degrees() - 19.471_22).abs() < 1e-5);
-        assert!(CERAMIC.reflectance((critical - 1e-6).cos()) < 1.0);
+        assert_near!(critical.to_degrees(), 19.471_22, 1e-5);
+        assert_below!(CERAMIC.reflectance((critical - 1e-6).cos()), 1.0);
         assert_eq!(CERAMIC.reflectance((critical + 1e-6).cos()), 1.0);
         assert_eq!(CERAMIC.reflectance(0.0), 1.0);
-        assert!(Interface { speed_ratio: 1.5, ..CERAMIC }.critical_angle().is_none());
+        assert_none!(Interface { speed_ratio: 1.5, ..CERAMIC }.critical_angle());
     }
 
     #[test]
@@ -247,10 +247,10 @@ mod tests {
         let same = Interface { impedance_ratio: 1.0, speed_ratio: 1.0, shear_ratio: 0.0 };
         for cos in [1.0, 0.7, 0.1] {
             // cos_t differs from cos_i by rounding only.
-            assert!(same.reflectance(cos) < 1e-28);
+            assert_below!(same.reflectance(cos), 1e-28);
         }
         let direction = Vec3::new(0.6, 0.0, -0.8);
-        assert!((same.scatter(direction, Vec3::AXES[2]).refracted - direction).norm() < 1e-15);
+        assert_near_vector!(same.scatter(direction, Vec3::AXES[2]).refracted, direction, 1e-15);
     }
 
     /// A cos i = cos t with Snell's sin t = sin i / c gives sin² i = (A² - 1)/(A² - 1/c²), c = c_i/c_t.
@@ -259,12 +259,12 @@ mod tests {
         for (a, c) in [(2.0, 3.0), (0.5, 0.6), (1.5, 1.1)] {
             let interface = Interface { impedance_ratio: a, speed_ratio: c, shear_ratio: 0.0 };
             let sin_squared: f64 = (a * a - 1.0) / (a * a - 1.0 / (c * c));
-            assert!((0.0..1.0).contains(&sin_squared));
+            assert_between!(sin_squared, 0.0..1.0);
             let cos = (1.0 - sin_squared).sqrt();
-            assert!(interface.reflectance(cos) < 1e-28);
+            assert_below!(interface.reflectance(cos), 1e-28);
             // With c_t/c_i in place of c_i/c_t there is no such zero, so the test knows one from the other.
             let swapped = Interface { speed_ratio: 1.0 / c, ..interface };
-            assert!(swapped.reflectance(cos) > 1e-3);
+            assert_above!(swapped.reflectance(cos), 1e-3);
         }
     }
 
@@ -274,8 +274,8 @@ mod tests {
         let angle = 10.0_f64.to_radians();
         let cos_t = (1.0 - 9.0 * angle.sin().powi(2)).sqrt();
         let r = (18.0 * angle.cos() - cos_t) / (18.0 * angle.cos() + cos_t);
-        assert!((CERAMIC.reflectance(angle.cos()) - r * r).abs() < 1e-14);
-        assert!((CERAMIC.reflectance(angle.cos()) - 0.824_678_15).abs() < 1e-8);
+        assert_near!(CERAMIC.reflectance(angle.cos()), r * r, 1e-14);
+        assert_near!(CERAMIC.reflectance(angle.cos()), 0.824_678_15, 1e-8);
     }
 
     #[test]
@@ -285,12 +285,12 @@ mod tests {
         for degrees in [0.0_f64, 5.0, 12.0, 19.0, 19.5, 60.0, 90.0] {
             let (sin, cos) = degrees.to_radians().sin_cos();
             let out = CERAMIC.scatter(side * sin - normal * cos, normal);
-            assert!((out.reflected - (side * sin + normal * cos)).norm() < 1e-15);
+            assert_near_vector!(out.reflected, side * sin + normal * cos, 1e-15);
             if degrees < 19.4 {
                 let expected = side * (3.0 * sin) - normal * (1.0 - 9.0 * sin * sin).sqrt();
                 // The root near the critical angle amplifies rounding.
-                assert!((out.refracted - expected).norm() < 1e-13);
-                assert!((out.refracted.norm() - 1.0).abs() < 1e-15);
+                assert_near_vector!(out.refracted, expected, 1e-13);
+                assert_near!(out.refracted.norm(), 1.0, 1e-15);
             } else {
                 assert_eq!(out.refracted, Vec3::ZERO);
                 assert_eq!(out.reflectance, 1.0);
@@ -359,14 +359,15 @@ mod tests {
                     let y = [t.0, t.1].map(|part| a * q * part * square);
                     let z = 1.0 / cos;
                     let sum = (x[0] + y[0] + z).powi(2) + (x[1] + y[1]).powi(2);
-                    assert!((sheared - 4.0 * z * y[0] / sum).abs() < 1e-12);
+                    assert_near!(sheared, 4.0 * z * y[0] / sum, 1e-12);
                     4.0 * z * (x[0] + y[0]) / sum
                 } else {
                     1.0 - reflectance
                 };
                 assert!((reflectance + flows - 1.0).abs() < 1e-12, "{grain:?} {cos}: {reflectance} {flows}");
-                assert!((0.0..=1.0).contains(&reflectance) && sheared >= 0.0);
-                assert!(sheared <= 1.0 - reflectance + 1e-12);
+                assert_between!(reflectance, 0.0..=1.0);
+                assert_at_least!(sheared, 0.0);
+                assert_at_most!(sheared, 1.0 - reflectance + 1e-12);
             }
         }
     }
@@ -383,10 +384,11 @@ mod tests {
         let at = |degrees: f64| degrees.to_radians().cos();
         assert_eq!(alumina.shares(at(14.0)), Shares { reflectance: 1.0, sheared: 0.0 });
         let between = alumina.shares(at(11.0));
-        assert!((between.reflectance + between.sheared - 1.0).abs() < 1e-14 && between.sheared > 0.1);
+        assert_near!(between.reflectance + between.sheared, 1.0, 1e-14);
+        assert_above!(between.sheared, 0.1);
         let soft = Interface { shear_ratio: 1e-9, ..alumina };
         for degrees in [0.0, 3.0, 7.0, 30.0, 89.0, 90.0] {
-            assert!((soft.reflectance(at(degrees)) - fluid.reflectance(at(degrees))).abs() < 1e-14);
+            assert_near!(soft.reflectance(at(degrees)), fluid.reflectance(at(degrees)), 1e-14);
         }
         assert_eq!(alumina.reflectance(0.0), 1.0);
     }

@@ -178,7 +178,8 @@ mod tests {
     fn published_force_by_hand() {
         let force = impulse().force(&hit(1.0), CERAMIC, &Medium::default());
         let by_hand = (4.7e6 * 72.0 / 361.0 * 2.7e7 * 3.1e-4_f64).sqrt();
-        assert!((force.z / -by_hand - 1.0).abs() < 1e-14 && force.x == 0.0);
+        assert_close!(force.z, -by_hand, 1e-14, "in N");
+        assert_eq!(force.x, 0.0);
         let step = RayForce::PublishedStep(PublishedStep { step_fraction: 0.1 });
         assert_eq!(step.force(&hit(1.0), CERAMIC, &Medium::default()), force);
     }
@@ -188,10 +189,10 @@ mod tests {
         let hit = hit(0.97);
         let force = impulse().force(&hit, CERAMIC, &Medium::default()).norm();
         let power = force * force / (CERAMIC.sound * hit.ray_area);
-        assert!((power / (hit.power_in * (1.0 - hit.reflectance)) - 1.0).abs() < 1e-14);
+        assert_close!(power, hit.power_in * (1.0 - hit.reflectance), 1e-14, "in W");
         // Along the refracted ray: Snell's sine, three times that of the ray that comes.
         let sine = impulse().force(&hit, CERAMIC, &Medium::default()).x / force;
-        assert!((sine / (3.0 * hit.direction_in.x) - 1.0).abs() < 1e-14);
+        assert_close!(sine, 3.0 * hit.direction_in.x, 1e-14);
     }
 
     #[test]
@@ -202,7 +203,7 @@ mod tests {
         let force = law.force(&hit, CERAMIC, &Medium::default());
         // A mirror: 2 I cos/c along the inward normal.
         let expected = Vec3::new(0.0, 0.0, -2.0 * 0.5 * 4.7e6 / 1500.0);
-        assert!((force - expected).norm() < 1e-12 * expected.norm());
+        assert_close_vector!(force, expected, 1e-12, "in N");
     }
 
     /// Sound and shear each carry F²/(impedance a_r), together the power that enters; at 15 degrees both enter, at 25 degrees
@@ -220,12 +221,14 @@ mod tests {
             let rest = force - part;
             if degrees < 19.5 {
                 let shear = rest.norm_squared() / (CERAMIC.shear * hit.ray_area) / hit.power_in;
-                assert!((shear - hit.sheared).abs() < 1e-12 && hit.sheared > 0.01);
-                assert!((rest.normalized() - other[0]).norm() < 1e-12);
+                assert_near!(shear, hit.sheared, 1e-12);
+                assert_above!(hit.sheared, 0.01);
+                assert_near_vector!(rest.normalized(), other[0], 1e-12);
             } else {
-                assert!(rest.norm() < 1e-12 * force.norm() && hit.sheared > 0.1);
+                assert_below!(rest.norm(), 1e-12 * force.norm());
+                assert_above!(hit.sheared, 0.1);
                 let sine = force.x / force.norm();
-                assert!((sine / (degrees.to_radians().sin() * 1.8) - 1.0).abs() < 1e-13);
+                assert_close!(sine, degrees.to_radians().sin() * 1.8, 1e-13);
             }
         }
     }
@@ -238,7 +241,7 @@ mod tests {
         let law = RayForce::RadiationPressure(RadiationPressure { duration: Quantity(1.0) });
         let wave = published / (CERAMIC.sound * hit.ray_area);
         let factor = wave * (1.0 + hit.reflectance) / (1500.0 * (1.0 - hit.reflectance));
-        assert!((law.force(&hit, CERAMIC, &medium).norm() / published / factor - 1.0).abs() < 1e-13);
+        assert_close!(law.force(&hit, CERAMIC, &medium).norm() / published, factor, 1e-13);
     }
 
     #[test]
@@ -246,6 +249,6 @@ mod tests {
         let medium = Medium::default();
         assert_eq!(impulse().duration(0.05, &medium), 2e-6);
         let step = RayForce::PublishedStep(PublishedStep { step_fraction: 0.1 });
-        assert!((step.duration(0.05, &medium) / (0.1 * 0.05 / 1500.0) - 1.0).abs() < 1e-15);
+        assert_close!(step.duration(0.05, &medium), 0.1 * 0.05 / 1500.0, 1e-15, "in s");
     }
 }

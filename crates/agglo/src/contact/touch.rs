@@ -178,8 +178,8 @@ mod tests {
                 let literal = PI * (radii[0] * radii[0] - near * near);
                 let area = touch(radii, overlap).area();
                 assert!((area - literal).abs() < 1e-14 * radii[1].max(radii[0]).powi(2), "{radii:?} {part}");
-                assert!((arms(radii, d)[0] - near).abs() < 1e-14 * radii[1].max(radii[0]));
-                assert!((touch([radii[1], radii[0]], overlap).area() / area - 1.0).abs() < 1e-15);
+                assert_near!(arms(radii, d)[0], near, 1e-14 * radii[1].max(radii[0]));
+                assert_close!(touch([radii[1], radii[0]], overlap).area(), area, 1e-15);
             }
         }
     }
@@ -201,9 +201,9 @@ mod tests {
         for distance in [0.3, 0.1, 0.0] {
             let inside = Touch::new([1.0, 0.5], [1.0, 1.0], [1.0, 1.0], distance);
             assert_eq!([inside.area(), inside.area_slope()], [0.0, 0.0]);
-            assert!(inside.strain_integral(2.0).is_finite());
+            assert_finite!(inside.strain_integral(2.0));
         }
-        assert!(Touch::new([1.0, 1.0], [1.0, 1.0], [1.0, 1.0], 0.0).area().is_finite());
+        assert_finite!(Touch::new([1.0, 1.0], [1.0, 1.0], [1.0, 1.0], 0.0).area());
     }
 
     #[test]
@@ -227,6 +227,6 @@ mod tests {
     fn integral_of_equal_spheres_in_closed_form() {
         let u: f64 = 0.3;
         let by_hand = PI / 4.0 * 8.0 * (u.powi(4) / 2.0 - u.powi(5) / 5.0);
-        assert!((touch([1.0, 1.0], 0.6).strain_integral(2.0) / by_hand - 1.0).abs() < 1e-14);
+        assert_close!(touch([1.0, 1.0], 0.6).strain_integral(2.0), by_hand, 1e-14);
     }
 }

@@ -175,8 +175,9 @@ mod tests {
         let tilted = disc([0.0; 3], [1.0, 1.0, 1.0], 1.0);
         let low = |face: f64| block([face, -1.0, -1.0], [1.0, 1.0, 1.0]);
         let reach = (2.0_f64 / 3.0).sqrt();
-        assert!(tilted.lies_in(&low(-reach - 1e-12)) && !tilted.lies_in(&low(-reach + 1e-12)));
-        assert!(!tilted.lies_in(&low(-0.8163)));
+        assert_true!(tilted.lies_in(&low(-reach - 1e-12)), "the whole disc lies in the region");
+        assert_false!(tilted.lies_in(&low(-reach + 1e-12)), "the whole disc lies in the region");
+        assert_false!(tilted.lies_in(&low(-0.8163)), "the whole disc lies in the region");
     }
 
     /// Against the farthest of 100,000 points of the rim, from tilts of nothing to a right angle: these fall short by
@@ -208,9 +209,15 @@ mod tests {
         }
         let across = disc([0.0; 3], [0.0, 0.0, 1.0], 0.3);
         let flat = |length: f64| cylinder([0.0, 0.0, 1.0], 1.0, length);
-        assert!(across.lies_in(&flat(1e-3)));
-        assert!(!disc([0.0, 0.0, 0.1], [1.0, 0.0, 0.0], 0.3).lies_in(&flat(0.79)));
-        assert!(disc([0.0, 0.0, 0.1], [1.0, 0.0, 0.0], 0.3).lies_in(&flat(0.81)));
+        assert_true!(across.lies_in(&flat(1e-3)), "the whole disc lies in the region");
+        assert_false!(
+            disc([0.0, 0.0, 0.1], [1.0, 0.0, 0.0], 0.3).lies_in(&flat(0.79)),
+            "the whole disc lies in the region"
+        );
+        assert_true!(
+            disc([0.0, 0.0, 0.1], [1.0, 0.0, 0.0], 0.3).lies_in(&flat(0.81)),
+            "the whole disc lies in the region"
+        );
     }
 
     /// A ball of radius 1 a way of 5 off: hit by the axis after 4; by the rim of a disc of 0.8 that passes at 0.6 of its middle
@@ -220,7 +227,7 @@ mod tests {
         let disc = disc([0.0; 3], [1.0, 0.0, 0.0], 0.8);
         let meets = |x: f64, y: f64| disc.meets(Vec3::new(x, y, 0.0), 1.0);
         assert_eq!(meets(5.0, 0.3), Some(4.0));
-        assert!((meets(5.0, 1.4).unwrap() - 4.2).abs() < 1e-15);
+        assert_near!(meets(5.0, 1.4).unwrap(), 4.2, 1e-15);
         assert_eq!(meets(5.0, 1.81), None);
         assert_eq!(meets(-1.1, 0.0), None);
         assert_eq!(meets(0.5, 0.0), Some(0.0));

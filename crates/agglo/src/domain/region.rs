@@ -285,7 +285,10 @@ mod tests {
             let n = 400_000;
             for _ in 0..n {
                 let point = region.sample(radius, &mut stream).unwrap();
-                assert!(region.contains(point, radius * (1.0 - 1e-12)));
+                assert_true!(
+                    region.contains(point, radius * (1.0 - 1e-12)),
+                    "a grain of {radius:e} m at {point:?}"
+                );
                 let value = (point - region.center()).norm_squared();
                 sum += value;
                 squares += value * value;
@@ -294,8 +297,8 @@ mod tests {
             let mean = sum / f64::from(n);
             let error = ((squares / f64::from(n) - mean * mean) / f64::from(n)).sqrt();
             assert!((mean - expected).abs() < 5.0 * error, "{mean} {expected}");
-            assert!((middle / f64::from(n)).norm() < 5.0 * (mean / f64::from(n)).sqrt());
-            assert!(5.0 * error < 0.01 * expected);
+            assert_below!((middle / f64::from(n)).norm(), 5.0 * (mean / f64::from(n)).sqrt());
+            assert_below!(5.0 * error, 0.01 * expected);
         }
     }
 
@@ -313,8 +316,10 @@ mod tests {
             for axis in 0..3 {
                 // Corners of a body are seldom met: three parts in a hundred of the extent are left out at most.
                 let slack = 0.03 * (upper[axis] - lower[axis]);
-                assert!(low[axis] >= lower[axis] && low[axis] < lower[axis] + slack);
-                assert!(high[axis] <= upper[axis] && high[axis] > upper[axis] - slack);
+                assert_at_least!(low[axis], lower[axis]);
+                assert_below!(low[axis], lower[axis] + slack);
+                assert_at_most!(high[axis], upper[axis]);
+                assert_above!(high[axis], upper[axis] - slack);
             }
         }
     }
@@ -340,8 +345,14 @@ mod tests {
                     region.center() + stream.direction() * (0.9 * region.inner_radius() * stream.uniform());
                 let direction = if k % 7 == 0 { Vec3::AXES[k % 3] } else { stream.direction() };
                 let distance = region.exit_distance(origin, direction);
-                assert!(region.contains(origin + direction * (distance - 1e-9), 0.0));
-                assert!(!region.contains(origin + direction * (distance + 1e-9), 0.0));
+                assert_true!(
+                    region.contains(origin + direction * (distance - 1e-9), 0.0),
+                    "{origin:?} along {direction:?} to the border at {distance:e} m"
+                );
+                assert_false!(
+                    region.contains(origin + direction * (distance + 1e-9), 0.0),
+                    "{origin:?} along {direction:?} to the border at {distance:e} m"
+                );
                 let exit = origin + direction * distance;
                 let slack = Vec3::new(1e-9, 1e-9, 1e-9);
                 assert_eq!(exit.max(lower - slack).min(upper + slack), exit);
@@ -358,13 +369,16 @@ mod tests {
                 let point = region.center() + stream.direction() * (4.0 * stream.uniform());
                 let nearest = region.nearest_point(point);
                 let inward = nearest + (region.center() - nearest) * 1e-12;
-                assert!(region.contains(inward, 0.0));
+                assert_true!(region.contains(inward, 0.0), "{inward:?} in {region:?}");
                 let least = (point - nearest).norm() * (1.0 - 1e-12);
-                assert!((0..200).all(|_| {
+                assert_all!(0..200, |_| {
                     let other = region.sample(0.0, &mut stream).unwrap();
                     (other - point).norm() >= least
-                }));
-                assert!(!region.contains(point, 0.0) || nearest == point || (nearest - point).norm() < 1e-12);
+                });
+                assert!(
+                    !region.contains(point, 0.0) || (nearest - point).norm() < 1e-12,
+                    "nearest to {point:?} inside is {nearest:?}"
+                );
             }
         }
     }
@@ -373,7 +387,7 @@ mod tests {
     fn exit_distances_by_hand() {
         let ball = Region::Sphere(Ball { center: [Quantity(0.0); 3], radius: Quantity(1.0) });
         assert_eq!(ball.exit_distance(Vec3::new(-1.0, 0.0, 0.0), Vec3::AXES[0]), 2.0);
-        assert!((ball.exit_distance(Vec3::new(0.0, 0.6, 0.0), Vec3::AXES[0]) - 0.8).abs() < 1e-15);
+        assert_near!(ball.exit_distance(Vec3::new(0.0, 0.6, 0.0), Vec3::AXES[0]), 0.8, 1e-15, "in m");
         assert_eq!(ball.exit_distance(Vec3::new(0.0, 2.0, 0.0), Vec3::AXES[0]), 0.0);
     }
 }

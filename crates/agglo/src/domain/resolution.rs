@@ -83,9 +83,12 @@ mod tests {
     /// Half a per cent within the limits and beyond: 1e-5 of a radius for a place, 1e-3 of it for a way worth going.
     #[test]
     fn limits_are_parts_of_the_radius() {
-        assert!(is_fine(0.995e-8, 1e-3) && !is_fine(1.005e-8, 1e-3) && !is_fine(f64::NAN, 1e-3));
+        assert_true!(is_fine(0.995e-8, 1e-3), "numbers this coarse, m, are fine enough for a grain of 1 mm");
+        assert_false!(is_fine(1.005e-8, 1e-3), "numbers this coarse, m, are fine enough for a grain of 1 mm");
+        assert_false!(is_fine(f64::NAN, 1e-3), "numbers this coarse, m, are fine enough for a grain of 1 mm");
         let stuck = |way: f64| is_stuck(Vec3::AXES[0], Vec3::AXES[0] * 1e-12, 1e-3, 1e-6, way / 1e-12);
-        assert!(!stuck(0.995e-6) && stuck(1.005e-6));
+        assert_false!(stuck(0.995e-6), "a way of so many m in the whole run is lost");
+        assert_true!(stuck(1.005e-6), "a way of so many m in the whole run is lost");
     }
 
     #[test]
@@ -94,10 +97,10 @@ mod tests {
             let grain = (Vec3::new(x, 0.0, 0.0), Vec3::new(v, 0.0, 0.0), 1e-3);
             warning(std::iter::once(grain), dt, duration)
         };
-        assert!(told(1e12, 1.0, 1e-6, 1.0).unwrap().contains("so far from the origin"));
+        assert_contains!(told(1e12, 1.0, 1e-6, 1.0).unwrap(), "so far from the origin");
         assert_eq!(told(1.0, 1.0, 1e-6, 1.0), None);
         // 1e-11 m/s for 1e-6 s: 1e-17 m, and the spacing is 2e-16 m; in 1e6 s it would be 1e-5 m, ten times 1e-3 R.
-        assert!(told(1.0, 1e-11, 1e-6, 1e6).unwrap().contains("stands still"));
+        assert_contains!(told(1.0, 1e-11, 1e-6, 1e6).unwrap(), "stands still");
         assert_eq!(told(1.0, 1e-11, 1e-6, 1e4), None);
         assert_eq!(told(1e-3, 1e-11, 1e-6, 1e6), None);
         assert_eq!(told(1.0, 0.0, 1e-6, 1e6), None);

@@ -164,8 +164,8 @@ mod tests {
     fn edges_and_volume() {
         let volume = volume(Boundary::Open);
         // 0.7 + 0.3, 1.1 - 1 and 7 - 2.5, each rounded once.
-        assert!((volume.edges() - Vec3::new(1.0, 0.1, 4.5)).norm() < 1e-15);
-        assert!((volume.volume() - 0.45).abs() < 1e-15);
+        assert_near_vector!(volume.edges(), Vec3::new(1.0, 0.1, 4.5), 1e-15);
+        assert_near!(volume.volume(), 0.45, 1e-15);
         assert_eq!(volume.upper(), Vec3::new(0.7, 1.1, -2.5));
     }
 
@@ -183,7 +183,7 @@ mod tests {
                         .into_iter()
                         .zip(edges.to_array())
                         .fold(Vec3::ZERO, |sum, (axis, edge)| sum + axis * (edge * stream.uniform()));
-                assert!(volume.contains(point));
+                assert_true!(volume.contains(point), "{point:?} in {volume:?}");
                 assert_eq!(
                     volume.wrap(point).to_array().map(f64::to_bits),
                     point.to_array().map(f64::to_bits)
@@ -192,11 +192,14 @@ mod tests {
                 let image =
                     point + Vec3::new(periods[0] * edges.x, periods[1] * edges.y, periods[2] * edges.z);
                 let back = volume.wrap(image);
-                assert!(volume.contains(back));
+                assert_true!(volume.contains(back), "{back:?} in {volume:?}");
                 let apart = (back - point).to_array();
                 for (axis, apart) in apart.into_iter().enumerate() {
                     // A point a hair from a face may come back at the opposite one.
-                    assert!(apart.abs() < 2e-13 || (apart.abs() - edges[axis]).abs() < 2e-13);
+                    assert!(
+                        apart.abs() < 2e-13 || (apart.abs() - edges[axis]).abs() < 2e-13,
+                        "{apart:e} m along axis {axis} is neither 0 nor the edge"
+                    );
                 }
             }
         }
@@ -205,15 +208,16 @@ mod tests {
     #[test]
     fn faces_have_one_side() {
         let volume = volume(Boundary::Periodic);
-        assert!(volume.contains(volume.lower()) && !volume.contains(volume.upper()));
+        assert_true!(volume.contains(volume.lower()), "a corner of {volume:?}");
+        assert_false!(volume.contains(volume.upper()), "a corner of {volume:?}");
         assert_eq!(volume.wrap(volume.upper()), volume.lower());
         let below = Vec3::new(-0.3, 1.0_f64.next_down(), -7.0);
-        assert!(volume.contains(volume.wrap(below)));
+        assert_true!(volume.contains(volume.wrap(below)), "a corner of {volume:?}");
         // Only the coordinate that is outside changes.
         let across = volume.wrap(Vec3::new(0.1, 1.04, -8.0));
         assert_eq!((across.x, across.y), (0.1, 1.04));
-        assert!((across.z + 3.5).abs() < 1e-15);
-        assert!(volume.wrap(Vec3::new(f64::NAN, 1.04, -3.0)).x.is_nan());
+        assert_near!(across.z, -3.5, 1e-15);
+        assert_nan!(volume.wrap(Vec3::new(f64::NAN, 1.04, -3.0)).x);
     }
 
     /// D + e comes to -D - e, along each axis by itself and only outwards; the faces are at -0.3, 0.7 and so on.
@@ -252,7 +256,7 @@ mod tests {
                 let [i, j, k] = [k % 9 - 4, k / 9 % 35 - 17, k / 9 / 35 - 4].map(f64::from);
                 least = least.min((between + Vec3::new(i * edges.x, j * edges.y, k * edges.z)).norm());
             }
-            assert!((volume.shortest(between).norm() - least).abs() < 1e-14);
+            assert_near!(volume.shortest(between).norm(), least, 1e-14);
         }
     }
 }

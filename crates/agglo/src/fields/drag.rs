@@ -164,7 +164,7 @@ mod tests {
         let speed = 2.0 / 9.0 * excess * 9.81 * radius * radius / 1e-3;
         let weight = excess * 9.81 * 4.0 / 3.0 * PI * radius * radius * radius;
         let force = drag(DragLaw::Stokes).force(&medium, radius, Vec3::new(0.0, 0.0, -speed), &REST);
-        assert!((force.z / weight - 1.0).abs() < 1e-14);
+        assert_close!(force.z, weight, 1e-14, "in N");
         assert_eq!((force.x, force.y), (0.0, 0.0));
     }
 
@@ -178,7 +178,7 @@ mod tests {
             let law = drag(DragLaw::SchillerNaumann);
             let force = law.force(&medium, radius, velocity, &REST);
             let coefficient = -force.y / (0.5 * 1000.0 * speed * speed * PI * radius * radius);
-            assert!((Drag::reynolds(&medium, radius, velocity, &REST) / number - 1.0).abs() < 1e-14);
+            assert_close!(Drag::reynolds(&medium, radius, velocity, &REST), number, 1e-14);
             assert!((coefficient / wanted - 1.0).abs() < 1e-5, "{number}: {coefficient}");
         }
         assert_eq!(drag(DragLaw::SchillerNaumann).force(&medium, radius, Vec3::ZERO, &REST), Vec3::ZERO);
@@ -194,11 +194,11 @@ mod tests {
         let moving = FlowAt { velocity: Vec3::new(1.0, 0.0, 3.0), ..flow };
         let force = law.force(&medium, radius, moving.velocity, &moving);
         let displaced = 4.0 / 3.0 * PI * 1e-6;
-        assert!((force - Vec3::new(0.0, 1.5 * 3.0 * displaced, 0.0)).norm() < 1e-14 * force.norm());
-        assert!((law.added_mass(&medium, radius) / (0.5 * displaced) - 1.0).abs() < 1e-14);
+        assert_near_vector!(force, Vec3::new(0.0, 1.5 * 3.0 * displaced, 0.0), 1e-14 * force.norm(), "in N");
+        assert_close!(law.added_mass(&medium, radius), 0.5 * displaced, 1e-14, "in kg");
         assert_eq!(Drag::moment(&medium, radius, Vec3::new(0.0, 0.0, 4.0), &flow), Vec3::ZERO);
         let moment = Drag::moment(&medium, radius, Vec3::ZERO, &flow);
-        assert!((moment.z / (8.0 * PI * 1e-3 * 1e-9 * 4.0) - 1.0).abs() < 1e-14);
+        assert_close!(moment.z, 8.0 * PI * 1e-3 * 1e-9 * 4.0, 1e-14, "in N m");
     }
 
     /// 15 η/(ρ R²) of spin is faster than (9/2) η/(ρ R²) of motion; the flow's gradient adds to that.
@@ -207,9 +207,9 @@ mod tests {
         let (medium, radius, mass) = (Medium::default(), 1e-5, 2500.0 * 4.0 / 3.0 * PI * 1e-15);
         let inertia = [mass, 0.4 * mass * radius * radius];
         let pace = drag(DragLaw::Stokes).pace(&medium, radius, inertia, Vec3::ZERO, &REST);
-        assert!((pace.rate / (15.0 / 6.0 * 1e-3 / (2500.0 * 1e-10)) - 1.0).abs() < 1e-14);
+        assert_close!(pace.rate, 15.0 / 6.0 * 1e-3 / (2500.0 * 1e-10), 1e-14);
         let sheared = FlowAt { gradient: 1e6, ..REST };
         let pace = drag(DragLaw::Stokes).pace(&medium, radius, inertia, Vec3::ZERO, &sheared);
-        assert!((pace.rate / (4.5e-3 / 6.0 / 2500e-10 + 1e6) - 1.0).abs() < 1e-14);
+        assert_close!(pace.rate, 4.5e-3 / 6.0 / 2500e-10 + 1e6, 1e-14);
     }
 }

@@ -255,15 +255,19 @@ mod tests {
         for (text, wanted) in rows {
             assert!((value(text) - wanted).abs() < 1e-14, "{text}: {}", value(text));
         }
-        assert!(!value("1/(x - 0.2)").is_finite());
+        assert_false!(value("1/(x - 0.2)").is_finite(), "a pole is not finite");
     }
 
     #[test]
     fn what_is_wrong_is_said() {
         let message = |text: &str| FluxDensity::new(text).unwrap_err();
-        assert!(message("3*-x").contains("two operators in a row"));
+        assert_contains!(message("3*-x"), "two operators in a row");
         assert!(message("3").contains("has no unit"), "{}", message("3"));
-        assert!(message("2*pi").contains("has no unit") || message("2*pi").contains("unknown unit"));
+        assert!(
+            message("2*pi").contains("has no unit") || message("2*pi").contains("unknown unit"),
+            "{}",
+            message("2*pi")
+        );
         assert!(message("3 m").contains("is a length"), "{}", message("3 m"));
         for (text, advice) in
             [("x*E", "exp(1)"), ("x*e", "exp(1)"), ("x*PI", "pi"), ("x*π", "pi"), ("TAU*t", "2*pi")]
@@ -284,6 +288,6 @@ mod tests {
             let read: FluxDensity = serde_json::from_str(text).unwrap();
             assert_eq!(serde_json::to_string(&read).unwrap(), text);
         }
-        assert!(serde_json::from_str::<FluxDensity>("\"3 kg\"").is_err());
+        assert_err!(serde_json::from_str::<FluxDensity>("\"3 kg\""));
     }
 }

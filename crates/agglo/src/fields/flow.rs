@@ -105,7 +105,7 @@ mod tests {
         assert_eq!(found.velocity, Vec3::new(0.375, 0.75, 0.0));
         assert!((found.acceleration - Vec3::new(-2.25, 1.125, 0.0)).norm() < 1e-14, "{found:?}");
         assert_eq!(found.vorticity, Vec3::new(0.0, 0.0, 6.0));
-        assert!((found.gradient - 18.0_f64.sqrt()).abs() < 1e-14);
+        assert_near!(found.gradient, 18.0_f64.sqrt(), 1e-14);
     }
 
     /// By hand: u = (sin(5 t) x², 0, z/t), signs of negative places included.

@@ -73,8 +73,8 @@ mod tests {
         let (dry, wet) =
             (Gravity { acceleration: down, buoyancy: false }, Gravity { acceleration: down, buoyancy: true });
         assert_eq!(dry.acceleration_on(0.4), Vec3::new(0.0, 0.0, -9.81));
-        assert!((wet.acceleration_on(0.4).z + 5.886).abs() < 1e-14);
+        assert_near!(wet.acceleration_on(0.4).z, -5.886, 1e-14);
         assert_eq!(wet.acceleration_on(1.0).norm(), 0.0);
-        assert!((wet.energy(2.0, 0.4, Vec3::new(1.0, 1.0, 3.0)) - 2.0 * 5.886 * 3.0).abs() < 1e-13);
+        assert_near!(wet.energy(2.0, 0.4, Vec3::new(1.0, 1.0, 3.0)), 2.0 * 5.886 * 3.0, 1e-13, "in J");
     }
 }

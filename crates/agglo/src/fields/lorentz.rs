@@ -112,8 +112,8 @@ mod tests {
             let velocity = out.cross(Vec3::AXES[2]) * speed;
             let force = law.force(charge, velocity, out * radius, 0.0);
             let centripetal = out * (-mass * speed * speed / radius);
-            assert!((force - centripetal).norm() < 1e-14 * centripetal.norm());
-            assert!(force.dot(velocity).abs() < 1e-14 * force.norm() * speed);
+            assert_close_vector!(force, centripetal, 1e-14, "in N");
+            assert_below!(force.dot(velocity).abs(), 1e-14 * force.norm() * speed, "in N");
         }
     }
 
@@ -123,7 +123,7 @@ mod tests {
         let law = Lorentz { electric_field: Some(field), magnetic_flux_density: None };
         let force = law.force(-2e-9, Vec3::AXES[0], Vec3::new(0.0, 0.0, 3.0), 0.5);
         let by_hand = Vec3::new(1000.0, 0.0, 300.0 * 0.5_f64.sin()) * -2e-9;
-        assert!((force - by_hand).norm() < 1e-20);
+        assert_near_vector!(force, by_hand, 1e-20, "in N");
         assert_eq!(law.force(0.0, Vec3::AXES[0], Vec3::ZERO, 0.0), Vec3::ZERO);
     }
 }

@@ -63,10 +63,10 @@ mod tests {
             let error = refused.unwrap_err();
             assert_eq!(error.to_string(), "it is a symbolic link, which is not followed");
         }
-        assert!(open(Path::new("/dev/null"), OpenOptions::new().write(true)).is_err());
-        assert!(create(folder.path()).unwrap_err().to_string().contains("folder"));
+        assert_err!(open(Path::new("/dev/null"), OpenOptions::new().write(true)));
+        assert_contains!(create(folder.path()).unwrap_err().to_string(), "folder");
         assert_eq!(read(&precious, 4).unwrap(), b"kept");
-        assert!(read(&precious, 3).unwrap_err().to_string().contains("larger than"));
+        assert_contains!(read(&precious, 3).unwrap_err().to_string(), "larger than");
     }
 
     #[test]

@@ -150,7 +150,7 @@ mod tests {
         assert!(matches!(refused, FolderError::Held { .. }) && refused.exit_code() == 2, "{text}");
         assert!(text.contains(&format!("process {}", std::process::id())), "{text}");
         drop(first);
-        assert!(!folder.path().join(names::LOCK).exists());
+        assert_gone!(folder.path().join(names::LOCK));
         Lock::take(folder.path()).unwrap();
     }
 
@@ -165,8 +165,8 @@ mod tests {
         std::fs::create_dir(&dir).unwrap();
         let second = Lock::take(&dir).unwrap();
         drop(first);
-        assert!(dir.join(names::LOCK).exists());
-        assert!(Lock::take(&dir).is_err());
+        assert_there!(dir.join(names::LOCK));
+        assert_err!(Lock::take(&dir));
         drop(second);
     }
 

@@ -132,7 +132,7 @@ mod tests {
             assert_eq!(mark.check(&path).unwrap_err(), "is not what the run wrote there");
         }
         std::fs::write(&path, &content[1..]).unwrap();
-        assert!(mark.check(&path).unwrap_err().contains("bytes where the run wrote"));
+        assert_contains!(mark.check(&path).unwrap_err(), "bytes where the run wrote");
         std::fs::remove_file(&path).unwrap();
         assert_eq!(mark.check(&path).unwrap_err(), "is missing");
     }

@@ -83,11 +83,13 @@ mod tests {
         std::fs::create_dir(dir.join(names::SERIES)).unwrap();
         std::fs::write(dir.join(names::LOCK), "").unwrap();
         traces.clear_at_exit(&dir);
-        assert!(folder.path().is_dir() && !folder.path().join("out").exists());
+        assert_there!(folder.path());
+        assert_gone!(folder.path().join("out"));
         let traces = Traces::make(&dir).unwrap();
         std::fs::write(folder.path().join("out/notes"), "").unwrap();
         traces.clear_at_exit(&dir);
-        assert!(folder.path().join("out/notes").exists() && !folder.path().join("out/a").exists());
+        assert_there!(folder.path().join("out/notes"));
+        assert_gone!(folder.path().join("out/a"));
         Traces::make(&dir).unwrap();
         Traces::make(&dir).unwrap().clear_at_exit(&dir);
         assert!(dir.is_dir(), "it was there before");

@@ -67,13 +67,13 @@ fn a_gas_in_equilibrium() {
     let rate = 4.0 * std::f64::consts::PI.sqrt() * 1e6 * 4e-6 * chi * 0.2;
     // χ is written with nine digits.
     assert!((gas.free_time * rate - 1.0).abs() < 1e-7, "{}", gas.free_time);
-    assert!((gas.rate / (500.0 * rate) - 1.0).abs() < 1e-7);
+    assert_close!(gas.rate, 500.0 * rate, 1e-7);
     // 1/(sqrt 2 pi n σ² χ)
     let path = 1.0 / (2.0_f64.sqrt() * std::f64::consts::PI * 4.0 * chi);
-    assert!((gas.free_path / path - 1.0).abs() < 1e-7);
-    assert!((gas.solid_fraction - 4.188_790_2e-3).abs() < 1e-9);
+    assert_close!(gas.free_path, path, 1e-7);
+    assert_near!(gas.solid_fraction, 4.188_790_2e-3, 1e-9);
     // Elastic: 500 x rate x 10 s.
-    assert!((means_of(&gas_of(MAXWELL, "1")).impacts / (5000.0 * rate) - 1.0).abs() < 1e-7);
+    assert_close!(means_of(&gas_of(MAXWELL, "1")).impacts, 5000.0 * rate, 1e-7);
 }
 
 /// Haff: t_H = 6 t_free/(1 - e²), and ∫ rate dt = rate t_H ln(1 + t/t_H).
@@ -83,7 +83,7 @@ fn a_gas_that_cools() {
     let haff = 6.0 * gas.free_time / 0.36;
     let by_hand = gas.rate * haff * (1.0 + 10.0 / haff).ln();
     // The midpoint rule in steps of 5 % errs by their square over 24, 1e-4.
-    assert!((means_of(&gas_of(MAXWELL, "0.8")).impacts / by_hand - 1.0).abs() < 3e-4);
+    assert_close!(means_of(&gas_of(MAXWELL, "0.8")).impacts, by_hand, 3e-4);
 }
 
 /// Where all stick, an impact takes 2 m s² of the energy 3 n m s²/2 with it, so that s² goes with n^(4/3), the rate with n (n - 1),
@@ -111,7 +111,7 @@ fn two_streams() {
     let gas = Gas::at_start(&Scenario::from_toml(&text).unwrap(), &[1000, 1000], None).unwrap();
     let chi = (1.0 - 4.188_790_2e-3) / (1.0_f64 - 8.377_580_4e-3).powi(3);
     // Each grain meets the other stream: n σ² pi u χ = 1e6 x 4e-6 x pi x 3 x χ.
-    assert!((gas.free_time * 12.0 * std::f64::consts::PI * chi - 1.0).abs() < 1e-9);
+    assert_near!(gas.free_time * 12.0 * std::f64::consts::PI * chi, 1.0, 1e-9);
 }
 
 /// At rest there are no impacts, and nothing is divided by them.
@@ -197,12 +197,12 @@ fn steps_of(text: &str) -> f64 {
 /// 2.817 us, then longer and longer. Over gaps the step is shorter than the shortest allowed here.
 #[test]
 fn steps_stay_within_their_bounds() {
-    assert!((13.0..120.0).contains(&steps_of(PUBLISHED)));
+    assert_between!(steps_of(PUBLISHED), 13.0..120.0);
     let over_gaps = PUBLISHED.replace("distance = \"centers\"", "distance = \"gap\"");
     let steps = steps_of(&over_gaps);
     let shortest = over_gaps.replace("longest_step = \"1 ms\"", "longest_step = \"10 ns\"");
     // Ten nanoseconds at the least and at the most.
-    assert!((steps_of(&shortest) - 1e6).abs() < 1e-3);
+    assert_near!(steps_of(&shortest), 1e6, 1e-3);
     assert!(steps < 1e6 && steps > 1000.0, "{steps}");
 }
 
@@ -224,7 +224,8 @@ fn a_short_run_is_known_by_running_it() {
         panic!()
     };
     assert_eq!((plan.impacts, plan.steps), (run.impacts as f64, Some(run.steps as f64)));
-    assert!(plan.disk.is_some() && plan.seconds.is_some());
+    assert_some!(plan.disk);
+    assert_some!(plan.seconds);
 }
 
 /// Grains of a table are those of its columns, not the group's: 2 mm and 3 m/s instead of 1 mm and rest.
@@ -244,11 +245,9 @@ fn a_gas_from_a_table_is_that_of_its_columns() {
     let scenario = Scenario::from_toml(&text).unwrap();
     let (grains, counts) = place_groups(&scenario, folder.path()).unwrap();
     let gas = Gas::at_start(&scenario, &counts, Some(&grains)).unwrap();
-    assert!(
-        (gas.solid_fraction / (10.0 * 4.0 / 3.0 * std::f64::consts::PI * 8e-9 / 1e-3) - 1.0).abs() < 1e-12
-    );
+    assert_close!(gas.solid_fraction, 10.0 * 4.0 / 3.0 * std::f64::consts::PI * 8e-9 / 1e-3, 1e-12);
     // One kind with a variance of 9 m²/s²: sqrt(8/(3π) 18).
-    assert!((gas.relative_speed / (48.0 / std::f64::consts::PI).sqrt() - 1.0).abs() < 1e-12);
+    assert_close!(gas.relative_speed, (48.0 / std::f64::consts::PI).sqrt(), 1e-12, "in m/s");
 }
 
 #[test]

@@ -119,6 +119,6 @@ mod tests {
             "{told:?}"
         );
         assert!(told[0].contains("is 0.2308 times"), "{told:?}");
-        assert!(found(4, &field(0.4))[0].contains("allowed"));
+        assert_contains!(found(4, &field(0.4))[0], "allowed");
     }
 }

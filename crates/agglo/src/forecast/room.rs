@@ -255,14 +255,15 @@ mod tests {
     #[test]
     fn what_the_machine_cannot_hold_is_refused_with_figures() {
         let shipped = demand("acoustic", &[]);
-        assert!(shipped.refuse_memory(&ROOM, 64).is_ok() && shipped.refuse_disk(&ROOM).is_ok());
+        assert_ok!(shipped.refuse_memory(&ROOM, 64));
+        assert_ok!(shipped.refuse_disk(&ROOM));
         let rays = demand("acoustic", &["acoustics.beams.0.rays=1000000000"]);
         let words = rays.refuse_memory(&ROOM, 1).unwrap_err().to_string();
         assert!(words.contains("about 120 GB of memory") && words.contains("16 GB"), "{words}");
         let pulses = ["acoustics.beams.0.pulses.count=2147483648", "acoustics.beams.0.pulses.period=1e-15 s"];
-        assert!(demand("acoustic", &pulses).refuse_memory(&ROOM, 1).is_err());
+        assert_err!(demand("acoustic", &pulses).refuse_memory(&ROOM, 1));
         // Those after the end of the run do not count.
-        assert!(demand("acoustic", &pulses[..1]).refuse_memory(&ROOM, 1).is_ok());
+        assert_ok!(demand("acoustic", &pulses[..1]).refuse_memory(&ROOM, 1));
         let frames = demand("reacting", &["output.frames=1e-12 s"]);
         let words = frames.refuse_disk(&ROOM).unwrap_err().to_string();
         assert!(
@@ -277,11 +278,11 @@ mod tests {
         let often = ["output.frames=1 ps", "output.series=1 ps", "time.end=10 ms"];
         let known = demand("microscale", &[&often[..], &["engine.verlet={step=\"1 us\"}"]].concat());
         assert!((10_000.0..10_100.0).contains(&known.frames) && known.rows == known.frames, "{known:?}");
-        assert!(known.refuse_disk(&ROOM).is_ok());
+        assert_ok!(known.refuse_disk(&ROOM));
         // How long its steps are is found out on the way.
         let automatic = demand("microscale", &often);
         assert_eq!(automatic.frames, 1e10);
-        assert!(automatic.refuse_disk(&ROOM).is_err());
+        assert_err!(automatic.refuse_disk(&ROOM));
         let rare = demand("microscale", &["engine.verlet={step=\"1 us\"}", "output.frames=1 us"]);
         assert!((299.9..300.1).contains(&rare.frames), "{rare:?}");
     }
@@ -309,7 +310,7 @@ mod tests {
         assert!(matches!(found, Err(PackingError::NoRoom { .. })), "{found:?}");
         let (_place, stop) = (Path::new(""), std::sync::atomic::AtomicBool::new(false));
         let found = crate::run::quiet(&scenario, Path::new(""), &stop);
-        assert!(matches!(found, Err(crate::run::RunError::Placement(PackingError::NoRoom { .. }))));
+        assert_matches!(found, Err(crate::run::RunError::Placement(PackingError::NoRoom { .. })));
     }
 
     #[test]
@@ -318,7 +319,8 @@ mod tests {
         let notes = judge(&ROOM, 8e9, Some(50e9)).unwrap();
         assert!(notes[0].contains("memory: about 8 GB of the 16 GB that are there"), "{notes:?}");
         assert!(notes[1].contains("disk: about 50 GB of the 100 GB that are there"), "{notes:?}");
-        assert!(judge(&ROOM, 17e9, None).is_err() && judge(&ROOM, 1e9, Some(f64::INFINITY)).is_err());
+        assert_err!(judge(&ROOM, 17e9, None));
+        assert_err!(judge(&ROOM, 1e9, Some(f64::INFINITY)));
         assert_eq!(judge(&Room::default(), 1e30, Some(1e30)).unwrap(), Vec::<String>::new());
     }
 

@@ -55,7 +55,7 @@ fn a_single_grain_is_hit_by_the_rays_that_its_cross_section_meets() {
         .replace("radius = \"5 cm\"", "radius = \"10 cm\"");
     let scenario = Scenario::from_toml(&text).unwrap();
     let push = &push::all(&scenario, &crate::packing::place(&scenario, Path::new("")).unwrap())[0];
-    assert!((push.power / 4.712_389e10 - 1.0).abs() < 1e-6);
+    assert_close!(push.power, 4.712_389e10, 1e-6, "in W");
     // 10,000 rays: 100 hits, with a standard deviation of 10.
     assert!((push.hits - 100.0).abs() < 40.0, "{}", push.hits);
     let by_hand = (4.712_389e6_f64 * (1.0 - 289.0 / 361.0) * 2.7e7 * 3.141_593e-4).sqrt();
@@ -97,7 +97,9 @@ fn speeds_after_a_pulse_are_those_of_a_run() {
     (free.contact, free.bonds, free.fields) = (None, None, crate::fields::Fields::default());
     free.limits.on_breach = crate::engine::soft::Breach::Warn;
     let mut run = crate::engine::soft::Simulation::start(&free, grains).unwrap();
+    let mut turns = agglo_testing::Turns::at_most(10_000_000, "the end of the run");
     while !run.is_finished() {
+        turns.take();
         run.step().unwrap();
     }
     let speeds = || run.system.grains.velocity.iter().map(|velocity| velocity.norm());
@@ -116,7 +118,7 @@ fn the_overlap_of_an_impact() {
     let mass = 6000.0 * 4.0 / 3.0 * std::f64::consts::PI * 0.05_f64.powi(3);
     let overlap = push.strain.unwrap() * 0.1;
     let stored = 8.0 / 15.0 * (0.5e9 / (1.0 - 0.0625)) * 0.025_f64.sqrt() * overlap.powf(2.5);
-    assert!((stored / (0.25 * mass * push.meeting_speed.powi(2)) - 1.0).abs() < 1e-9);
+    assert_close!(stored, 0.25 * mass * push.meeting_speed.powi(2), 1e-9, "in J");
 }
 
 #[test]
@@ -130,10 +132,10 @@ fn low_frequencies_are_noted() {
     let ka = format!("k a = {}", digits(std::f64::consts::TAU * 2e4 * smallest / 1500.0));
     assert!(plan.notes.iter().any(|note| note.contains(&ka)), "{ka} in {:?}", plan.notes);
     let notes = plan_of(template("microscale")).notes;
-    assert!(!notes.iter().any(|note| note.contains("do not hold")));
+    assert_no!(notes.iter(), |note| note.contains("do not hold"));
     assert!(notes.iter().any(|note| note.contains("a wave pushes less than rays do")), "{notes:?}");
     let silent = template("microscale").replace("frequency = \"250 MHz\"", "");
-    assert!(plan_of(&silent).notes.iter().any(|note| note.contains("no frequency")));
+    assert_any!(plan_of(&silent).notes.iter(), |note| note.contains("no frequency"));
 }
 
 /// The plan counts the grains that are placed, cuts of a lognormal included: 0.25 (300 um)³/(21.996 um)³ = 634.
@@ -160,11 +162,20 @@ fn lattices_are_counted() {
 fn a_beam_that_misses_is_noted() {
     let misses = |text: &str| plan_of(text).notes.iter().any(|note| note.contains("misses all grains"));
     let text = template("microscale");
-    assert!(!misses(text));
-    assert!(misses(&text.replace("direction = [1.0, 0.0, 0.0]", "direction = [-1.0, 0.0, 0.0]")));
+    assert_false!(misses(text), "the plan notes that the rays miss all grains");
+    assert_true!(
+        misses(&text.replace("direction = [1.0, 0.0, 0.0]", "direction = [-1.0, 0.0, 0.0]")),
+        "the plan notes that the rays miss all grains"
+    );
     // Grains reach to 0.3 mm and the beam is as wide: it misses them from 0.6 mm on.
-    assert!(misses(&text.replace("\"-0.33 mm\", \"0 mm\"", "\"-0.33 mm\", \"0.61 mm\"")));
-    assert!(!misses(&text.replace("\"-0.33 mm\", \"0 mm\"", "\"-0.33 mm\", \"0.59 mm\"")));
+    assert_true!(
+        misses(&text.replace("\"-0.33 mm\", \"0 mm\"", "\"-0.33 mm\", \"0.61 mm\"")),
+        "the plan notes that the rays miss all grains"
+    );
+    assert_false!(
+        misses(&text.replace("\"-0.33 mm\", \"0 mm\"", "\"-0.33 mm\", \"0.59 mm\"")),
+        "the plan notes that the rays miss all grains"
+    );
     // Grains in a box: the ball about it would reach the beam, the box does not.
     let box_of = |high: &str| {
         let region = format!(
@@ -173,7 +184,8 @@ fn a_beam_that_misses_is_noted() {
         text.replace("region.sphere = { radius = \"300 um\" }", &region)
             .replace("\"-0.33 mm\", \"0 mm\"", "\"-0.33 mm\", \"0.7 mm\"")
     };
-    assert!(misses(&box_of("0.39 mm")) && !misses(&box_of("0.41 mm")));
+    assert_true!(misses(&box_of("0.39 mm")), "the plan notes that the rays miss all grains");
+    assert_false!(misses(&box_of("0.41 mm")), "the plan notes that the rays miss all grains");
     // A single grain, named by its place: the beam passes it within a tenth of its radius.
     let one = |y: &str| {
         let grain = format!("placement.list.positions = [[\"0 m\", \"{y}\", \"0 m\"]]\n");
@@ -181,7 +193,8 @@ fn a_beam_that_misses_is_noted() {
         let (_, rest) = rest.split_once("[contact.normal.hertz]").unwrap();
         format!("{head}size.constant.radius = \"20 um\"\n{grain}[contact.normal.hertz]{rest}")
     };
-    assert!(misses(&one("0.322 mm")) && !misses(&one("0.318 mm")));
+    assert_true!(misses(&one("0.322 mm")), "the plan notes that the rays miss all grains");
+    assert_false!(misses(&one("0.318 mm")), "the plan notes that the rays miss all grains");
 }
 
 #[test]
@@ -203,7 +216,8 @@ fn what_is_tried_is_carried_on_to_the_end() {
     )
     .unwrap();
     let (steps, seconds) = (tried.quiet.all.steps, tried.start_s + tried.quiet.all.wall_s);
-    assert!(tried.is_finished && steps > 10.0);
+    assert_true!(tried.is_finished, "the run has come to its end");
+    assert_above!(steps, 10.0);
     let mut plan = Plan::default();
     cost::of_soft(&mut plan, &scenario, &tried, &[]);
     assert_eq!((plan.steps, plan.seconds), (Some(steps), Some(seconds)));
@@ -253,17 +267,31 @@ fn beams_that_cannot_do_what_they_say_are_noted() {
     let text = template("microscale");
     let says = |text: &str, words: &str| plan_of(text).notes.iter().any(|note| note.contains(words));
     let overlaps = |text: &str| says(text, "pulses overlap in time");
-    assert!(!overlaps(text) && !overlaps(&text.replace("period = \"50 us\"", "period = \"50 ns\"")));
-    assert!(overlaps(&text.replace("period = \"50 us\"", "period = \"49 ns\"")));
+    assert_false!(overlaps(text), "the plan notes that pulses overlap in time");
+    assert_false!(
+        overlaps(&text.replace("period = \"50 us\"", "period = \"50 ns\"")),
+        "the plan notes that pulses overlap in time"
+    );
+    assert_true!(
+        overlaps(&text.replace("period = \"50 us\"", "period = \"49 ns\"")),
+        "the plan notes that pulses overlap in time"
+    );
     // 50 ns is a cycle of 20 MHz.
     let short = |text: &str| says(text, "shorter than a cycle");
-    assert!(!short(&text.replace("250 MHz", "20 MHz")) && short(&text.replace("250 MHz", "19.9 MHz")));
+    assert_false!(short(&text.replace("250 MHz", "20 MHz")), "the plan notes a pulse shorter than a cycle");
+    assert_true!(short(&text.replace("250 MHz", "19.9 MHz")), "the plan notes a pulse shorter than a cycle");
     // From -0.33 mm to the ball of 0.3 mm it is 30 um, 20 ns in water; pulses start at 0 and then every 50 us.
     let late =
         |end: &str| says(&text.replace("end = \"300 us\"", &format!("end = \"{end}\"")), "after the end");
-    assert!(!late("300 us") && late("50.019 us") && !late("50.021 us"));
+    assert_false!(late("300 us"), "the plan notes a pulse after this end of the run");
+    assert_true!(late("50.019 us"), "the plan notes a pulse after this end of the run");
+    assert_false!(late("50.021 us"), "the plan notes a pulse after this end of the run");
     let among = |text: &str| says(text, "starts where grains.0 are placed");
-    assert!(!among(text) && among(&text.replace("\"-0.33 mm\"", "\"-0.29 mm\"")));
+    assert_false!(among(text), "the plan notes a beam that starts among the grains");
+    assert_true!(
+        among(&text.replace("\"-0.33 mm\"", "\"-0.29 mm\"")),
+        "the plan notes a beam that starts among the grains"
+    );
     // A grain on the disc's rim, named by its place, and a first pulse that comes later.
     let beside = |y: &str| {
         let grain = format!("placement.list.positions = [[\"-0.33 mm\", \"{y}\", \"0 m\"]]\n");
@@ -272,14 +300,15 @@ fn beams_that_cannot_do_what_they_say_are_noted() {
         let text = format!("{head}size.constant.radius = \"20 um\"\n{grain}[contact.normal.hertz]{rest}");
         text.replace("period = \"50 us\"", "period = \"50 us\"\nfirst = \"1 us\"")
     };
-    assert!(!among(&beside("0.3201 mm")) && among(&beside("0.3199 mm")));
+    assert_false!(among(&beside("0.3201 mm")), "the plan notes a beam that starts among the grains");
+    assert_true!(among(&beside("0.3199 mm")), "the plan notes a beam that starts among the grains");
 }
 
 /// Grains that take longer to come to rest than a forecast waits are tried without it, and the plan says so.
 #[test]
 fn rest_that_takes_long_is_left_out() {
     let scenario = Scenario::from_toml(include_str!("../../tests/scenario/good/every_choice.toml")).unwrap();
-    assert!(scenario.start.relax.is_some());
+    assert_some!(scenario.start.relax);
     let no_patience = Effort { budget: Duration::ZERO, ..Effort::default() };
     let plan = Plan::with(&scenario, Path::new("tests/scenario/good"), no_patience).unwrap();
     assert!(plan.notes.iter().any(|note| note.contains("start.relax takes long")), "{plan}");

@@ -73,8 +73,8 @@ mod tests {
     fn ends_and_middle() {
         let area = ContactArea { elastic: 0.1, sticking: 0.7 };
         for (restitution, part) in [(1.0, 0.1), (0.0, 0.7), (0.25, 0.55)] {
-            assert!((area.fraction(restitution) - part).abs() < 1e-15);
-            assert!((area.of(restitution, 2.0) - part * 12.566_370_614_359_172).abs() < 1e-14);
+            assert_near!(area.fraction(restitution), part, 1e-15);
+            assert_near!(area.of(restitution, 2.0), part * 12.566_370_614_359_172, 1e-14);
         }
         assert_eq!(ContactArea::default().fraction(1.0), 0.0);
         assert_eq!(ContactArea::default().fraction(0.0), 1.0);

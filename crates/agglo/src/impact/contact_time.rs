@@ -54,7 +54,7 @@ mod tests {
     #[test]
     fn the_way_of_compression() {
         let time = durations(0.3, 2e-6, 150.0, 0.8);
-        assert!((0.5 * 150.0 * time.compression / (0.3 * 2e-6) - 1.0).abs() < 1e-15);
-        assert!((time.recovery / time.compression - 0.8).abs() < 1e-15);
+        assert_close!(0.5 * 150.0 * time.compression, 0.3 * 2e-6, 1e-15);
+        assert_near!(time.recovery / time.compression, 0.8, 1e-15);
     }
 }

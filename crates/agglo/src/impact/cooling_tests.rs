@@ -44,12 +44,12 @@ fn towards_absolute_zero() {
     let (start, area, time): (f64, f64, f64) = (2e3, 0.02, 300.0);
     let k = 0.7 * STEFAN_BOLTZMANN * area;
     let wanted = start / (1.0 + 3.0 * k * start.powi(3) * time).cbrt();
-    assert!((exact(0.0, 0.7, 300.0, 0.0).cooled(start, area, time) / wanted - 1.0).abs() < 1e-14);
+    assert_close!(exact(0.0, 0.7, 300.0, 0.0).cooled(start, area, time), wanted, 1e-14);
     let weak = exact(1e-9, 0.7, 0.0, 0.0).cooled(start, area, time);
-    assert!((weak / wanted - 1.0).abs() < 1e-8);
+    assert_close!(weak, wanted, 1e-8);
     let strong = exact(0.5, 1e-30, 0.0, 0.0).cooled(start, area, time);
-    assert!((strong / (start * (-0.5 * area * time).exp()) - 1.0).abs() < 1e-12);
-    assert!(exact(0.5, 0.7, 0.0, 0.0).cooled(start, area, 1e12) > 0.0);
+    assert_close!(strong, start * (-0.5 * area * time).exp(), 1e-12);
+    assert_above!(exact(0.5, 0.7, 0.0, 0.0).cooled(start, area, 1e12), 0.0);
 }
 
 /// The rate at the start is that of the equation: a step of 1e-6 of the time of cooling, whose square is 1e-12 and more.
@@ -73,23 +73,33 @@ fn published_step_and_its_overshoot() {
     let cooler = Cooler::new(&law(10.0, 300.0, 280.0, Integration::Published), 0.5);
     let radiated = 0.5 * 5.670_374_419e-8 * (600.0_f64.powi(4) - 280.0_f64.powi(4));
     let wanted = 600.0 - 2.0 * 0.01 * (10.0 * 300.0 + radiated);
-    assert!((cooler.cooled(600.0, 0.01, 2.0) / wanted - 1.0).abs() < 1e-14);
-    assert!(!cooler.overshoots(600.0, 0.01, 2.0) && cooler.overshoots(1e9, 0.01, 1e-8));
+    assert_close!(cooler.cooled(600.0, 0.01, 2.0), wanted, 1e-14);
+    assert_false!(
+        cooler.overshoots(600.0, 0.01, 2.0),
+        "an explicit step of so many s takes more than the whole difference to the surroundings"
+    );
+    assert_true!(
+        cooler.overshoots(1e9, 0.01, 1e-8),
+        "an explicit step of so many s takes more than the whole difference to the surroundings"
+    );
     assert_eq!(cooler.cooled(1e9, 0.01, 1e-8), 280.0);
-    assert!(!exact(10.0, 0.5, 300.0, 280.0).overshoots(1e9, 0.01, 1e-8));
+    assert_false!(
+        exact(10.0, 0.5, 300.0, 280.0).overshoots(1e9, 0.01, 1e-8),
+        "an explicit step of so many s takes more than the whole difference to the surroundings"
+    );
 }
 
 #[test]
 fn what_does_not_cool() {
-    assert!(!exact(0.0, 0.0, 300.0, 300.0).acts());
+    assert_false!(exact(0.0, 0.0, 300.0, 300.0).acts(), "a body without emissivity and film cools");
     assert_eq!(exact(0.0, 0.0, 300.0, 300.0).cooled(500.0, 1.0, 1e9), 500.0);
     for cooler in
         [exact(1.0, 0.0, 300.0, 300.0), exact(0.0, 0.5, 300.0, 300.0), exact(1.0, 0.5, 300.0, 300.0)]
     {
         assert_eq!(cooler.cooled(300.0, 1.0, 1e3), 300.0);
         assert_eq!(cooler.cooled(500.0, 1.0, 0.0), 500.0);
-        assert!((cooler.cooled(1e14, 1.0, 1e12) - 300.0).abs() < 1e-12);
-        assert!((cooler.cooled(1.0, 1.0, 1e12) - 300.0).abs() < 1e-12);
+        assert_near!(cooler.cooled(1e14, 1.0, 1e12), 300.0, 1e-12);
+        assert_near!(cooler.cooled(1.0, 1.0, 1e12), 300.0, 1e-12);
     }
 }
 

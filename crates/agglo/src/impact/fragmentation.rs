@@ -258,8 +258,8 @@ mod tests {
             for step in 0..400 {
                 let energy = 1e-3 * 1.03_f64.powi(step);
                 let count = pieces(energy, 1.0, 0.5, primaries);
-                assert!((1..=primaries).contains(&count));
-                assert!(surface(count, 1.0, 0.5, primaries) <= energy);
+                assert_between!(count, 1..=primaries);
+                assert_at_most!(surface(count, 1.0, 0.5, primaries), energy, "in J");
             }
         }
     }
@@ -269,7 +269,7 @@ mod tests {
     fn surface_of_the_actual_pieces() {
         let radii = [3.0, 2.0, 2.0].map(|part: f64| 0.5 * (part / 7.0).cbrt());
         let by_hand = 4.0 * PI * 2.0 * (radii.iter().map(|b| b * b).sum::<f64>() - 0.25);
-        assert!((surface(3, 2.0, 0.5, 7) / by_hand - 1.0).abs() < 1e-14);
+        assert_close!(surface(3, 2.0, 0.5, 7), by_hand, 1e-14, "in J");
         assert_eq!(surface(1, 2.0, 0.5, 7), 0.0);
     }
 
@@ -297,7 +297,7 @@ mod tests {
                 let found = law.surface(count, gamma, radius, primaries, &draws);
                 // Sums of up to a hundred terms that are 1 before they are less.
                 assert!((found - by_hand).abs() < 1e-13 * sphere(radius), "{found} {by_hand}");
-                assert!(found <= surface(count, gamma, radius, primaries) * (1.0 + 1e-12));
+                assert_at_most!(found, surface(count, gamma, radius, primaries) * (1.0 + 1e-12));
                 most = most.max(surface(count, gamma, radius, primaries) / found);
             }
         }
@@ -311,7 +311,12 @@ mod tests {
             for (primaries, count) in [(2, 2), (10, 3), (1000, 17), (50, 50), (12, 1)] {
                 let shares = law.share(primaries, count, &Stream::new(3, Purpose::Sampling, primaries));
                 assert_eq!((shares.len(), shares.iter().sum::<u32>()), (count as usize, primaries));
-                assert!(shares.is_sorted_by(|a, b| a >= b) && shares.iter().all(|share| *share > 0));
+                assert_true!(
+                    shares.is_sorted_by(|a, b| a >= b),
+                    "from the largest to the smallest: {:?}",
+                    shares
+                );
+                assert_all!(shares.iter(), |share| *share > 0);
             }
         }
     }

@@ -103,7 +103,8 @@ mod tests {
     fn parts_add_up_and_follow_the_masses() {
         for masses in [[1.0, 1.0], [1e-9, 3e-7], [5.0, 2.0]] {
             let [a, b] = parts(Share::Mass, masses);
-            assert!((a + b - 1.0).abs() < 1e-15 && (a * masses[1] - b * masses[0]).abs() < 1e-15 * masses[0]);
+            assert_near!(a + b, 1.0, 1e-15);
+            assert_near!(a * masses[1], b * masses[0], 1e-15 * masses[0]);
         }
     }
 

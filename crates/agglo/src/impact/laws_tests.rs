@@ -45,16 +45,20 @@ fn an_impact_by_hand() {
     let one = Body { mass: 2.0, radius: 1.0, velocity: Vec3::new(6.0, 1.0, 0.0), ..Body::default() };
     let two = Body { mass: 3.0, radius: 1.0, velocity: Vec3::new(-4.0, 0.0, 0.0), ..Body::default() };
     let outcome = laws(rule, [""; 2]).impact([&one, &two], Vec3::AXES[0]);
-    assert!((outcome.velocities[0] - Vec3::new(-3.0, 0.4, 0.0)).norm() < 1e-14);
-    assert!((outcome.velocities[1] - Vec3::new(2.0, 0.4, 0.0)).norm() < 1e-14);
-    assert!((outcome.energy.normal - 45.0).abs() < 1e-13 && (outcome.energy.tangential - 0.6).abs() < 1e-14);
-    assert!((outcome.energy.heat - 45.6).abs() < 1e-13 && outcome.temperatures == [0.0; 2]);
-    assert!(outcome.converged && !outcome.sticks && outcome.pieces == [1, 1] && outcome.iterations == 0);
+    assert_near_vector!(outcome.velocities[0], Vec3::new(-3.0, 0.4, 0.0), 1e-14);
+    assert_near_vector!(outcome.velocities[1], Vec3::new(2.0, 0.4, 0.0), 1e-14);
+    assert_near!(outcome.energy.normal, 45.0, 1e-13);
+    assert_near!(outcome.energy.tangential, 0.6, 1e-14);
+    assert_near!(outcome.energy.heat, 45.6, 1e-13, "in J");
+    assert_eq!(outcome.temperatures, [0.0; 2]);
+    assert_true!(outcome.converged, "the law has found its solution");
+    assert_false!(outcome.sticks, "the pair sticks");
+    assert_eq!(outcome.pieces, [1, 1]);
+    assert_eq!(outcome.iterations, 0);
     let slippery = laws(&rule.replace("0.25", "0.05"), [""; 2]).impact([&one, &two], Vec3::AXES[0]);
     // J_t = 0.05·18 = 0.9 < 1.2.
-    assert!(
-        (slippery.velocities[0].y - 0.55).abs() < 1e-14 && (slippery.velocities[1].y - 0.3).abs() < 1e-14
-    );
+    assert_near!(slippery.velocities[0].y, 0.55, 1e-14);
+    assert_near!(slippery.velocities[1].y, 0.3, 1e-14);
 }
 
 #[test]
@@ -66,8 +70,9 @@ fn pairs_that_part_or_are_elastic() {
     assert_eq!((apart.temperatures, apart.energy), ([300.0; 2], ImpactEnergy::default()));
     let elastic = laws.elastic([&one, &two], Vec3::AXES[0]);
     let (old, new) = (kinetic([&one, &two], before([&one, &two])), kinetic([&one, &two], elastic.velocities));
-    assert!((new / old - 1.0).abs() < 1e-14 && elastic.energy == ImpactEnergy::default());
-    assert!(((elastic.velocities[1] - elastic.velocities[0]).x - 2.0).abs() < 1e-14);
+    assert_close!(new, old, 1e-14);
+    assert_eq!(elastic.energy, ImpactEnergy::default());
+    assert_near!((elastic.velocities[1] - elastic.velocities[0]).x, 2.0, 1e-14);
 }
 
 #[test]
@@ -76,17 +81,20 @@ fn sticking_pairs_have_one_velocity_or_only_no_rebound() {
     let (one, two) = (sphere(0, 1e-3, [3.0, 2.0, 0.0]), sphere(1, 2e-3, [-1.0, 0.0, 0.5]));
     let bodies = [&one, &two];
     let stuck = laws(rule, [""; 2]).impact(bodies, Vec3::AXES[0]);
-    assert!(stuck.sticks && stuck.velocities == [common_velocity(bodies); 2]);
+    assert_true!(stuck.sticks, "the pair sticks");
+    assert_eq!(stuck.velocities, [common_velocity(bodies); 2]);
     // All energy of relative motion: m* (4² + 2² + 0.5²)/2.
     let reduced = one.mass * two.mass / (one.mass + two.mass);
     let lost = stuck.energy.normal + stuck.energy.tangential;
-    assert!((lost / (0.5 * reduced * 20.25) - 1.0).abs() < 1e-14);
+    assert_close!(lost, 0.5 * reduced * 20.25, 1e-14);
     let never =
         laws(&format!("[impact]\nsticking = \"never\"\n{rule}"), [""; 2]).impact(bodies, Vec3::AXES[0]);
     let relative = never.velocities[0] - never.velocities[1];
-    assert!(!never.sticks && never.restitution == 0.0 && relative.x.abs() < 1e-15);
+    assert_false!(never.sticks, "the pair sticks");
+    assert_eq!(never.restitution, 0.0);
+    assert_below!(relative.x.abs(), 1e-15);
     // Friction took 0.1·4 m/s of the slip of √4.25 m/s.
-    assert!((relative.norm() - (4.25_f64.sqrt() - 0.4)).abs() < 1e-14);
+    assert_near!(relative.norm(), 4.25_f64.sqrt() - 0.4, 1e-14);
 }
 
 /// A pair that sticks also turns all of its slip into heat: 1 km/s of it is 156 K, which lowers H from 3.8e5 to 3.5e5 Pa;
@@ -100,9 +108,9 @@ fn the_heat_of_the_slip_decides_on_sticking() {
     let v = (6.0 * 3.65e5 / 2000.0_f64).sqrt();
     let target = sphere(0, 1e-3, [0.0; 3]);
     let (oblique, straight) = (sphere(0, 1e-3, [v, 1000.0, 0.0]), sphere(0, 1e-3, [v, 0.0, 0.0]));
-    assert!(merge.impact([&oblique, &target], Vec3::AXES[0]).sticks);
-    assert!(merge.impact([&straight, &target], Vec3::AXES[0]).restitution > 0.01);
-    assert!(never.impact([&oblique, &target], Vec3::AXES[0]).restitution > 0.01);
+    assert_true!(merge.impact([&oblique, &target], Vec3::AXES[0]).sticks, "the pair sticks");
+    assert_above!(merge.impact([&straight, &target], Vec3::AXES[0]).restitution, 0.01);
+    assert_above!(never.impact([&oblique, &target], Vec3::AXES[0]).restitution, 0.01);
 }
 
 /// Mixtures override the restitution, also that of `hardness`, and the friction.
@@ -114,10 +122,8 @@ fn mixtures_have_the_last_word() {
     let mixed = laws.impact([&one, &two], Vec3::AXES[0]);
     let alike = laws.impact([&one, &one], Vec3::AXES[0]);
     assert_eq!((mixed.restitution, alike.restitution), (0.3, 1.0));
-    assert!(
-        mixed.energy.tangential > 0.0
-            && laws.impact([&one, &Body { material: 0, ..two }], Vec3::AXES[0]).energy.tangential == 0.0
-    );
+    assert_above!(mixed.energy.tangential, 0.0);
+    assert_eq!(laws.impact([&one, &Body { material: 0, ..two }], Vec3::AXES[0]).energy.tangential, 0.0);
 }
 
 /// A hard sphere and a soft one, either named first: H is the softer's, so that e is what it is between two soft ones of the
@@ -213,7 +219,7 @@ fn coupled_solution_holds_its_equations() {
         for after in outcome.temperatures {
             assert!(((after - 300.0) / warmer - 1.0).abs() < 1e-9, "{v}");
         }
-        assert!((outcome.energy.heat / heat - 1.0).abs() < 1e-13);
+        assert_close!(outcome.energy.heat, heat, 1e-13, "in J");
     }
 }
 
@@ -255,20 +261,27 @@ fn fixed_point_as_printed() {
     let x = 0.5 * one.mass * 144.0 / (4.0 * PI * 1e-9 * 3e5);
     let run = |more: &str| laws(&format!("{HARDNESS}\n{more}"), cold).impact([&one, &two], Vec3::AXES[0]);
     let odd = run("solver.fixed_point = { most_iterations = 7 }");
-    assert!(!odd.converged && odd.iterations == 7 && (odd.restitution - (1.0 - x)).abs() < 1e-15);
+    assert_false!(odd.converged, "the law has found its solution");
+    assert_eq!(odd.iterations, 7);
+    assert_near!(odd.restitution, 1.0 - x, 1e-15);
     let even = run("solver.fixed_point = { most_iterations = 8 }");
-    assert!(!even.converged && even.restitution == 0.0 && even.sticks);
+    assert_false!(even.converged, "the law has found its solution");
+    assert_eq!(even.restitution, 0.0);
+    assert_true!(even.sticks, "the pair sticks");
     let level = run("elastic_area = 0.5\nsticking_area = 0.5\nsolver.fixed_point = {}");
-    assert!(level.converged && level.iterations == 2 && (level.restitution - (1.0 - 2.0 * x)).abs() < 1e-15);
+    assert_true!(level.converged, "the law has found its solution");
+    assert_eq!(level.iterations, 2);
+    assert_near!(level.restitution, 1.0 - 2.0 * x, 1e-15);
     let bracketed = run("elastic_area = 0.5\nsticking_area = 0.5");
-    assert!((bracketed.restitution - level.restitution).abs() < 1e-15);
+    assert_near!(bracketed.restitution, level.restitution, 1e-15);
     // Within its tolerance of 5e-4 it finds the coupled root too, where the areas differ little.
     let areas = "elastic_area = 0.8\nsticking_area = 0.9\n";
     let coupled = |more: &str| {
         laws(&format!("{HARDNESS}\n{areas}{more}"), [REACTIVE; 2]).impact([&one, &two], Vec3::AXES[0])
     };
     let (plain, sound) = (coupled("solver.fixed_point = {}"), coupled(""));
-    assert!(plain.converged && (plain.restitution / sound.restitution - 1.0).abs() < 5e-4);
+    assert_true!(plain.converged, "the law has found its solution");
+    assert_close!(plain.restitution, sound.restitution, 5e-4);
 }
 
 /// With the mean force over compression alone, as 4.14 has it, the work of 4.4-4.9 is 1 + e times as much, since its peak is
@@ -297,16 +310,18 @@ fn val_zohdi_2004_published_heat() {
     let outcome = laws.impact([&one, &two], Vec3::AXES[0]);
     // Velocities -3 and 2; m* v² = 120; a_c = π/8.
     let (own, both) = ([36.0 - 9.0, 24.0 - 6.0], 0.75 * 120.0 / 3.0 + 2.0 * PI / 8.0);
-    assert!((outcome.temperatures[0] - 300.0 - (own[0] + both) / 4.0).abs() < 1e-12);
-    assert!((outcome.temperatures[1] - 300.0 - (own[1] + both) / 5.0).abs() < 1e-12);
-    assert!((outcome.energy.heat - (45.0 + 2.0 * both)).abs() < 1e-12);
-    assert!((outcome.energy.reaction - PI / 2.0).abs() < 1e-14);
+    assert_near!(outcome.temperatures[0] - 300.0, (own[0] + both) / 4.0, 1e-12);
+    assert_near!(outcome.temperatures[1] - 300.0, (own[1] + both) / 5.0, 1e-12);
+    assert_near!(outcome.energy.heat, 45.0 + 2.0 * both, 1e-12, "in J");
+    assert_near!(outcome.energy.reaction, PI / 2.0, 1e-14);
     // In a fast cloud the partner that is pushed along gains energy and cools; below zero it keeps its temperature.
     let fly = |body: Body| Body { velocity: body.velocity + Vec3::new(1e4, 0.0, 0.0), ..body };
     let (fast_one, fast_two) = (fly(one), fly(two));
     let refused = laws.impact([&fast_one, &fast_two], Vec3::AXES[0]);
-    assert!(!refused.converged && refused.temperatures[1] == 300.0 && refused.temperatures[0] > 300.0);
-    assert!((refused.energy.heat - 4.0 * (refused.temperatures[0] - 300.0)).abs() < 1e-6);
+    assert_false!(refused.converged, "the law has found its solution");
+    assert_eq!(refused.temperatures[1], 300.0);
+    assert_above!(refused.temperatures[0], 300.0, "in K");
+    assert_near!(refused.energy.heat, 4.0 * (refused.temperatures[0] - 300.0), 1e-6, "in J");
 }
 
 /// A tough partner breaks with the other's share of the loss, and its surface is taken from the heat.
@@ -327,13 +342,16 @@ fn breaking_takes_its_surface_from_the_heat() {
     let outcome = laws.impact([&one, &two], Vec3::AXES[0]);
     assert_eq!(outcome.pieces, [1, 5]);
     let lost = 0.5 * reduced * one.velocity.norm_squared();
-    assert!(!outcome.sticks && outcome.restitution == 0.0 && outcome.velocities[0] == outcome.velocities[1]);
+    assert_false!(outcome.sticks, "the pair sticks");
+    assert_eq!(outcome.restitution, 0.0);
+    assert_eq!(outcome.velocities[0], outcome.velocities[1]);
     let surface = super::super::fragmentation::surface(outcome.pieces[1], 30.0, 1e-3, 12);
-    assert!((outcome.energy.surface / surface - 1.0).abs() < 1e-15);
-    assert!((outcome.energy.heat / (lost - surface) - 1.0).abs() < 1e-13);
+    assert_close!(outcome.energy.surface, surface, 1e-15, "in J");
+    assert_close!(outcome.energy.heat, lost - surface, 1e-13, "in J");
     assert_eq!(laws.share_primaries(&two, 5, Draws::new(0, 0).of(1)), [3, 3, 2, 2, 2]);
     let single = laws.impact([&one, &Body { primaries: 1, ..two }], Vec3::AXES[0]);
-    assert!(single.sticks && single.energy.surface == 0.0);
+    assert_true!(single.sticks, "the pair sticks");
+    assert_eq!(single.energy.surface, 0.0);
 }
 
 #[test]
@@ -344,9 +362,9 @@ fn heat_without_capacity_is_booked() {
     let bare = Body { heat_capacity: 0.0, ..two };
     let outcome = laws.impact([&one, &bare], Vec3::AXES[0]);
     assert_eq!(outcome.temperatures[1], 300.0);
-    assert!((outcome.energy.heat / outcome.energy.normal - 1.0).abs() < 1e-15);
+    assert_close!(outcome.energy.heat, outcome.energy.normal, 1e-15, "in J");
     let half = 0.5 * outcome.energy.normal / one.heat_capacity;
-    assert!(((outcome.temperatures[0] - 300.0) / half - 1.0).abs() < 1e-9);
+    assert_close!(outcome.temperatures[0] - 300.0, half, 1e-9);
 }
 
 /// Cooling by the material's emissivity, the body's surface and its heat capacity; none without one of them.
@@ -361,7 +379,7 @@ fn bodies_cool_by_their_own_surface_and_capacity() {
     assert!(laws.cools() && ((900.0 - after) / (1e-4 * rate) - 1.0).abs() < 1e-4, "{after} {rate}");
     assert_eq!(laws.cooled(&Body { material: 1, ..hot }, 1.0), 900.0);
     assert_eq!(laws.cooled(&Body { heat_capacity: 0.0, ..hot }, 1.0), 900.0);
-    assert!(!laws.cooling_overshoots(&hot, 1e9));
+    assert_false!(laws.cooling_overshoots(&hot, 1e9), "heat lost in a step of 1e9 s");
 }
 
 #[test]
@@ -373,7 +391,8 @@ fn names_and_warnings() {
     assert_eq!(published.standing_warnings().len(), 6);
     assert_eq!(published.names().len(), 5);
     let sound = laws(HARDNESS, [REACTIVE, TOUGH]);
-    assert!(sound.standing_warnings().is_empty() && !sound.cools());
+    assert_empty!(sound.standing_warnings());
+    assert_false!(sound.cools(), "the laws cool");
     assert_eq!(sound.names(), ["impact.restitution.hardness", "impact.sticking.merge"]);
 }
 

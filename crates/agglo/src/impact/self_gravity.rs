@@ -49,6 +49,6 @@ mod tests {
         let b = critical_radius(density, hardness);
         let mass = 4.0 / 3.0 * PI * density * b.powi(3);
         let attraction = 6.674_30e-11 * mass * mass / (4.0 * b * b);
-        assert!((attraction / (2.0 * hardness * PI * b * b) - 1.0).abs() < 1e-14);
+        assert_close!(attraction, 2.0 * hardness * PI * b * b, 1e-14);
     }
 }

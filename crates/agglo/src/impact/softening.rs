@@ -84,17 +84,18 @@ mod tests {
     /// exp(Q/(R T)) from mpmath: Q = 500 J/mol at 500 K, Q = 20 kJ/mol at 1000 K.
     #[test]
     fn numbers_by_mpmath() {
-        assert!((Hardness::new(1.0, 500.0).at(500.0) / 1.127_803_972_856_176_5 - 1.0).abs() < 1e-14);
-        assert!((Hardness::new(3e5, 2e4).at(1e3) / 3e5 / 11.083_384_565_773_28 - 1.0).abs() < 1e-14);
+        assert_close!(Hardness::new(1.0, 500.0).at(500.0), 1.127_803_972_856_176_5, 1e-14);
+        assert_close!(Hardness::new(3e5, 2e4).at(1e3) / 3e5, 11.083_384_565_773_28, 1e-14);
     }
 
     #[test]
     fn limits() {
         let hard = Hardness::new(2e5, 300.0);
-        assert!((hard.at(1e12) / 2e5 - 1.0).abs() < 1e-9);
-        assert!(hard.at(1.0) > 1e15 * hard.at(300.0));
+        assert_close!(hard.at(1e12), 2e5, 1e-9);
+        assert_above!(hard.at(1.0), 1e15 * hard.at(300.0));
         assert_eq!(Hardness::new(2e5, 0.0).at(0.0), 2e5);
-        assert!(hard.softens() && !Hardness::infinite().softens());
+        assert_true!(hard.softens(), "hardness falls with temperature");
+        assert_false!(Hardness::infinite().softens(), "hardness falls with temperature");
         assert_eq!(Hardness::infinite().at(300.0), f64::INFINITY);
     }
 }

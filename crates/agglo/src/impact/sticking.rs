@@ -126,11 +126,12 @@ mod tests {
         let [a, b] = pair();
         let (one, place) = merged([&a, &b], [Vec3::new(1.0, 2.0, 3.0), Vec3::ZERO]);
         let momentum = a.velocity * a.mass + b.velocity * b.mass;
-        assert!((one.velocity * 1.4 - momentum).norm() < 1e-15);
-        assert!((one.mass - 1.4).abs() < 1e-15 && (one.heat_capacity - 200.0).abs() < 1e-13);
-        assert!((one.temperature * 200.0 - (6e4 + 5.6e4)).abs() < 1e-10);
-        assert!((one.radius.powi(3) - (0.343 + 2.197)).abs() < 1e-14);
-        assert!((place - Vec3::new(1.0, 2.0, 3.0) * (0.3 / 1.4)).norm() < 1e-15);
+        assert_near_vector!(one.velocity * 1.4, momentum, 1e-15);
+        assert_near!(one.mass, 1.4, 1e-15, "in kg");
+        assert_near!(one.heat_capacity, 200.0, 1e-13);
+        assert_near!(one.temperature * 200.0, 6e4 + 5.6e4, 1e-10);
+        assert_near!(one.radius.powi(3), 0.343 + 2.197, 1e-14);
+        assert_near_vector!(place, Vec3::new(1.0, 2.0, 3.0) * (0.3 / 1.4), 1e-15, "in m");
         assert_eq!((one.primaries, one.material), (11, 3));
     }
 
@@ -149,7 +150,7 @@ mod tests {
     fn temperatures_without_heat_capacity() {
         let [a, b] = pair().map(|body| Body { heat_capacity: 0.0, ..body });
         let (one, _) = merged([&a, &b], [Vec3::ZERO; 2]);
-        assert!((one.temperature - (300.0 + 440.0) / 1.4).abs() < 1e-12);
+        assert_near!(one.temperature, (300.0 + 440.0) / 1.4, 1e-12, "in K");
         let warm = Body { heat_capacity: 2.0, ..b };
         assert_eq!(merged([&a, &warm], [Vec3::ZERO; 2]).0.temperature, 400.0);
     }

@@ -92,7 +92,7 @@ mod tests {
             let after = 0.5 * first * (v - impulse / first) * (v - impulse / first)
                 + 0.5 * second * (w + impulse / second) * (w + impulse / second);
             let before = 0.5 * first * v * v + 0.5 * second * w * w;
-            assert!((loss(impulse, reduced, slip) - (before - after)).abs() < 1e-13);
+            assert_near!(loss(impulse, reduced, slip), before - after, 1e-13);
         }
     }
 
@@ -102,7 +102,7 @@ mod tests {
         let bound = SlipLimit::NoSlip.impulse(1e9, 1.0, 2.0, 3.0);
         assert_eq!((bound, loss(bound, 2.0, 3.0)), (6.0, 9.0));
         assert_eq!(loss(12.0, 2.0, 3.0), 0.0);
-        assert!(loss(SlipLimit::Published.impulse(13.0, 1.0, 2.0, 3.0), 2.0, 3.0) < 0.0);
+        assert_below!(loss(SlipLimit::Published.impulse(13.0, 1.0, 2.0, 3.0), 2.0, 3.0), 0.0);
         assert_eq!(SlipLimit::Published.impulse(13.0, 1.0, 2.0, 0.0), 0.0);
         assert_eq!(SlipLimit::NoSlip.impulse(13.0, 1.0, 2.0, 0.0), 0.0);
     }

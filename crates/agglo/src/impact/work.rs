@@ -87,7 +87,7 @@ mod tests {
                 0.0
             };
             // Round-off of a dozen operations.
-            assert!((work(force_over, mass, v, restitution) / (pressed + freed).abs() - 1.0).abs() < 1e-14);
+            assert_close!(work(force_over, mass, v, restitution), (pressed + freed).abs(), 1e-14, "in J");
         }
     }
 }

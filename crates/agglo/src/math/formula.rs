@@ -168,8 +168,10 @@ mod tests {
     fn constants_of_the_parser_are_names() {
         for word in ["pi", "PI", "π", "e", "E", "tau", "TAU", "τ"] {
             assert_eq!(parse(&format!("2*{word}*x")).unwrap().names, [word, "x"]);
-            assert!(word == "pi" || advice(word).is_some());
+            assert!(word == "pi" || advice(word).is_some(), "no advice on {word}");
         }
-        assert!(meaning("Pi").is_some() && meaning("sin").is_some() && meaning("e").is_none());
+        assert_some!(meaning("Pi"));
+        assert_some!(meaning("sin"));
+        assert_none!(meaning("e"));
     }
 }

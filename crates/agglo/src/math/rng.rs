@@ -131,12 +131,12 @@ mod tests {
         let (mut sum, mut squares) = (0.0, 0.0);
         for _ in 0..n {
             let u = stream.uniform();
-            assert!((0.0..1.0).contains(&u));
+            assert_between!(u, 0.0..1.0);
             sum += u;
             squares += (u - 0.5) * (u - 0.5);
         }
-        assert!((sum / n as f64 - 0.5).abs() < 5.0 * (1.0 / 12.0_f64 / n as f64).sqrt());
-        assert!((squares / n as f64 - 1.0 / 12.0).abs() < 5.0 * (1.0 / 180.0_f64 / n as f64).sqrt());
+        assert_near!(sum / n as f64, 0.5, 5.0 * (1.0 / 12.0_f64 / n as f64).sqrt());
+        assert_near!(squares / n as f64, 1.0 / 12.0, 5.0 * (1.0 / 180.0_f64 / n as f64).sqrt());
     }
 
     #[test]

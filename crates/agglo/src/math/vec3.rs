@@ -237,14 +237,15 @@ mod tests {
     fn frame_is_right_handed_and_orthonormal() {
         for axis in [Vec3::new(0.0, 0.0, 1.0), Vec3::new(1.0, -2.0, 0.5).normalized(), -Vec3::AXES[0]] {
             let (e1, e2) = axis.frame();
-            assert!((e1.norm() - 1.0).abs() < 1e-15 && (e2.norm() - 1.0).abs() < 1e-15);
-            assert!((e1.cross(e2) - axis).norm() < 1e-15);
+            assert_near!(e1.norm(), 1.0, 1e-15);
+            assert_near!(e2.norm(), 1.0, 1e-15);
+            assert_near_vector!(e1.cross(e2), axis, 1e-15);
         }
     }
 
     #[test]
     fn rotation_by_a_right_angle() {
         let turned = Vec3::AXES[0].rotated_about(Vec3::AXES[2], std::f64::consts::FRAC_PI_2);
-        assert!((turned - Vec3::AXES[1]).norm() < 1e-15);
+        assert_near_vector!(turned, Vec3::AXES[1], 1e-15);
     }
 }

@@ -59,7 +59,7 @@ mod tests {
         assert!((found - 0.133_407_488_38).abs() < 1e-15, "{found}");
         // Twice as hot radiates eight times as steeply.
         let [once, twice] = [500.0, 1000.0].map(|hot| biot_number(1.0, 1.0, 0.0, 1.0, hot).unwrap());
-        assert!((twice / once - 8.0).abs() < 1e-14);
+        assert_near!(twice / once, 8.0, 1e-14);
         assert_eq!(biot_number(1.0, 0.0, 1.0, 1.0, 300.0), None);
     }
 }

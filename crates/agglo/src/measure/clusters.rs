@@ -144,7 +144,7 @@ mod tests {
         );
         assert_eq!(found.size_distribution(), [(1, 2), (2, 2)]);
         assert_eq!(found.members(1), [0, 4]);
-        assert!((found.largest_mass_fraction() - 0.5).abs() < 1e-15);
+        assert_near!(found.largest_mass_fraction(), 0.5, 1e-15);
         assert_eq!(found.count(), 4);
     }
 
@@ -179,7 +179,12 @@ mod tests {
                 assert_eq!(found.labels[a] == found.labels[b], fill[a] == fill[b]);
             }
         }
-        assert!(found.sizes.is_sorted_by(|a, b| a >= b) && found.sizes[0] > 10);
+        assert_true!(
+            found.sizes.is_sorted_by(|a, b| a >= b),
+            "from the largest to the smallest: {:?}",
+            found.sizes
+        );
+        assert_above!(found.sizes[0], 10);
     }
 
     /// A long chain joined end to end: no recursion, and not slow.

@@ -88,7 +88,7 @@ mod tests {
         for (found, expected) in
             [found.mean, found.deviation, found.skewness, found.kurtosis].iter().zip(expected)
         {
-            assert!((found - expected).abs() < 1e-14);
+            assert_near!(*found, expected, 1e-14);
         }
     }
 
@@ -99,10 +99,10 @@ mod tests {
         let values: Vec<f64> = (0..1001).map(|k| 1e6 + f64::from(k)).collect();
         let found = moments(&values, &vec![0.3; 1001]).unwrap();
         // The offset of 1e6 costs nothing: all differences are exact.
-        assert!((found.mean - 1_000_500.0).abs() < 1e-9);
-        assert!((found.deviation / ((n * n - 1.0) / 12.0).sqrt() - 1.0).abs() < 1e-13);
-        assert!(found.skewness.abs() < 1e-12);
-        assert!((found.kurtosis / (1.8 * (n * n - 7.0 / 3.0) / (n * n - 1.0)) - 1.0).abs() < 1e-13);
+        assert_near!(found.mean, 1_000_500.0, 1e-9);
+        assert_close!(found.deviation, ((n * n - 1.0) / 12.0).sqrt(), 1e-13);
+        assert_below!(found.skewness.abs(), 1e-12);
+        assert_close!(found.kurtosis, 1.8 * (n * n - 7.0 / 3.0) / (n * n - 1.0), 1e-13);
     }
 
     #[test]

@@ -64,7 +64,7 @@ mod tests {
             others.map(|(_, point)| (*point - cloud[at]).norm()).fold(f64::INFINITY, f64::min)
         };
         let exact = (0..200).map(brute).sum::<f64>() / 200.0;
-        assert!((mean_nearest_distance(&cloud[..1]) - 0.0).abs() == 0.0);
-        assert!((exact / found - 1.0).abs() < 0.15);
+        assert_eq!((mean_nearest_distance(&cloud[..1]) - 0.0).abs(), 0.0);
+        assert_close!(found, exact, 0.15);
     }
 }

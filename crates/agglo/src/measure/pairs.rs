@@ -113,7 +113,7 @@ mod tests {
                     }
                 }
                 assert_eq!(close(&positions, &radii, gap), brute, "{spread:?} {gap}");
-                assert!(!brute.is_empty() || spread[0] > 1e8);
+                assert!(!brute.is_empty() || spread[0] > 1e8, "no pair in a spread of {spread:?}");
             }
         }
     }

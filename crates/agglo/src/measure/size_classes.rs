@@ -71,7 +71,7 @@ mod tests {
 
     #[test]
     fn no_grains_have_no_classes() {
-        assert!(size_classes(&[], &[]).is_empty());
+        assert_empty!(size_classes(&[], &[]));
     }
 
     /// Masses of small whole numbers: their sums are exact.

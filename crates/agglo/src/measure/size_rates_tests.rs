@@ -179,7 +179,7 @@ fn columns_and_values_are_as_many() {
     assert_eq!(rates.breakage_rows(2.0)[0].values().len(), BreakageRow::COLUMNS.len());
     assert_eq!(rates.daughter_rows()[0].values().len(), DaughterRow::COLUMNS.len());
     // Two singles for 1 s met never: no probability.
-    assert!(rates.kernel_rows(2.0)[0].values()[11].is_nan());
+    assert_nan!(rates.kernel_rows(2.0)[0].values()[11]);
 }
 
 /// Figures that are all different, each under its own name and bounds in their order.

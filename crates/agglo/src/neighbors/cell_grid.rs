@@ -181,9 +181,8 @@ mod tests {
                     grid.visit_partners(&positions, &radii, sphere as u32, 0.0, |other| {
                         found.push(other as usize);
                     });
-                    assert!(
-                        (0..positions.len()).filter(|&other| near(other)).all(|other| found.contains(&other))
-                    );
+                    assert_all!((0..positions.len()).filter(|&other| near(other)), |other| found
+                        .contains(&other));
                 }
             }
         }

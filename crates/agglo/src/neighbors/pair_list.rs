@@ -200,7 +200,7 @@ mod tests {
             assert_eq!(pairs, brute(&positions, &radii, 0.02), "spread {spread}, ratio {ratio}");
             let partners = list.partners();
             for grain in 0..400 {
-                assert!(list.joined(grain).iter().all(|pair| partners[*pair as usize] as usize == grain));
+                assert_all!(list.joined(grain).iter(), |pair| partners[*pair as usize] as usize == grain);
             }
         }
     }
@@ -211,8 +211,8 @@ mod tests {
         let mut list = PairList::default();
         list.build(&positions, &radii, 0.0, 0.02);
         positions[7].x += 0.0099;
-        assert!(list.holds_for(&positions));
+        assert_true!(list.holds_for(&positions), "no grain has come nearer than the list allows for");
         positions[7].x += 0.0002;
-        assert!(!list.holds_for(&positions));
+        assert_false!(list.holds_for(&positions), "no grain has come nearer than the list allows for");
     }
 }

@@ -78,7 +78,11 @@ fn filled_volumes_are_clear_of_all_images() {
             let request = group("ink", size.clone(), fill(None, Some(0.25), 0.001));
             let grains = started(&volume, vec![request]).unwrap();
             assert_eq!(grains.len(), wanted);
-            assert!(grains.radius.is_sorted_by(|a, b| a >= b));
+            assert_true!(
+                grains.radius.is_sorted_by(|a, b| a >= b),
+                "from the largest to the smallest: {:?}",
+                grains.radius
+            );
             let mut swollen = grains.clone();
             // The gap less the rounding of distances.
             swollen.radius.iter_mut().for_each(|radius| *radius += 0.0005 - 1e-12);
@@ -86,7 +90,7 @@ fn filled_volumes_are_clear_of_all_images() {
             assert_eq!(overlaps(&swollen, images), [], "{boundary:?}");
             let block = Region::Box(Block { lower: volume.lower, upper: volume.upper });
             let whole = |at: usize| block.contains(grains.position[at], grains.radius[at] * (1.0 - 1e-12));
-            assert!(grains.position.iter().all(|&position| volume.contains(position)));
+            assert_all!(grains.position.iter(), |&position| volume.contains(position));
             assert_eq!((0..grains.len()).all(whole), !boundary.wraps());
         }
     }
@@ -121,7 +125,7 @@ fn periodic_fills_saturate_where_others_found() {
     let PackingError::Saturated { placed, reached, .. } = error else { panic!("{error}") };
     assert!((reached / 0.3841 - 1.0).abs() < 0.01, "{reached}");
     let solid = placed as f64 * radius(0.7).mean_volume() / 40.0_f64.powi(3);
-    assert!((reached / solid - 1.0).abs() < 1e-12);
+    assert_close!(reached, solid, 1e-12);
 }
 
 #[test]
@@ -135,7 +139,7 @@ fn volumes_that_are_only_just_wide_enough() {
     assert!(matches!(narrow, PackingError::TooLarge { .. }), "{narrow}");
     // The grain's own image must be as far away as any other grain.
     assert_eq!(one([0.21, 0.3, 0.4], 0.009).unwrap().len(), 1);
-    assert!(one([0.21, 0.3, 0.4], 0.011).is_err());
+    assert_err!(one([0.21, 0.3, 0.4], 0.011));
     let long = volume([0.205, 0.205, 10.0], Boundary::Periodic);
     let grains = started(&long, vec![group("ink", radius(0.1), fill(Some(35), None, 0.0))]).unwrap();
     assert_eq!(overlaps(&grains, Some(&long)), []);
@@ -172,7 +176,7 @@ fn what_cannot_be_filled_is_refused() {
         assert!(message.starts_with("grains[0].placement.fill: "), "{message}");
     }
     for edges in [[-1.0, -1.0, 1.0], [0.0, 1.0, 1.0]] {
-        assert!(started(&volume(edges, Boundary::Periodic), request()).is_err());
+        assert_err!(started(&volume(edges, Boundary::Periodic), request()));
     }
 }
 
@@ -195,10 +199,10 @@ fn velocities_scatter_about_the_groups_own() {
         mass += grains.mass[at];
         square += (grains.velocity[at] - Vec3::new(1.0, 2.0, 3.0)).norm_squared();
     }
-    assert!((momentum / mass - Vec3::new(1.0, 2.0, 3.0)).norm() < 1e-14);
+    assert_near_vector!(momentum / mass, Vec3::new(1.0, 2.0, 3.0), 1e-14);
     // Three components of deviation 2; the mean of n squares of normal numbers scatters by sqrt(2/n).
     let components = 3.0 * grains.len() as f64;
-    assert!((square / components / 4.0 - 1.0).abs() < 5.0 * (2.0 / components).sqrt());
+    assert_close!(square / components, 4.0, 5.0 * (2.0 / components).sqrt());
 }
 
 #[test]
@@ -240,11 +244,11 @@ fn rows_with_velocities_and_temperatures_of_their_own_keep_them() {
     assert_eq!(grains.velocity[4], Vec3::new(0.0, 0.0, 9.0));
     assert_eq!(grains.temperature, [450.0, 700.0, 600.0, 600.0, 600.0]);
     // The material's stiffness is that at the row's temperature: 1e7 Pa exp(-(T/500 K - 1)).
-    assert!((grains.contact_stiffness[0] / (1e7 * 0.1_f64.exp()) - 1.0).abs() < 1e-14);
+    assert_close!(grains.contact_stiffness[0], 1e7 * 0.1_f64.exp(), 1e-14, "in N/m");
     // The two bare rows scatter about (1, 2, 3) m/s and have that mean.
-    assert!((grains.velocity[2] - grains.velocity[3]).norm() > 0.1);
+    assert_above!((grains.velocity[2] - grains.velocity[3]).norm(), 0.1);
     let mean = (grains.velocity[2] + grains.velocity[3]) * 0.5;
-    assert!((mean - Vec3::new(1.0, 2.0, 3.0)).norm() < 1e-14);
+    assert_near_vector!(mean, Vec3::new(1.0, 2.0, 3.0), 1e-14);
 }
 
 /// Clouds with few overlaps, of radii over a decade, in boxes from two to many diameters wide: the pair with the smallest
@@ -270,7 +274,7 @@ fn first_overlap_agrees_with_brute_force() {
             let found = first_overlap(&grains, Some(&volume));
             assert_eq!(found.map(|found| found.ids), expected.map(|expected| expected.ids));
             if let (Some(found), Some(expected)) = (found, expected) {
-                assert!((found.overlap - expected.overlap).abs() < 1e-14);
+                assert_near!(found.overlap, expected.overlap, 1e-14, "in m");
                 own += usize::from(found.ids[0] == found.ids[1]);
             }
             grains.reorder(&backwards);
@@ -312,15 +316,15 @@ fn hard_spheres_that_cannot_start_are_refused() {
     }
     // Across a face only periodic neighbours count.
     let across: &[[f64; 3]] = &[[0.49, 2.5, 0.5], [-0.45, 2.5, 0.5]];
-    assert!(message(Boundary::Periodic, across, 0.1).is_err_and(|found| found.contains("overlap by 140 mm")));
-    assert!(message(Boundary::Antipodal, across, 0.1).is_ok());
-    assert!(message(Boundary::Open, across, 0.1).is_ok());
+    assert_contains!(message(Boundary::Periodic, across, 0.1).unwrap_err(), "overlap by 140 mm");
+    assert_ok!(message(Boundary::Antipodal, across, 0.1));
+    assert_ok!(message(Boundary::Open, across, 0.1));
     let walled = message(Boundary::Reflecting, across, 0.1).unwrap_err();
     assert!(
         walled.starts_with("grain 0 at (0.49 m, 2.5 m, 0.5 m) reaches past the walls of [volume]"),
         "{walled}"
     );
-    assert!(message(Boundary::Reflecting, &[[0.4, 2.5, 0.5], [-0.4, 2.1, 0.1]], 0.1).is_ok());
+    assert_ok!(message(Boundary::Reflecting, &[[0.4, 2.5, 0.5], [-0.4, 2.1, 0.1]], 0.1));
     // The upper face is the lower one.
     for boundary in [Boundary::Periodic, Boundary::Antipodal] {
         let kept = message(boundary, &[[0.5, 2.5, 0.5]], 0.1).unwrap();
@@ -331,7 +335,7 @@ fn hard_spheres_that_cannot_start_are_refused() {
         let found = message(boundary, far, 0.1).unwrap_err();
         assert!(found.starts_with("grain 1 at (0.6 m, 2.5 m, 0.5 m) lies outside [volume]"), "{found}");
     }
-    assert!(message(Boundary::Open, far, 0.1).is_ok());
+    assert_ok!(message(Boundary::Open, far, 0.1));
     let own = message(Boundary::Periodic, &[[0.0, 2.5, 0.5]], 0.6).unwrap_err();
     assert!(
         own.starts_with("grain 0 is too large for the periodic [volume]: it overlaps its own image"),
@@ -339,7 +343,7 @@ fn hard_spheres_that_cannot_start_are_refused() {
     );
     // Soft spheres may overlap and know no volume.
     let soft = scenario(vec![group("ink", radius(0.1), list(close))]);
-    assert!(place(&soft, Path::new(".")).is_ok());
+    assert_ok!(place(&soft, Path::new(".")));
 }
 
 /// Speed: a million equal grains, sparse and dense, in a periodic volume.

@@ -217,7 +217,10 @@ mod tests {
                 covered += 1;
                 for corner in 0..8 {
                     let side = |bit: u32| if corner >> bit & 1 == 0 { -0.02 } else { 0.02 };
-                    assert!(!occupied.is_free(point + Vec3::new(side(0), side(1), side(2)), radius));
+                    assert_false!(
+                        occupied.is_free(point + Vec3::new(side(0), side(1), side(2)), radius),
+                        "a corner about {point:?} of what is held to be covered"
+                    );
                 }
             }
         }
@@ -257,7 +260,10 @@ mod tests {
                     covered += 1;
                     for corner in 0..8 {
                         let side = |bit: u32| if corner >> bit & 1 == 0 { -0.01 } else { 0.01 };
-                        assert!(!occupied.is_free(point + Vec3::new(side(0), side(1), side(2)), radius));
+                        assert_false!(
+                            occupied.is_free(point + Vec3::new(side(0), side(1), side(2)), radius),
+                            "a corner about {point:?} of what is held to be covered"
+                        );
                     }
                 }
             }

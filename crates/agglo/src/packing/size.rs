@@ -312,7 +312,7 @@ mod tests {
             let (mut sum, mut squares) = (0.0, 0.0);
             for _ in 0..n {
                 let radius = size.sample(&mut stream);
-                assert!((size.smallest()..=size.largest()).contains(&radius));
+                assert_between!(radius, size.smallest()..=size.largest());
                 let volume = 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3);
                 sum += volume;
                 squares += volume * volume;
@@ -321,7 +321,7 @@ mod tests {
             let error = ((squares / f64::from(n) - mean * mean).max(0.0) / f64::from(n)).sqrt();
             let bound = 5.0 * error + 1e-9 * mean;
             assert!((mean - size.mean_volume()).abs() < bound, "{size:?}: {mean} {}", size.mean_volume());
-            assert!(bound < 0.01 * mean);
+            assert_below!(bound, 0.01 * mean);
         }
     }
 
@@ -332,11 +332,11 @@ mod tests {
         let s = 1.5_f64.ln();
         let uncut = lognormal(2.0, 1.5, 1e-9, 1e9).mean_volume() / ball;
         // The window ends at 8.8 deviations, 7.6 from the peak of the integrand: 1e-13 is cut off.
-        assert!((uncut / (8.0 * (4.5 * s * s).exp()) - 1.0).abs() < 1e-9);
-        assert!((uniform(1.0, 3.0).mean_volume() / ball - 10.0).abs() < 1e-13);
-        assert!((uniform(2.0, 2.0).mean_volume() / ball - 8.0).abs() < 1e-13);
-        assert!((table().mean_volume() / ball - (0.6 + 2.4 + 2.7)).abs() < 1e-13);
-        assert!((lognormal(2.0, 1.5, 3.0, 3.0).mean_volume() / ball - 27.0).abs() < 1e-12);
+        assert_close!(uncut, 8.0 * (4.5 * s * s).exp(), 1e-9);
+        assert_near!(uniform(1.0, 3.0).mean_volume() / ball, 10.0, 1e-13);
+        assert_near!(uniform(2.0, 2.0).mean_volume() / ball, 8.0, 1e-13);
+        assert_near!(table().mean_volume() / ball, 0.6 + 2.4 + 2.7, 1e-13);
+        assert_near!(lognormal(2.0, 1.5, 3.0, 3.0).mean_volume() / ball, 27.0, 1e-12);
     }
 
     /// Half of the draws of a lognormal that is cut evenly lie below its median: within five standard errors.
@@ -346,7 +346,7 @@ mod tests {
         let mut stream = Stream::new(2, Purpose::Size, 3);
         let n = 1_000_000;
         let below = (0..n).filter(|_| size.sample(&mut stream) < 2.0).count();
-        assert!((below as f64 / f64::from(n) - 0.5).abs() < 5.0 * 0.5 / f64::from(n).sqrt());
+        assert_near!(below as f64 / f64::from(n), 0.5, 5.0 * 0.5 / f64::from(n).sqrt());
     }
 
     /// [B]'s best length ratio in its box: a thousand grains of 0.79041 mm, which fill (4/3) pi L³/8 = 0.25856 of it.
@@ -357,7 +357,7 @@ mod tests {
         let mut stream = Stream::new(1, Purpose::Size, 0);
         // A cube root and two roundings.
         for radius in [size.largest(), size.smallest(), size.sample(&mut stream)] {
-            assert!((radius / 0.790_41e-3 - 1.0).abs() < 1e-15);
+            assert_close!(radius, 0.790_41e-3, 1e-15, "in m");
         }
         let fraction = 1000.0 * size.mean_volume() / 0.02_f64.powi(3);
         // Five digits are written.
@@ -368,7 +368,7 @@ mod tests {
             LengthRatio { ratio: -1.0, ..law.clone() },
             LengthRatio { half_edge: Quantity(0.0), ..law },
         ] {
-            assert!(Size::LengthRatio(bad).fault().is_some());
+            assert_some!(Size::LengthRatio(bad).fault());
         }
     }
 

@@ -98,8 +98,8 @@ fn every_property_of_a_grain_is_set() {
     assert_eq!(grains.spin[0], Vec3::new(0.0, 0.0, 5.0));
     assert_eq!((grains.temperature[0], grains.charge[0], grains.polarity[0]), (600.0, -2e-12, -1.0));
     // 900 kg/m³ times 4/3 pi 0.001 m³; 1e7 Pa exp(-(600/500 - 1)). Round-off only.
-    assert!((grains.mass[0] - 3.769_911_184_307_752).abs() < 1e-14);
-    assert!((grains.contact_stiffness[0] / 8_187_307.530_779_818 - 1.0).abs() < 1e-14);
+    assert_near!(grains.mass[0], 3.769_911_184_307_752, 1e-14, "in kg");
+    assert_close!(grains.contact_stiffness[0], 8_187_307.530_779_818, 1e-14, "in N/m");
     assert_eq!(grains.absorbed_power, [0.0; 3]);
 }
 
@@ -122,10 +122,17 @@ fn random_grains_lie_inside_and_apart() {
             let grains =
                 placed(vec![group("ink", size.clone(), random(region.clone(), None, Some(0.2)))]).unwrap();
             assert_eq!(grains.len(), wanted);
-            assert!(grains.radius.is_sorted_by(|a, b| a >= b));
-            assert!(smallest_gap(&grains) >= 0.0);
+            assert_true!(
+                grains.radius.is_sorted_by(|a, b| a >= b),
+                "from the largest to the smallest: {:?}",
+                grains.radius
+            );
+            assert_at_least!(smallest_gap(&grains), 0.0, "in m");
             for (&center, &radius) in grains.position.iter().zip(&grains.radius) {
-                assert!(region.contains(center, radius * (1.0 - 1e-12)));
+                assert_true!(
+                    region.contains(center, radius * (1.0 - 1e-12)),
+                    "a grain of {radius:e} m at {center:?}"
+                );
             }
         }
     }
@@ -139,7 +146,7 @@ fn gap_and_earlier_groups_are_kept_clear_of() {
     let second = group("ink", radius(0.03), Placement::Random(addition));
     let grains = placed(vec![first, second]).unwrap();
     assert_eq!(grains.len(), 201);
-    assert!(smallest_gap(&grains) >= 0.01 * (1.0 - 1e-12));
+    assert_at_least!(smallest_gap(&grains), 0.01 * (1.0 - 1e-12), "in m");
 }
 
 #[test]
@@ -168,7 +175,8 @@ fn equal_spheres_saturate_where_others_found() {
     let message = error.to_string();
     assert!(message.contains("0.382") && message.contains("`lattice` placement"), "{message}");
     let PackingError::Saturated { placed, wanted, reached, .. } = error else { panic!("{error}") };
-    assert!(placed < wanted && reached < 0.381);
+    assert_below!(placed, wanted);
+    assert_below!(reached, 0.381);
     let grains = add(placed as u32).unwrap();
     let margin = 5.0;
     let inner = |x: f64| x > margin && x < edge - margin;
@@ -237,9 +245,9 @@ fn lattice_faults_are_named() {
         let request = lattice(LatticeKind::Fcc, spacing, ball(1.0), count);
         placed(vec![group("ink", radius(0.1), request)]).unwrap_err().to_string()
     };
-    assert!(fault(0.0, None).contains("grains[0].placement.lattice.spacing: must be above zero"));
-    assert!(fault(1e-6, None).contains("above the limit"));
-    assert!(fault(0.2, Some(100_000)).contains("placement.lattice.count: must lie between 1 and the"));
+    assert_contains!(fault(0.0, None), "grains[0].placement.lattice.spacing: must be above zero");
+    assert_contains!(fault(1e-6, None), "above the limit");
+    assert_contains!(fault(0.2, Some(100_000)), "placement.lattice.count: must lie between 1 and the");
 }
 
 #[test]
@@ -250,7 +258,7 @@ fn tables_override_size_and_velocity() {
     let grains = place(&scenario(request), folder.path()).unwrap();
     assert_eq!(grains.radius, [0.5, 0.25]);
     assert_eq!(grains.velocity[1], Vec3::new(1.0, 2.0, 3.0));
-    assert!((grains.mass[0] / grains.mass[1] - 8.0).abs() < 1e-14);
+    assert_near!(grains.mass[0] / grains.mass[1], 8.0, 1e-14);
 }
 
 #[test]
@@ -264,9 +272,9 @@ fn what_cannot_be_is_refused() {
         |material, placement| placed(vec![group(material, radius(0.1), placement)]).unwrap_err().to_string();
     let twice = message("ink", list(&[[0.0, 1.0, 0.0], [5.0, 0.0, 0.0], [-0.0, 1.0, 0.0]], 0));
     assert!(twice.starts_with("grains 0 and 2 are at exactly the same place"), "{twice}");
-    assert!(message("ink", list(&[[0.0; 3]], 2)).contains("2 velocities for 1 positions"));
-    assert!(message("ink", list(&[[f64::NAN; 3]], 0)).contains("must be finite"));
-    assert!(message("tar", list(&[[0.0; 3]], 0)).contains("grains[0].material: there is no material `tar`"));
+    assert_contains!(message("ink", list(&[[0.0; 3]], 2)), "2 velocities for 1 positions");
+    assert_contains!(message("ink", list(&[[f64::NAN; 3]], 0)), "must be finite");
+    assert_contains!(message("tar", list(&[[0.0; 3]], 0)), "grains[0].material: there is no material `tar`");
     let bad = placed(vec![group("ink", radius(-1.0), list(&[[0.0; 3]], 0))]).unwrap_err().to_string();
     assert!(bad.contains("grains[0].size: the radius must be above zero"), "{bad}");
 }

@@ -118,14 +118,14 @@ mod tests {
                 let of = |draw: &Vec3| draw[axis] / scale[axis];
                 let next = (axis + 1) % 3;
                 let root = n.sqrt();
-                assert!(mean(&|draw| of(draw)).abs() < 5.0 * second.sqrt() / root);
+                assert_below!(mean(&|draw| of(draw)).abs(), 5.0 * second.sqrt() / root);
                 let variance = mean(&|draw| of(draw).powi(2));
-                assert!((variance - second).abs() < 5.0 * (fourth - second * second).sqrt() / root);
-                assert!((variance / second - 1.0).abs() < 0.015);
+                assert_near!(variance, second, 5.0 * (fourth - second * second).sqrt() / root);
+                assert_close!(variance, second, 0.015);
                 let kurtosis = mean(&|draw| of(draw).powi(4));
-                assert!((kurtosis - fourth).abs() < 5.0 * (eighth - fourth * fourth).sqrt() / root);
+                assert_near!(kurtosis, fourth, 5.0 * (eighth - fourth * fourth).sqrt() / root);
                 let product = mean(&|draw| of(draw) * draw[next] / scale[next]);
-                assert!(product.abs() < 5.0 * second / root);
+                assert_below!(product.abs(), 5.0 * second / root);
             }
         }
     }
@@ -137,8 +137,11 @@ mod tests {
         let most = draws.iter().fold(Vec3::ZERO, |most, draw| most.max(*draw));
         let least = draws.iter().fold(Vec3::ZERO, |least, draw| least.min(*draw));
         // Of 400,000 draws the largest misses the bound by 1e-4 of it with probability e^-20.
-        assert!((0.9999..=1.0).contains(&most.x) && (1.9998..=2.0).contains(&most.y) && most.z == 0.0);
-        assert!((-1.0..=-0.9999).contains(&least.x) && (-2.0..=-1.9998).contains(&least.y));
+        assert_between!(most.x, 0.9999..=1.0);
+        assert_between!(most.y, 1.9998..=2.0);
+        assert_eq!(most.z, 0.0);
+        assert_between!(least.x, -1.0..=-0.9999);
+        assert_between!(least.y, -2.0..=-1.9998);
     }
 
     /// The mass-weighted mean is nothing but round-off: 4e5 roundings of 1e-16 of some m/s, divided by their number.
@@ -151,10 +154,10 @@ mod tests {
         };
         let (about, centered) =
             (maxwell(3.0, false).draw(7, 0, &grains), maxwell(3.0, true).draw(7, 0, &grains));
-        assert!(weighted(&about) > 1e-4);
-        assert!(weighted(&centered) < 1e-14);
+        assert_above!(weighted(&about), 1e-4);
+        assert_below!(weighted(&centered), 1e-14);
         let taken_off = about[0] - centered[0];
-        assert!(about.iter().zip(&centered).all(|(a, b)| (*a - *b - taken_off).norm() < 1e-14));
+        assert_all!(about.iter().zip(&centered), |(a, b)| (*a - *b - taken_off).norm() < 1e-14);
         assert_eq!(maxwell(3.0, true).draw(7, 0, &[(3, 2.0)]), [Vec3::ZERO]);
     }
 

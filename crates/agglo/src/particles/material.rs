@@ -230,9 +230,10 @@ mod tests {
     #[test]
     fn val_zohdi_2016_softened_stiffness() {
         let one = material(1e9, 0.25);
-        assert!((one.stiffness_at(300.0) / 1.491_824_697_641_27e7 - 1.0).abs() < 1e-14);
+        assert_close!(one.stiffness_at(300.0), 1.491_824_697_641_27e7, 1e-14);
         assert_eq!(one.stiffness_at(500.0), 1e7);
-        assert!(one.stiffness_at(1651.0) > 1e6 && one.stiffness_at(1652.0) == 1e6);
+        assert_above!(one.stiffness_at(1651.0), 1e6);
+        assert_eq!(one.stiffness_at(1652.0), 1e6);
         let plain = Material { softening: None, ..one.clone() };
         assert_eq!(plain.stiffness_at(4000.0), 1e7);
         let none = Material { contact_stiffness: None, softening: None, ..one };
@@ -245,18 +246,18 @@ mod tests {
         for poisson in [0.0, 0.2, 0.3, 0.5] {
             let equal = constants_of(&material(4e10, poisson), &material(4e10, poisson), None);
             let modulus = 2e10 / (1.0 - poisson * poisson);
-            assert!((equal.effective_modulus / modulus - 1.0).abs() < 1e-14);
+            assert_close!(equal.effective_modulus, modulus, 1e-14);
             let ratio = 2.0 * (1.0 - poisson) / (2.0 - poisson);
-            assert!((equal.tangential_ratio / ratio - 1.0).abs() < 1e-14);
+            assert_close!(equal.tangential_ratio, ratio, 1e-14);
             let rigid = constants_of(&material(4e10, poisson), &material(1e40, 0.1), None);
-            assert!((rigid.effective_modulus / (2.0 * modulus) - 1.0).abs() < 1e-14);
+            assert_close!(rigid.effective_modulus, 2.0 * modulus, 1e-14);
         }
         // By hand: 0.96/70e9 + 0.91/40e9 and 2 (1.8·1.2/70e9 + 1.7·1.3/40e9).
         let unlike = constants_of(&material(7e10, 0.2), &material(4e10, 0.3), None);
         let modulus = 1.0 / (0.96 / 7e10 + 0.91 / 4e10);
         let shear = 0.5 / (2.16 / 7e10 + 2.21 / 4e10);
-        assert!((unlike.effective_modulus / modulus - 1.0).abs() < 1e-14);
-        assert!((unlike.tangential_ratio / (4.0 * shear / modulus) - 1.0).abs() < 1e-14);
+        assert_close!(unlike.effective_modulus, modulus, 1e-14);
+        assert_close!(unlike.tangential_ratio, 4.0 * shear / modulus, 1e-14);
     }
 
     #[test]
@@ -275,7 +276,7 @@ mod tests {
             for b in 0..3 {
                 assert_eq!(table.of(a, b).restitution, table.of(b, a).restitution);
                 let ratio = table.of(a, b).effective_modulus / table.of(b, a).effective_modulus;
-                assert!((ratio - 1.0).abs() < 1e-15);
+                assert_near!(ratio, 1.0, 1e-15);
                 assert_eq!(table.of(a, b).restitution.is_some(), a + b == 2 && a != b);
             }
         }

@@ -123,6 +123,6 @@ mod tests {
     #[test]
     fn equal_values_and_none() {
         assert_eq!(Histogram::of(Axis::default(), &[2.0; 9]).counts.iter().sum::<u64>(), 9);
-        assert!(Histogram::of(Axis::default(), &[]).counts.is_empty());
+        assert_empty!(Histogram::of(Axis::default(), &[]).counts);
     }
 }

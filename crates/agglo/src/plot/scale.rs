@@ -201,11 +201,13 @@ mod tests {
     #[test]
     fn values_at_the_ends_and_equal_values_have_room() {
         let scale = Scale::over([1.0, 3.0, f64::NAN], false);
-        assert!(scale.part(1.0) > 0.0 && scale.part(3.0) < 1.0 && (scale.part(2.0) - 0.5).abs() < 1e-12);
+        assert_above!(scale.part(1.0), 0.0);
+        assert_below!(scale.part(3.0), 1.0);
+        assert_near!(scale.part(2.0), 0.5, 1e-12);
         let flat = Scale::over([7.0, 7.0], false);
-        assert!((flat.part(7.0) - 0.5).abs() < 1e-12);
+        assert_near!(flat.part(7.0), 0.5, 1e-12);
         let log = Scale::over([1.0, 100.0, -5.0], true);
         // The middle of a logarithmic axis is the geometric mean.
-        assert!((log.part(10.0) - 0.5).abs() < 1e-12);
+        assert_near!(log.part(10.0), 0.5, 1e-12);
     }
 }

@@ -244,5 +244,5 @@ fn nothing_to_show_is_no_trouble() {
 #[test]
 fn words_cannot_break_the_file() {
     let lines = Lines { title: "a < b & \"c\"\u{7}".to_owned(), ..Lines::default() };
-    assert!(lines.svg().contains("a &lt; b &amp; &quot;c&quot; <"));
+    assert_contains!(lines.svg(), "a &lt; b &amp; &quot;c&quot; <");
 }

@@ -176,7 +176,7 @@ mod tests {
             file.write_all(b"half")?;
             Err(std::io::ErrorKind::StorageFull.into())
         });
-        assert!(error.unwrap_err().to_string().ends_with("summary.json: the disk is full"));
+        assert_ends!(error.unwrap_err().to_string(), "summary.json: the disk is full");
         assert_eq!(std::fs::read(&path).unwrap(), b"old");
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
     }

@@ -298,14 +298,15 @@ mod tests {
             bytes.extend_from_slice(&sum.to_le_bytes());
             decode::<State>(&bytes).unwrap_err()
         };
-        assert!(resealed(&|bytes| bytes[8] = 9).contains("format is version 9"));
-        assert!(resealed(&|bytes| bytes[13] = b'7').contains("resume it with that version"));
-        assert!(resealed(&|bytes| bytes[13] = 0x1b).contains("written by agglo \\u{1b}"));
-        assert!(resealed(&|bytes| bytes.push(0)).contains("another length"));
+        assert_contains!(resealed(&|bytes| bytes[8] = 9), "format is version 9");
+        assert_contains!(resealed(&|bytes| bytes[13] = b'7'), "resume it with that version");
+        assert_contains!(resealed(&|bytes| bytes[13] = 0x1b), "written by agglo \\u{1b}");
+        assert_contains!(resealed(&|bytes| bytes.push(0)), "another length");
         let other = encode(4, &(state(4), 1_u8)).unwrap();
-        assert!(decode::<State>(&other).unwrap_err().contains("more than a state"));
-        assert!(
-            decode::<(State, u64)>(&encode(4, &state(4)).unwrap()).unwrap_err().contains("cannot be read")
+        assert_contains!(decode::<State>(&other).unwrap_err(), "more than a state");
+        assert_contains!(
+            decode::<(State, u64)>(&encode(4, &state(4)).unwrap()).unwrap_err(),
+            "cannot be read"
         );
     }
 

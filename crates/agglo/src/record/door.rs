@@ -103,9 +103,9 @@ mod tests {
         let path = folder.path().join("a.toml");
         std::fs::write(&path, "version = 1\n").unwrap();
         assert_eq!(read_text(&path, 12).unwrap(), "version = 1\n");
-        assert!(read(&path, 11).unwrap_err().to_string().contains("larger than"));
+        assert_contains!(read(&path, 11).unwrap_err().to_string(), "larger than");
         std::fs::write(&path, b"\xff\xfe").unwrap();
-        assert!(read_text(&path, 12).unwrap_err().to_string().contains("UTF-8"));
+        assert_contains!(read_text(&path, 12).unwrap_err().to_string(), "UTF-8");
         assert_eq!(read(&folder.path().join("b"), 9).unwrap_err().kind(), io::ErrorKind::NotFound);
     }
 
@@ -115,8 +115,9 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("hole");
         if File::create(&path).unwrap().set_len(1 << 40).is_ok() {
-            assert!(
-                read(&path, MOST_OF_A_STATE).unwrap_err().to_string().contains("larger than the 65536 MB")
+            assert_contains!(
+                read(&path, MOST_OF_A_STATE).unwrap_err().to_string(),
+                "larger than the 65536 MB"
             );
         }
     }

@@ -205,9 +205,10 @@ mod tests {
             assert_eq!(bits(written), bits(&read));
         }
         let header = std::fs::read_to_string(&path).unwrap();
-        assert!(header.starts_with(
+        assert_starts!(
+            header,
             "time_s,kinetic_energy_j,speed_m_s\n0.1,0.3333333333333333,2.2250738585072014e-308\n"
-        ));
+        );
     }
 
     /// Both kinds of rows, with numbers that other writers lose; counts have no point.
@@ -242,7 +243,7 @@ mod tests {
         let mut again = Series::check(&path, &["time_s", "count"], mark).unwrap().cut().unwrap();
         assert_eq!(again.mark(), mark);
         again.row(&[1.0, 20.0]).unwrap();
-        assert!(matches!(again.row(&[1.0]), Err(RecordError::Shape { found: 1, expected: 2, .. })));
+        assert_matches!(again.row(&[1.0]), Err(RecordError::Shape { found: 1, expected: 2, .. }));
         again.sync().unwrap();
         assert_eq!(read(&path), [[0.0, 1.0], [1.0, 20.0]]);
         let longer = Mark { bytes: 1000, ..mark };

@@ -55,7 +55,7 @@ mod tests {
             assert!(shown.starts_with("\\u{") && shown.is_ascii(), "{acting:?}: {shown}");
         }
         let harmless = "Korngrößen µm, 10 °C: 砂 \t|\n";
-        assert!(matches!(visible(harmless), Cow::Borrowed(text) if text == harmless));
+        assert_matches!(visible(harmless), Cow::Borrowed(text) if *text == harmless);
     }
 
     #[test]

@@ -321,7 +321,7 @@ mod tests {
             assert_eq!(slots, 1000);
             let mut order = tree.order().to_vec();
             order.sort_unstable();
-            assert!(order.into_iter().eq(0..1000));
+            assert_eq!(order, (0..1000).collect::<Vec<_>>(), "each sphere once");
         }
     }
 }

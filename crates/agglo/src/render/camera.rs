@@ -138,7 +138,7 @@ mod tests {
         }
         // From above one looks down.
         let [_, _, forward] = Side { azimuth: 0.0, elevation: 1.0 }.axes();
-        assert!(forward.z < 0.0);
+        assert_below!(forward.z, 0.0);
     }
 
     /// The corners of the near face of the box touch the picture's edges, as its half extents say.

@@ -148,7 +148,7 @@ mod tests {
             assert_eq!(encoded(decoded(byte)), byte);
         }
         // The middle of sRGB's bytes is a fifth of the light.
-        assert!((light_of(0x80_0000)[0] - 0.216).abs() < 1e-3);
+        assert_near!(f64::from(light_of(0x80_0000)[0]), 0.216, 1e-3);
     }
 
     #[test]

@@ -160,9 +160,10 @@ mod tests {
     fn shadows_have_a_core_and_a_soft_edge() {
         let ball = Sphere { center: Vec3::new(0.0, 0.0, 10.0), radius: 1.0, color: [1.0; 3] };
         let at = |x: f64| shadow(&[ball], Vec3::new(x, 0.0, 0.0));
-        assert!(at(0.0) < 0.01 && at(1.0 - 10.0 * SUN) < 0.01);
+        assert_below!(at(0.0), 0.01);
+        assert_below!(at(1.0 - 10.0 * SUN), 0.01);
         // Where the sphere's edge goes through the sun's middle half of it is left.
-        assert!((at(1.0) - 0.5).abs() < 1e-12);
+        assert_near!(at(1.0), 0.5, 1e-12);
         assert_eq!((at(1.0 + 10.001 * SUN), at(5.0)), (1.0, 1.0));
         // What is behind the place throws no shadow on it.
         assert_eq!(shadow(&[ball], Vec3::new(0.0, 0.0, 12.0)), 1.0);
@@ -189,6 +190,6 @@ mod tests {
             assert!((found - wanted).abs() < 0.004, "{found} instead of {wanted}");
             dark += usize::from(wanted < 0.5);
         }
-        assert!(dark > 100);
+        assert_above!(dark, 100);
     }
 }

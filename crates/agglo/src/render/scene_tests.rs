@@ -59,7 +59,7 @@ fn what_is_hidden_is_not_seen() {
         |image: &Image| image.pixels().iter().filter(|pixel| pixel[0] > pixel[1].saturating_add(1)).count();
     assert_eq!(reds(&scene(vec![behind, front]).draw(&camera())), 0);
     let before = sphere([-2.0, 0.0, 0.0], 0.5, red);
-    assert!(reds(&scene(vec![before, front]).draw(&camera())) > 1000);
+    assert_above!(reds(&scene(vec![before, front]).draw(&camera())), 1000);
 }
 
 #[test]
@@ -80,7 +80,8 @@ fn the_same_bits_for_any_number_of_threads() {
         pool.install(|| crowd.draw(&camera()))
     };
     let one = on(1);
-    assert!(on(2) == one && on(5) == one);
+    assert_eq!(on(2), one);
+    assert_eq!(on(5), one);
 }
 
 #[test]
@@ -95,8 +96,8 @@ fn grains_darken_each_other_where_they_touch() {
     };
     let brightness = |image: &Image, (x, y): (u32, u32)| i32::from(image.pixel(x, y)[0]);
     let (near, far) = (at(0.08), at(0.9));
-    assert!(brightness(&pair, near) < brightness(&alone, near) - 6);
-    assert!((brightness(&pair, far) - brightness(&alone, far)).abs() < 6);
+    assert_below!(brightness(&pair, near), brightness(&alone, near) - 6);
+    assert_below!((brightness(&pair, far) - brightness(&alone, far)).abs(), 6);
 }
 
 #[test]

@@ -104,7 +104,7 @@ mod tests {
         let along_z = |x: f64, z: f64| sphere.hit(&Ray::new(Vec3::new(x, 0.0, z), Vec3::AXES[2]));
         assert_eq!(along_z(0.0, 0.0), Some(3.0));
         // At a distance of 1.2 from the middle half the chord is 1.6.
-        assert!((along_z(1.2, 0.0).unwrap() - 3.4).abs() < 1e-15);
+        assert_near!(along_z(1.2, 0.0).unwrap(), 3.4, 1e-15);
         assert_eq!((along_z(2.1, 0.0), along_z(0.0, 4.0), along_z(0.0, 9.0)), (None, None, None));
     }
 
@@ -115,15 +115,15 @@ mod tests {
             line.hit(&Ray::new(origin.into(), Vec3::from(towards).normalized()))
         };
         assert_eq!(hit([-3.0, 0.0, 1.0], [1.0, 0.0, 0.0]), Some(2.5));
-        assert!((hit([-3.0, 0.3, 1.0], [1.0, 0.0, 0.0]).unwrap() - 2.6).abs() < 1e-15);
+        assert_near!(hit([-3.0, 0.3, 1.0], [1.0, 0.0, 0.0]).unwrap(), 2.6, 1e-15);
         // Beyond its end, through the ball about it: 0.3² + 0.4² = 0.5².
-        assert!((hit([-3.0, 0.0, 4.3], [1.0, 0.0, 0.0]).unwrap() - 2.6).abs() < 1e-15);
+        assert_near!(hit([-3.0, 0.0, 4.3], [1.0, 0.0, 0.0]).unwrap(), 2.6, 1e-15);
         assert_eq!(hit([-3.0, 0.0, 4.6], [1.0, 0.0, 0.0]), None);
         // Along its axis, from either side.
         assert_eq!(hit([0.0, 0.0, -2.0], [0.0, 0.0, 1.0]), Some(1.5));
         assert_eq!(hit([0.0, 0.0, 6.0], [0.0, 0.0, -1.0]), Some(1.5));
         // Slanted at 45 degrees, in the axis' plane: the mantle at x = -0.5, √2 times 2.5 away.
         let slanted = hit([-3.0, 0.0, 0.0], [1.0, 0.0, 1.0]).unwrap();
-        assert!((slanted - 2.5 * 2.0_f64.sqrt()).abs() < 1e-14);
+        assert_near!(slanted, 2.5 * 2.0_f64.sqrt(), 1e-14);
     }
 }

@@ -80,7 +80,8 @@ fn a_place_can_be_looked_at() {
     let place = Vec3::new(0.5, -1.0, 0.25);
     let studio = studio(dir.path(), Options { view: View::At(place), ..small("speed") }).unwrap();
     let ([x, y], _) = studio.camera().project(place).unwrap();
-    assert!((x - 32.0).abs() < 1e-6 && (y - 24.0).abs() < 1e-6);
+    assert_near!(x, 32.0, 1e-6);
+    assert_near!(y, 24.0, 1e-6);
 }
 
 /// One range for all frames, without the uppermost hundredth of each frame's speeds.
@@ -97,7 +98,7 @@ fn colours_have_one_range() {
     // All radii are the same: their colour is in the middle of the map.
     let same = studio(dir.path(), small("size")).unwrap();
     let middle = light_of(Map::Cividis.color(0.5));
-    assert!(same.colors(&[0.05])[0].iter().zip(middle).all(|(a, b)| (a - b).abs() < 0.01));
+    assert_all!(same.colors(&[0.05])[0].iter().zip(middle), |(a, b)| (a - b).abs() < 0.01);
 }
 
 #[test]
@@ -127,9 +128,10 @@ fn what_frames_do_not_hold_is_told() {
     assert!(bonds.contains("has no frames of bonds"), "{bonds}");
     let empty = tempfile::tempdir().unwrap();
     let nothing = studio(empty.path(), small("speed")).unwrap_err();
-    assert!(matches!(nothing, RenderError::NoFrames { .. }) && nothing.exit_code() == 2);
+    assert_matches!(nothing, RenderError::NoFrames { .. });
+    assert_eq!(nothing.exit_code(), 2);
     write_frames(empty.path(), &[Vec::new()]);
-    assert!(matches!(studio(empty.path(), small("speed")), Err(RenderError::NoGrains { .. })));
+    assert_matches!(studio(empty.path(), small("speed")), Err(RenderError::NoGrains { .. }));
 }
 
 fn make(dir: &Path, to: &Path, shots: Shots) -> Result<FilmEnding, RenderError> {
@@ -154,13 +156,14 @@ fn pictures_of_chosen_frames() {
     assert_eq!(make(dir.path(), &pattern, shots.clone()).unwrap(), FilmEnding::Finished(3));
     assert_eq!(names(&out.path().join("some")), ["shot000000.png", "shot000001.png", "shot000002.png"]);
     // Pictures that are there already are not mixed with others.
-    assert!(matches!(make(dir.path(), &pattern, shots.clone()), Err(RenderError::Occupied { .. })));
+    assert_matches!(make(dir.path(), &pattern, shots.clone()), Err(RenderError::Occupied { .. }));
     let single = out.path().join("one.png");
     assert_eq!(make(dir.path(), &single, shots).unwrap(), FilmEnding::Finished(1));
     assert_eq!(names(out.path()), ["one.png", "some"]);
     let beyond = Shots { frames: Some(5..=7), ..Shots::default() };
     let message = make(dir.path(), &single, beyond).unwrap_err().to_string();
-    assert!(message.starts_with("there are no frames 5..7") && message.ends_with("has 7, from 0 to 6"));
+    assert_starts!(message, "there are no frames 5..7");
+    assert_ends!(message, "has 7, from 0 to 6");
 }
 
 #[test]
@@ -173,7 +176,8 @@ fn a_cut_frame_is_named() {
     let error = make(dir.path(), &to, Shots::default()).unwrap_err();
     let message = error.to_string();
     assert!(message.contains("grains_000001.vtp") && message.contains("it is cut short"), "{message}");
-    assert!(error.exit_code() == 2 && !to.exists());
+    assert_eq!(error.exit_code(), 2);
+    assert_gone!(to);
 }
 
 #[test]
@@ -206,5 +210,5 @@ fn outputs_are_told_by_their_names() {
     let options = Options { background: Background::Transparent, ..small("speed") };
     let wanted = Film { output: of("m.mp4").unwrap(), shots: Shots::default(), options };
     let refused = film(Path::new("nowhere"), wanted, &mut |_| ControlFlow::Continue(()));
-    assert!(matches!(refused, Err(RenderError::TransparentMovie)));
+    assert_matches!(refused, Err(RenderError::TransparentMovie));
 }

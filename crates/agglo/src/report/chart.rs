@@ -240,7 +240,7 @@ mod tests {
             (&[0.0, 1.0, 2.0][..], &[3.0, 2.0, 1.0][..])
         );
         assert_eq!(chart.words, ["a: 3 J at first, 1 J at last, 1 J to 3 J between"]);
-        assert!(LINES.chart(&table(0)).is_none());
+        assert_none!(LINES.chart(&table(0)));
     }
 
     #[test]
@@ -248,7 +248,7 @@ mod tests {
         let chart = LINES.chart(&table(5000)).unwrap();
         let x = &chart.series[0].x;
         assert_eq!((x[0], x[1], *x.last().unwrap()), (0.0, 3.0, 4999.0));
-        assert!(x.len() <= MOST_ROWS + 1);
+        assert_at_most!(x.len(), MOST_ROWS + 1);
         assert!(chart.caption.contains("Of 5000 rows 1668 are shown"), "{}", chart.caption);
     }
 }

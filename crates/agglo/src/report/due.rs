@@ -180,8 +180,8 @@ mod tests {
         let mut scenario = Scenario::from_toml(text).unwrap();
         let with =
             |scenario: &Scenario| notes(&Folder { scenario: Some(scenario.clone()), ..Folder::default() });
-        assert!(with(&scenario).iter().any(|note| note.contains("series/rays.csv is missing")));
+        assert_any!(with(&scenario).iter(), |note| note.contains("series/rays.csv is missing"));
         scenario.acoustics = None;
-        assert!(!with(&scenario).iter().any(|note| note.contains("rays")));
+        assert_no!(with(&scenario).iter(), |note| note.contains("rays"));
     }
 }

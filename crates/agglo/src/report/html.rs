@@ -304,18 +304,20 @@ mod tests {
         };
         let page = report.page();
         let (shown, data) = page.split_once("<script type=\"application/json\"").unwrap();
-        assert!(!shown.contains("<script>") && !shown.contains("\" onload"));
-        assert!(!data.split_once('>').unwrap().1.split_once("</script>").unwrap().0.contains('<'));
-        assert!(page.contains("&lt;script&gt;alert(1)&lt;/script&gt;"));
+        assert_lacks!(shown, "<script>");
+        assert_lacks!(shown, "\" onload");
+        assert_lacks!(data.split_once('>').unwrap().1.split_once("</script>").unwrap().0, "<");
+        assert_contains!(page, "&lt;script&gt;alert(1)&lt;/script&gt;");
         // What runs is told by its digest; that it is the right one is seen where a browser opens pages.
         assert_eq!(page.matches("<script type=\"module\">").count(), 1);
         let (_, scripts) = page.split_once("script-src ").unwrap();
         let scripts: Vec<&str> = scripts.split(';').next().unwrap().split(' ').collect();
-        assert!(scripts[..2].iter().all(|digest| digest.starts_with("'sha256-") && digest.len() == 53));
+        assert_all!(scripts[..2].iter(), |digest| digest.starts_with("'sha256-") && digest.len() == 53);
         assert_eq!(scripts[2..], ["'unsafe-eval'"]);
         // Four scripts of our own, and Plotly as a block that has no angle brackets.
         assert_eq!(page.matches("<script").count(), 4);
         assert_eq!(page.matches("</script>").count(), 4);
-        assert!(PLOTLY.len() > 1_000_000 && !PLOTLY.contains('<'));
+        assert_above!(PLOTLY.len(), 1_000_000);
+        assert_lacks!(PLOTLY, "<");
     }
 }

@@ -94,7 +94,7 @@ mod tests {
         let lines = listing(&Scenario::from_toml(&text).unwrap(), &text);
         let mark = |start: &str| lines.iter().find(|line| line.text.starts_with(start)).unwrap().is_default;
         assert!(mark("polarity ="), "no one asked for a polarity");
-        assert!(!mark("version ="));
+        assert_false!(mark("version ="), "the key stands in the file");
         assert!(!mark("end ="), "the end of time is given");
         assert_eq!(
             lines.iter().map(|line| line.text.as_str()).collect::<Vec<_>>(),

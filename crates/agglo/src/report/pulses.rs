@@ -149,7 +149,7 @@ mod tests {
         for column in &mut sparse.columns {
             *column = column.iter().copied().step_by(3).collect();
         }
-        assert!(charts(&sparse, &LINES).is_empty());
-        assert!(charts(&Table::default(), &LINES).is_empty());
+        assert_empty!(charts(&sparse, &LINES));
+        assert_empty!(charts(&Table::default(), &LINES));
     }
 }

@@ -67,7 +67,7 @@ mod tests {
         std::fs::write(&path, "time_s,count\n0.0,1\n0.5,12").unwrap();
         assert_eq!(Table::read(&path).unwrap().column("count"), Some(&[1.0][..]));
         std::fs::write(&path, "").unwrap();
-        assert!(Table::read(&path).is_err());
+        assert_err!(Table::read(&path));
     }
 
     #[test]
@@ -78,7 +78,7 @@ mod tests {
         std::fs::write(&path, rows).unwrap();
         let table = Table::read(&path).unwrap();
         assert_eq!(table.column("time_s"), Some(&[0.0, 1.0, 2.0][..]));
-        assert!(table.column("fractal_dimension").unwrap()[1].is_nan());
+        assert_nan!(table.column("fractal_dimension").unwrap()[1]);
         assert_eq!(table.dropped, 6);
     }
 }

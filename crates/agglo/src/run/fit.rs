@@ -194,7 +194,7 @@ mod tests {
             Scenario::with_overrides(template("acoustic").unwrap().text, settings).unwrap()
         };
         let (run, other) = (of(&[]), of(&["seed=9", "time.end=3 s", "acoustics.beams.0.rays=77"]));
-        assert!(differences(&run, &run.clone()).is_empty());
+        assert_empty!(differences(&run, &run.clone()));
         let found = differences(&run, &other);
         assert_eq!(found.len(), 3, "{found:?}");
         assert!(found.iter().any(|key| key == "seed: 1, in scenario.toml 9"), "{found:?}");

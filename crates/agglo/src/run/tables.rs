@@ -121,7 +121,7 @@ mod tests {
             let column = if row[0].is_finite() { "fractal_dimension" } else { "time_s" };
             assert!(error.contains(&format!("a.csv: {column} is not finite")), "{error}");
         }
-        assert!(tables.cells(1, &[Cell::Number(f64::NAN), Cell::Word("merge")]).is_err());
+        assert_err!(tables.cells(1, &[Cell::Number(f64::NAN), Cell::Word("merge")]));
         tables.flush().unwrap();
         let written = std::fs::read_to_string(folder.path().join("a.csv")).unwrap();
         assert_eq!(written, "time_s,fractal_dimension\n0,NaN\n");

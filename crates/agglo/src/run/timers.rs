@@ -296,9 +296,10 @@ mod tests {
         let (mut flying, mut other) = (timers, output.clone());
         flying.rows.take(&now);
         flying.frames.take(&now);
-        assert!(flying.stand(&output, &now) && !flying.stand(&output, &at(4.0)));
+        assert_true!(flying.stand(&output, &now), "the next times fit the interval of the outputs");
+        assert_false!(flying.stand(&output, &at(4.0)), "the next times fit the interval of the outputs");
         other.series = Some(every(0.2));
-        assert!(!timers.stand(&other, &at(4.0)));
+        assert_false!(timers.stand(&other, &at(4.0)), "the next times fit the interval of the outputs");
         let forged: [fn(&mut Timers); 7] = [
             |timers| timers.rows.always.interval = 0.0,
             |timers| timers.rows.always.interval = f64::NAN,

@@ -157,7 +157,7 @@ mod tests {
             assert!(page.text().starts_with(page.title()), "{}", page.name);
         }
         assert_eq!(explain("Radiation-Pressure").unwrap().name, "ray_force");
-        assert!(explain("rubber").is_none());
+        assert_none!(explain("rubber"));
         assert_eq!(nearest_law("herz"), Some("hertz"));
     }
 }

@@ -233,15 +233,13 @@ mod tests {
         assert_eq!(kind("output.rays"), Ok(KeyKind::Flag));
         assert_eq!(kind("title"), Ok(KeyKind::Text));
         let boundaries = ["periodic", "reflecting", "open"].map(str::to_owned);
-        assert!(
-            matches!(kind("volume.boundary"), Ok(KeyKind::Word(words)) if words.contains(&boundaries[0]))
-        );
+        assert_matches!(kind("volume.boundary"), Ok(KeyKind::Word(words)) if words.contains(&boundaries[0]));
         let astray = |path: &str| kind(path).unwrap_err();
         assert_eq!(astray("materials.grian.density").1.unwrap(), "did you mean \"grain\"?");
-        assert!(astray("grains.1.charge").0.contains("no entry of a list of 1"));
-        assert!(astray("time").0.contains("is a table"));
-        assert!(astray("time.end.x").0.contains("the path ends before it"));
-        assert!(astray("grains.0.size.constant.radius").0.contains("the base has \"length_ratio\""));
+        assert_contains!(astray("grains.1.charge").0, "no entry of a list of 1");
+        assert_contains!(astray("time").0, "is a table");
+        assert_contains!(astray("time.end.x").0, "the path ends before it");
+        assert_contains!(astray("grains.0.size.constant.radius").0, "the base has \"length_ratio\"");
         assert_eq!(astray("time.ende").1.unwrap(), "did you mean \"end\"?");
     }
 
@@ -252,7 +250,7 @@ mod tests {
             let scenario = Scenario::from_toml(template.text).unwrap();
             let mut tree = serde_json::to_value(&scenario).unwrap();
             Keys::new().to_si(&mut tree);
-            assert!(tree["time"]["end"].is_f64());
+            assert_matches!(tree["time"]["end"], serde_json::Value::Number(number) if number.is_f64());
             let again: Scenario = serde_json::from_value(tree).unwrap();
             assert_eq!(again, scenario, "{}", template.name);
         }

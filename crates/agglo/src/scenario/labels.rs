@@ -140,8 +140,8 @@ mod tests {
         assert_eq!(explain("hardness").map(Page::engine), Some(Engine::Hard));
         assert_eq!(explain("time_stepped").map(Page::engine), Some(Engine::Hard));
         let with_energy = ["strain_power", "hertz", "hooke", "beam", "coulomb", "gravity"];
-        assert!(with_energy.iter().all(|word| explain(word).unwrap().offers_energy()));
+        assert_all!(with_energy.iter(), |word| explain(word).unwrap().offers_energy());
         let without = ["viscous_area", "restitution", "drag", "lorentz", "verlet", "fresnel", "sticking"];
-        assert!(!without.iter().any(|word| explain(word).unwrap().offers_energy()));
+        assert_no!(without.iter(), |word| explain(word).unwrap().offers_energy());
     }
 }

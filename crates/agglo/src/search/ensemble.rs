@@ -230,24 +230,24 @@ mod tests {
     #[test]
     fn running_mean_by_hand() {
         let costs = [1.0, 1.1, 1.02];
-        assert!(
-            !running_mean(0.0476, 9).is_enough(&costs[..2]) && running_mean(0.0477, 9).is_enough(&costs[..2])
-        );
-        assert!(!running_mean(0.0096, 9).is_enough(&costs) && running_mean(0.0097, 9).is_enough(&costs));
+        assert_false!(running_mean(0.0476, 9).is_enough(&costs[..2]), "so many costs settle the comparison");
+        assert_true!(running_mean(0.0477, 9).is_enough(&costs[..2]), "so many costs settle the comparison");
+        assert_false!(running_mean(0.0096, 9).is_enough(&costs), "so many costs settle the comparison");
+        assert_true!(running_mean(0.0097, 9).is_enough(&costs), "so many costs settle the comparison");
         assert!(!running_mean(1.0, 9).is_enough(&costs[..1]), "one start has no mean before it");
         assert!(running_mean(1e-9, 3).is_enough(&costs), "three are the most");
         // A cost that is always the same is enough at once, whatever its sign; about 0 only the same cost is.
-        assert!(
-            running_mean(0.0, 9).is_enough(&[-2.0, -2.0]) && running_mean(5e-4, 9).is_enough(&[0.0, 0.0])
-        );
-        assert!(!running_mean(0.5, 9).is_enough(&[1.0, -1.0]));
+        assert_true!(running_mean(0.0, 9).is_enough(&[-2.0, -2.0]), "so many costs settle the comparison");
+        assert_true!(running_mean(5e-4, 9).is_enough(&[0.0, 0.0]), "so many costs settle the comparison");
+        assert_false!(running_mean(0.5, 9).is_enough(&[1.0, -1.0]), "so many costs settle the comparison");
     }
 
     /// 1, 2, 3: s = 1, standard error 1/√3, t(95 %, 2) = 4.30265: half width 2.48414.
     #[test]
     fn confidence_by_hand() {
         let costs = [1.0, 2.0, 3.0];
-        assert!(!confidence(2.484).is_enough(&costs) && confidence(2.4842).is_enough(&costs));
+        assert_false!(confidence(2.484).is_enough(&costs), "so many costs settle the comparison");
+        assert_true!(confidence(2.4842).is_enough(&costs), "so many costs settle the comparison");
         assert!(!confidence(9.0).is_enough(&costs[..2]), "three are the least");
         assert!(confidence(0.0).is_enough(&[0.5; 3]), "no scatter, no error");
         assert!(confidence(0.0).is_enough(&[1.0, 2.0].repeat(25)), "fifty are the most");
@@ -255,7 +255,8 @@ mod tests {
 
     #[test]
     fn fixed_numbers() {
-        assert!(!Ensemble::fixed(2).is_enough(&[1.0]) && Ensemble::fixed(2).is_enough(&[1.0, 9.0]));
+        assert_false!(Ensemble::fixed(2).is_enough(&[1.0]), "so many costs settle the comparison");
+        assert_true!(Ensemble::fixed(2).is_enough(&[1.0, 9.0]), "so many costs settle the comparison");
         assert_eq!((Ensemble::default().least(), Ensemble::default().most()), (1, 1));
         assert_eq!((running_mean(0.1, 1).least(), running_mean(0.1, 1).most()), (1, 1));
     }
@@ -271,13 +272,14 @@ mod tests {
         let (common, own) =
             (Ensemble::fixed(1), Ensemble { common_random_numbers: false, ..Ensemble::fixed(1) });
         assert_eq!((all(&common).len(), all(&own).len()), (30, 900));
-        assert!(all(&common).is_disjoint(&all(&own)));
+        assert_true!(all(&common).is_disjoint(&all(&own)), "seeds that must not come twice");
         assert_ne!(common.seed(7, 0, 0), common.seed(8, 0, 0));
         for ensemble in [&common, &own] {
             let fresh: BTreeSet<u64> =
                 (0..900).map(|k| ensemble.fresh_seed(7, k / 30, k as u32 % 30)).collect();
             assert_eq!(fresh.len(), if ensemble.common_random_numbers { 30 } else { 900 });
-            assert!(fresh.is_disjoint(&all(ensemble)) && fresh.iter().all(|seed| *seed < 1 << 53));
+            assert_true!(fresh.is_disjoint(&all(ensemble)), "seeds that must not come twice");
+            assert_all!(fresh.iter(), |seed| *seed < 1 << 53);
         }
     }
 }

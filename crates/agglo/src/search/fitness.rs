@@ -79,12 +79,14 @@ mod tests {
     #[test]
     fn dominance_needs_every_cost() {
         let of = |a, b| Fitness::new(vec![a, b]);
-        assert!(of(1.0, 2.0).dominates(&of(1.0, 3.0)));
-        assert!(!of(1.0, 2.0).dominates(&of(1.0, 2.0)));
-        assert!(!of(1.0, 3.0).dominates(&of(2.0, 2.0)));
-        assert!(of(9.0, 9.0).dominates(&Fitness { violation: 0.1, ..of(1.0, 1.0) }));
-        assert!(
-            of(9.0, 9.0).dominates(&Fitness::failed()) && !Fitness::failed().dominates(&Fitness::failed())
+        assert_true!(of(1.0, 2.0).dominates(&of(1.0, 3.0)), "fitness of costs in this order");
+        assert_false!(of(1.0, 2.0).dominates(&of(1.0, 2.0)), "fitness of costs in this order");
+        assert_false!(of(1.0, 3.0).dominates(&of(2.0, 2.0)), "fitness of costs in this order");
+        assert_true!(
+            of(9.0, 9.0).dominates(&Fitness { violation: 0.1, ..of(1.0, 1.0) }),
+            "fitness of costs in this order"
         );
+        assert_true!(of(9.0, 9.0).dominates(&Fitness::failed()), "fitness of costs in this order");
+        assert_false!(Fitness::failed().dominates(&Fitness::failed()), "fitness of costs in this order");
     }
 }

@@ -105,16 +105,16 @@ mod tests {
             let found = value(text).unwrap();
             assert!((found - wanted).abs() < 1e-14, "{text}: {found}");
         }
-        assert!(value("ln(v - 3)").unwrap().is_nan());
+        assert_nan!(value("ln(v - 3)").unwrap());
     }
 
     #[test]
     fn what_is_wrong_is_said() {
         let message = |text: &str| value(text).unwrap_err();
         assert_eq!(message("2*w"), "who is w?");
-        assert!(message("sine(v)").contains("calls \"sine\"; functions are abs"));
-        assert!(message("v % 2").contains("\"%\" has no meaning"));
-        assert!(message("v*-2").contains("\"v*-2\" has two operators in a row"));
+        assert_contains!(message("sine(v)"), "calls \"sine\"; functions are abs");
+        assert_contains!(message("v % 2"), "\"%\" has no meaning");
+        assert_contains!(message("v*-2"), "\"v*-2\" has two operators in a row");
         for broken in ["", "v +", "(v", "v e", "2 v", "sin()", "sin", "v)"] {
             assert!(!message(broken).is_empty(), "{broken}");
         }

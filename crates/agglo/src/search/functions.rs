@@ -166,8 +166,9 @@ mod tests {
             let at = |shift| function.value(&[function.optimum() + shift; 10]);
             // Round-off of sums of ten terms of up to e^1 and of 20.
             assert!(at(0.0).abs() < 1e-14, "{function:?} {}", at(0.0));
-            assert!(at(1e-3) > 1e-6 && at(-1e-3) > 1e-6);
-            assert!(function.at(&[function.optimum_in_cube(); 10]).abs() < 1e-10);
+            assert_above!(at(1e-3), 1e-6);
+            assert_above!(at(-1e-3), 1e-6);
+            assert_below!(function.at(&[function.optimum_in_cube(); 10]).abs(), 1e-10);
         }
     }
 
@@ -192,8 +193,7 @@ mod tests {
         let count = 10_000;
         let mean = (0..count).map(cost).sum::<f64>() / count as f64;
         let variance = (0..count).map(|n| cost(n).powi(2)).sum::<f64>() / count as f64;
-        assert!(
-            mean.abs() < 5.0 * 2.0 / 100.0 && (variance / 4.0 - 1.0).abs() < 5.0 * 2.0_f64.sqrt() / 100.0
-        );
+        assert_below!(mean.abs(), 5.0 * 2.0 / 100.0);
+        assert_close!(variance, 4.0, 5.0 * 2.0_f64.sqrt() / 100.0);
     }
 }

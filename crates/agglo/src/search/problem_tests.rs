@@ -99,8 +99,9 @@ fn fitness_by_hand() {
     // Costs -2, -4, -6, -12: mean -6, variance (16 + 4 + 0 + 36)/3, error its root over 2. 0.4 misses 0.5 by a fifth.
     let fitness = problem.fitness(&few, &starts);
     assert_eq!(fitness.costs, [-6.0]);
-    assert!((fitness.standard_errors[0] - (56.0_f64 / 3.0).sqrt() / 2.0).abs() < 1e-15);
-    assert!((fitness.violation - 0.2).abs() < 1e-15 && !fitness.is_feasible());
+    assert_near!(fitness.standard_errors[0], (56.0_f64 / 3.0).sqrt() / 2.0, 1e-15);
+    assert_near!(fitness.violation, 0.2, 1e-15);
+    assert_false!(fitness.is_feasible(), "a point that breaks a constraint");
     let single = problem.fitness(&few, &[vec![1.0, 0.9, 7.0]]);
     assert_eq!((single.standard_errors[0], single.violation.to_bits()), (0.0, 0));
     assert_eq!(problem.costs(&few, &starts[3]), [-12.0]);

@@ -387,7 +387,8 @@ mod tests {
             let read = |value: f64| parse_quantity(&format!("{value:e} {}", kind.symbol), kind.dimension);
             assert_eq!(read(-kind.largest), Ok(-kind.largest), "{}", kind.name);
             assert!(matches!(read(2.0 * kind.largest), Err(UnitError::TooLarge { .. })), "{}", kind.name);
-            assert!(kind.smallest > 0.0 && kind.smallest < kind.largest);
+            assert_above!(kind.smallest, 0.0);
+            assert_below!(kind.smallest, kind.largest);
             for other in KINDS {
                 assert!((kind.largest * other.largest).powi(3).is_finite(), "{}, {}", kind.name, other.name);
                 assert!((kind.smallest * other.smallest).powi(2) > 0.0, "{}, {}", kind.name, other.name);
@@ -404,21 +405,21 @@ mod tests {
     fn what_is_wrong_is_said() {
         let length = Dimension([0, 1, 0, 0, 0]);
         let message = |text: &str| parse_quantity(text, length).unwrap_err().to_string();
-        assert!(message("3").contains("has no unit"));
-        assert!(message("3 Pa").contains("is a pressure"));
-        assert!(message("3 metres").contains("unknown unit \"metres\""));
-        assert!(message("wide").contains("does not begin with a number"));
-        assert!(message("1000 kg/m\u{b3}").ends_with("write powers as digits, such as kg/m3 or m^-1"));
-        assert!(message("20 \u{b0}C").contains("20 degrees Celsius are \"293.15 K\""));
-        assert!(message("1e999 m").contains("not a finite number"));
+        assert_contains!(message("3"), "has no unit");
+        assert_contains!(message("3 Pa"), "is a pressure");
+        assert_contains!(message("3 metres"), "unknown unit \"metres\"");
+        assert_contains!(message("wide"), "does not begin with a number");
+        assert_ends!(message("1000 kg/m\u{b3}"), "write powers as digits, such as kg/m3 or m^-1");
+        assert_contains!(message("20 \u{b0}C"), "20 degrees Celsius are \"293.15 K\"");
+        assert_contains!(message("1e999 m"), "not a finite number");
         let beyond = "\"2e9 m\" is beyond what can be computed; a length of at most 1e9 m is allowed";
         assert_eq!(message("2e9 m"), beyond);
-        assert!(message("3 m^200").contains("unknown unit"));
-        assert!(message("").contains("does not begin"));
+        assert_contains!(message("3 m^200"), "unknown unit");
+        assert_contains!(message(""), "does not begin");
         for text in ["3 J/(kg K", "3 J/kg K)", "3 )m(", "3 m/(s/)"] {
             assert!(message(text).contains("parentheses in"), "{}", message(text));
         }
-        assert!(message("3 m/").contains("unknown unit \"/\""));
-        assert!(message("3 m//s").contains("unknown unit \"/\""));
+        assert_contains!(message("3 m/"), "unknown unit \"/\"");
+        assert_contains!(message("3 m//s"), "unknown unit \"/\"");
     }
 }

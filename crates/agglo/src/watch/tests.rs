@@ -39,20 +39,25 @@ fn figures_are_those_of_the_last_rows() {
     let mut follower = Follower::open(&dir).unwrap();
     assert_eq!((follower.title(), follower.end(), follower.steps_are()), ("two grains", 1e-3, "steps"));
     let sight = follower.look().unwrap();
-    assert!(sight.summary.is_some() && (sight.time - 1e-3).abs() < 1e-5);
-    assert!(sight.figures.len() >= 8);
+    assert_some!(sight.summary);
+    assert_near!(sight.time, 1e-3, 1e-5, "in s");
+    assert_at_least!(sight.figures.len(), 8);
     for figure in &sight.figures {
         let (table, column) = figure.column;
         let row = last_row(&dir.join("series").join(format!("{table}.csv")));
         let wanted = row.iter().find(|(name, _)| name == column).unwrap().1;
         assert_eq!(figure.value.to_bits(), wanted.to_bits(), "{}", figure.name);
         let shown = sight.curves.iter().find(|curve| curve.name == figure.name);
-        assert!(shown.is_none_or(|curve| curve.points.last().unwrap().1 == wanted));
+        assert!(
+            shown.is_none_or(|curve| curve.points.last().unwrap().1 == wanted),
+            "wanted {wanted} at the end of {:?}",
+            shown.map(|curve| &curve.points)
+        );
     }
     let speed = sight.figures.iter().find(|figure| figure.name == "mean speed").unwrap();
     assert_eq!(speed.text(), "300 mm/s");
     // There are no beams, so nothing is told of rays.
-    assert!(sight.figures.iter().all(|figure| !figure.name.contains("ray")));
+    assert_all!(sight.figures.iter(), |figure| !figure.name.contains("ray"));
     assert_eq!(
         sight.curves.iter().map(|curve| curve.name).collect::<Vec<_>>(),
         ["dispersion degree", "mean speed"]
@@ -66,11 +71,13 @@ fn a_run_that_has_just_begun_has_no_figures() {
     assert!(missing.ends_with("scenario.toml") && missing.contains("holds no run"), "{missing}");
     std::fs::write(folder.path().join("scenario.toml"), SOFT).unwrap();
     let sight = Follower::open(folder.path()).unwrap().look().unwrap();
-    assert!(sight.figures.is_empty() && sight.summary.is_none() && sight.time == 0.0);
+    assert_empty!(sight.figures);
+    assert_none!(sight.summary);
+    assert_eq!(sight.time, 0.0);
     std::fs::create_dir(folder.path().join("checkpoints")).unwrap();
     std::fs::write(folder.path().join("summary.json"), "{\"version\": ").unwrap();
     let damaged = Follower::open(folder.path()).unwrap().look().unwrap_err().to_string();
     assert!(damaged.contains("summary.json: it is damaged"), "{damaged}");
     std::fs::write(folder.path().join("scenario.toml"), "version = 1\nvelocity = 2\n").unwrap();
-    assert!(matches!(Follower::open(folder.path()), Err(WatchError::Scenario { .. })));
+    assert_matches!(Follower::open(folder.path()), Err(WatchError::Scenario { .. }));
 }

@@ -41,7 +41,9 @@ pub fn finish(simulation: &mut Simulation) {
 
 /// Steps to the end; `look` sees the simulation after every step.
 pub fn watch(simulation: &mut Simulation, mut look: impl FnMut(&Simulation)) {
+    let mut turns = agglo_testing::Turns::at_most(50_000_000, "the end of the run");
     while !simulation.is_finished() {
+        turns.take();
         simulation.step().unwrap_or_else(|error| panic!("{error}"));
         look(simulation);
     }

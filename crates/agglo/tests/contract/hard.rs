@@ -93,7 +93,9 @@ impl Case {
 }
 
 fn finish(simulation: &mut Simulation) {
+    let mut turns = agglo_testing::Turns::at_most(10_000_000, "the time that is due");
     while !simulation.is_finished() {
+        turns.take();
         simulation.advance(f64::INFINITY).unwrap_or_else(|error| panic!("{error}"));
     }
 }
@@ -173,9 +175,13 @@ fn resumed_is_the_same() {
         let mut stream = Stream::new(3, Purpose::Sampling, 0);
         let mut genealogy = (Vec::new(), Vec::new());
         let mut resumed = 0;
+        let mut turns = agglo_testing::Turns::at_most(10_000_000, "the time that is due");
         while !simulation.is_finished() {
+            turns.take();
             let until = simulation.clock().time + 0.06 * stream.uniform() * simulation.end();
+            let mut turns = agglo_testing::Turns::at_most(10_000_000, "the time that is due");
             while simulation.clock().time < until && !simulation.is_finished() {
+                turns.take();
                 simulation.advance(until).unwrap();
             }
             let cloud = simulation.cloud_mut();
@@ -201,16 +207,17 @@ fn output_changes_nothing() {
         let wanted = whole(case);
         let (_, mut simulation) = case.start();
         let mut stream = Stream::new(4, Purpose::Sampling, 0);
+        let mut turns = agglo_testing::Turns::at_most(10_000_000, "the time that is due");
         while !simulation.is_finished() {
+            turns.take();
             let now = simulation.clock().time;
             let piece = (0.01 * stream.uniform() - 0.002).max(0.0);
             simulation.advance(now + piece * simulation.end()).unwrap();
             let (snapshot, balance) = (simulation.snapshot(), simulation.balance());
-            assert!(snapshot.grains.len() == simulation.grains() && balance.drift_relative.is_finite());
-            assert!(
-                simulation.momentum().is_finite()
-                    && !postcard::to_stdvec(&simulation.state()).unwrap().is_empty()
-            );
+            assert_eq!(snapshot.grains.len(), simulation.grains());
+            assert_finite!(balance.drift_relative);
+            assert_true!(simulation.momentum().is_finite(), "{:?} kg m/s", simulation.momentum());
+            assert_filled!(postcard::to_stdvec(&simulation.state()).unwrap());
         }
         // How many events were dealt with between two looks is no figure of the simulation, all else is.
         assert_same(&seen(&mut simulation, Default::default()), &wanted, case, "watched");
@@ -240,7 +247,9 @@ fn grown_grains_start_another_run() {
         let what = format!("{} {} {}", case.name, case.engine, case.boundary);
         let (mut scenario, mut first) = case.start();
         let half = 0.5 * scenario.time.end.si();
+        let mut turns = agglo_testing::Turns::at_most(10_000_000, "the time that is due");
         while first.clock().time < half {
+            turns.take();
             first.advance(half).unwrap();
         }
         let before = first.snapshot();
@@ -250,7 +259,9 @@ fn grown_grains_start_another_run() {
         assert_eq!(next.snapshot(), before, "{what}");
         let energies = [&first, &next].map(|simulation| simulation.balance().stores.kinetic);
         assert!((energies[1] / energies[0] - 1.0).abs() < 1e-12, "{what}: {energies:?} J");
+        let mut turns = agglo_testing::Turns::at_most(10_000_000, "the time that is due");
         while next.clock().time < 0.5 * half {
+            turns.take();
             next.advance(0.5 * half).unwrap();
         }
         let bytes = postcard::to_stdvec(&next.state()).unwrap();
@@ -273,7 +284,9 @@ fn grown_grains_start_another_run() {
 fn from_event_to_event_the_course_is_the_same() {
     let (mut scenario, mut whole) = Case { end: "0.4 ms", ..BOUNCING }.start();
     let half = 0.5 * scenario.time.end.si();
+    let mut turns = agglo_testing::Turns::at_most(10_000_000, "the time that is due");
     while whole.clock().time < half {
+        turns.take();
         whole.advance(half).unwrap();
     }
     let start = whole.clone().into_start();
@@ -335,7 +348,9 @@ fn books_close() {
         let start = simulation.grains_at_start();
         for part in 1..=20 {
             let until = simulation.end() * f64::from(part) / 20.0;
+            let mut turns = agglo_testing::Turns::at_most(10_000_000, "the time that is due");
             while simulation.clock().time < until && !simulation.is_finished() {
+                turns.take();
                 simulation.advance(until).unwrap();
             }
             let (balance, books) = (simulation.balance(), &simulation.cloud().state.books);
@@ -350,7 +365,11 @@ fn books_close() {
             for (mass, primaries) in now.grains.mass.iter().zip(&now.primaries) {
                 // Equal primaries, but where sizes are scattered.
                 let whole = books.mass_at_start / start as f64 * f64::from(*primaries);
-                assert!(case.name == "bouncing" || (mass / whole - 1.0).abs() < 1e-12);
+                assert!(
+                    case.name == "bouncing" || (mass / whole - 1.0).abs() < 1e-12,
+                    "{}: mass {mass:e} kg of {whole:e} kg",
+                    case.name
+                );
             }
         }
         assert_busy(&simulation, case);

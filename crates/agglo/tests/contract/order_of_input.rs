@@ -31,7 +31,8 @@ fn after(order: &[usize], engine: &str) -> Vec<Vec3> {
     });
     let mut touched = 0;
     common::watch(&mut simulation, |now| touched += u32::from(now.system.trial.contact.worst_strain > 0.0));
-    assert!(touched > 100 && simulation.events.iter().any(|event| event.broke.is_some()));
+    assert_above!(touched, 100);
+    assert_any!(simulation.events.iter(), |event| event.broke.is_some());
     let id_of = |k: usize| order.iter().position(|listed| *listed == k).unwrap() as u32;
     (0..order.len()).map(|k| common::grain(&simulation, id_of(k)).position).collect()
 }

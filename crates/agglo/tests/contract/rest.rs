@@ -48,13 +48,13 @@ fn rest_lasts() {
         (at[1] - at[0]).norm()
     };
     let (distance, drifting) = (apart(&simulation), kinetic(&simulation));
-    assert!(distance > 1.9901e-3);
+    assert_above!(distance, 1.9901e-3, "in m");
     steps(&mut simulation, 2000);
     // Rest to 1 um/s, a millionth of the energy of the drift at most.
-    assert!((apart(&simulation) / distance - 1.0).abs() < 1e-6);
-    assert!((kinetic(&simulation) / drifting - 1.0).abs() < 1e-5);
+    assert_close!(apart(&simulation), distance, 1e-6);
+    assert_close!(kinetic(&simulation), drifting, 1e-5, "in J");
     let mean = (simulation.system.grains.velocity[0] + simulation.system.grains.velocity[1]) * 0.5;
-    assert!((mean - Vec3::new(0.0, 0.3, 0.0)).norm() < 1e-12);
+    assert_near_vector!(mean, Vec3::new(0.0, 0.3, 0.0), 1e-12);
 }
 
 /// Whoever waits is told at every step how far rest is, and may stop.
@@ -67,8 +67,9 @@ fn the_way_to_rest_is_told() {
         ControlFlow::Continue(())
     };
     Simulation::start_watched(&scenario, common::grains(&scenario, |_| {}), &mut watch).unwrap();
-    assert!(told.len() > 10 && told.windows(2).all(|pair| pair[1].step == pair[0].step + 1));
-    assert!(told.iter().all(|resting| resting.speed > resting.limit && resting.limit == 1e-6));
+    assert_above!(told.len(), 10);
+    assert_all!(told.windows(2), |pair| pair[1].step == pair[0].step + 1);
+    assert_all!(told.iter(), |resting| resting.speed > resting.limit && resting.limit == 1e-6);
     let mut stop = |_: &Resting| ControlFlow::Break(());
     let stopped = Simulation::start_watched(&scenario, common::grains(&scenario, |_| {}), &mut stop);
     assert_eq!(stopped.unwrap_err(), SimError::StoppedAtRest);

@@ -4,6 +4,9 @@
 //! or a hang; that of one that fails stays as `hostile-READER-PROCESS.CASE`. `AGGLO_INPUT=FILE cargo test -p agglo --test hostile READER` reads that again, and
 //! `AGGLO_CASES=30 cargo test -p agglo --test hostile` reads thirty times as many cases.
 
+#[macro_use]
+extern crate agglo_testing;
+
 mod mutate;
 mod readers;
 mod seeds;

@@ -197,7 +197,7 @@ pub fn table(bench: &Bench, bytes: &[u8]) -> Verdict {
     match placed {
         Ok(grains) => {
             let numbers = grains.position.iter().flat_map(|place| [place.x, place.y, place.z]);
-            assert!(numbers.chain(grains.radius.iter().copied()).all(f64::is_finite));
+            assert_all!(numbers.chain(grains.radius.iter().copied()), f64::is_finite);
             Ok(())
         }
         Err(error) => refused(&error.to_string().replace(&dir.display().to_string(), "")),

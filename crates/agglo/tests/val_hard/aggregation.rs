@@ -151,7 +151,9 @@ fn a_million_grains_merge_in_a_gigabyte() {
     let mut simulation = gas.start();
     simulation.cloud_mut().keeps_events = false;
     let mut time = 1e-3;
+    let mut turns = agglo_testing::Turns::at_most(10_000_000, "grains to merge");
     while simulation.grains() > 1_000 {
+        turns.take();
         support::run_until(&mut simulation, time);
         time *= 1.2;
     }

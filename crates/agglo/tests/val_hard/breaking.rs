@@ -61,7 +61,7 @@ fn break_and_merge(engine: &str, pieces: &str) -> Simulation {
         assert_eq!(now.primaries.iter().sum::<u32>(), COUNT);
         for (&mass, &primaries) in now.grains.mass.iter().zip(&now.primaries) {
             // Each break and merge rounds once or twice.
-            assert!((mass / (single * f64::from(primaries)) - 1.0).abs() < 1e-12);
+            assert_close!(mass, single * f64::from(primaries), 1e-12, "in kg");
         }
         if engine == EVENTS {
             let overlap = deepest(&simulation, &merged, gas.edge());
@@ -81,10 +81,11 @@ fn break_and_merge(engine: &str, pieces: &str) -> Simulation {
     support::assert_books(&simulation);
     let balance = simulation.balance();
     // New surface less the surface that merges have made disappear does not enter: surfaces are booked where made.
-    assert!(balance.surface > 0.0 && balance.surface < balance.normal + balance.tangential);
+    assert_above!(balance.surface, 0.0, "in J");
+    assert_below!(balance.surface, balance.normal + balance.tangential, "in J");
     let booked = balance.heat + balance.surface;
     assert!((booked / (balance.normal + balance.tangential) - 1.0).abs() < 1e-12, "{balance:?}");
-    assert!((mass - simulation.snapshot().grains.mass.iter().sum::<f64>()).abs() < 1e-12 * mass);
+    assert_near!(mass, simulation.snapshot().grains.mass.iter().sum::<f64>(), 1e-12 * mass, "in kg");
     simulation
 }
 

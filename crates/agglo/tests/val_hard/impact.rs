@@ -166,10 +166,10 @@ fn what_sticks_is_the_sum_of_both() {
             let center =
                 along * (1.5 * (radii[0] + radii[1]) * b / (a + b)) + velocity * simulation.clock().time;
             // Sums of three terms, rounded.
-            assert!((row.mass / (a + b) - 1.0).abs() < 1e-14);
-            assert!((row.radius / (radii[0].powi(3) + radii[1].powi(3)).cbrt() - 1.0).abs() < 1e-14);
-            assert!((row.velocity - velocity).norm() < 1e-13 * speed);
-            assert!((row.position - center).norm() < 1e-12 * radii[0]);
+            assert_close!(row.mass, a + b, 1e-14, "in kg");
+            assert_close!(row.radius, (radii[0].powi(3) + radii[1].powi(3)).cbrt(), 1e-14, "in m");
+            assert_near_vector!(row.velocity, velocity, 1e-13 * speed, "in m/s");
+            assert_near_vector!(row.position, center, 1e-12 * radii[0], "in m");
             assert_eq!(one.primaries, [2]);
         }
     }

@@ -47,7 +47,7 @@ fn a_gas_cools_by_radiation_from_impact_to_impact() {
     });
     let end = 0.05;
     support::run_until(&mut simulation, end);
-    assert!(support::impacts(&simulation) > 20_000);
+    assert_above!(support::impacts(&simulation), 20_000);
     let snapshot = simulation.snapshot().grains;
     for (id, &found) in snapshot.id.iter().zip(&snapshot.temperature).step_by(50) {
         let wanted = cooled(hot(*id as usize), gas.radius, end);

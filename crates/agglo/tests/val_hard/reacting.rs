@@ -46,9 +46,9 @@ fn growth(text: &str, seed: u64) -> f64 {
     let before = Growth::of(&simulation.snapshot());
     support::finish(&mut simulation);
     let after = Growth::of(&simulation.snapshot());
-    assert!((after.mass / before.mass - 1.0).abs() < 1e-12);
-    assert!(simulation.momentum_drift_relative() < 1e-12);
-    assert!(simulation.balance().drift_relative.abs() < 1e-12);
+    assert_close!(after.mass, before.mass, 1e-12, "in kg");
+    assert_below!(simulation.momentum_drift_relative(), 1e-12);
+    assert_below!(simulation.balance().drift_relative.abs(), 1e-12);
     after.mean_radius / before.mean_radius
 }
 
@@ -58,7 +58,7 @@ fn mean(text: &str, starts: u64) -> Mean {
 }
 
 fn time_stepped(text: &str, options: &str) -> String {
-    assert!(text.contains(EVENTS));
+    assert_contains!(text, EVENTS);
     text.replace(EVENTS, &format!("[engine.time_stepped]\n{options}"))
 }
 
@@ -120,7 +120,7 @@ fn study_of_the_published_choices() {
     let all = published.split("[output]").next().unwrap();
     for (set, text) in SETS.iter().enumerate() {
         let changed = |from: &str, to: &str| {
-            assert!(text.contains(from));
+            assert_contains!(text, from);
             text.replace(from, to)
         };
         let hardness = "[impact.restitution.hardness]";

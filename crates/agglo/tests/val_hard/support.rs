@@ -96,7 +96,9 @@ pub fn start(text: &str, change: impl FnOnce(&mut Particles)) -> Simulation {
 
 /// Goes on to a time [s] or the end.
 pub fn run_until(simulation: &mut Simulation, until: f64) {
+    let mut turns = agglo_testing::Turns::at_most(100_000_000, "the time or the impacts that are due");
     while simulation.clock().time < until && !simulation.is_finished() {
+        turns.take();
         simulation.advance(until).unwrap_or_else(|error| panic!("{error}"));
     }
 }
@@ -109,7 +111,9 @@ pub fn finish(simulation: &mut Simulation) {
 /// Goes on for at least this many impacts.
 pub fn collide(simulation: &mut Simulation, more: u64) {
     let goal = impacts(simulation) + more;
+    let mut turns = agglo_testing::Turns::at_most(100_000_000, "the time or the impacts that are due");
     while impacts(simulation) < goal {
+        turns.take();
         simulation.advance(f64::INFINITY).unwrap_or_else(|error| panic!("{error}"));
     }
 }

@@ -28,7 +28,7 @@ fn val_rays_reach_grains_that_have_moved_away() {
             grains.positions[0] = Vec3::new(2.0 + ahead, -9.0, 0.0);
             advance(&mut tracer, &mut flight, grains, 1.0);
         }
-        assert!(flight.rays().is_empty());
+        assert_empty!(flight.rays());
         flight.pulses()[0].reflections
     };
     assert_eq!(fly(&mut grains, None), 100);
@@ -74,26 +74,26 @@ fn val_zohdi_2016_beam_power_of_all_rays() {
         let mut tracer = Tracer::new(FOLLOW_ALL, vec![CERAMIC]);
         let mut flight = Flight::default();
         flight.launch(&beam(Vec3::AXES[2], 10_000, Pattern::Random), &Medium::default(), seed, 0, 0);
-        assert!((flight.beam_power().flow - Vec3::AXES[2]).norm() < 1e-12);
-        assert!((flight.beam_power().root_of_squares - 0.01).abs() < 1e-12);
+        assert_near_vector!(flight.beam_power().flow, Vec3::AXES[2], 1e-12);
+        assert_near!(flight.beam_power().root_of_squares, 0.01, 1e-12);
         // 4 ms in water.
         let hits = advance(&mut tracer, &mut flight, &packing, 6.0);
         let (all, flying, count) = (flight.beam_power(), flight.power_flying(), flight.pulses()[0]);
         // What left and what flies, to the rounding of 1e5 terms.
-        assert!((all.magnitude - 1.0 + count.power_absorbed / count.power_in).abs() < 1e-11);
-        assert!(flying.magnitude < 0.05);
+        assert_below!((all.magnitude - 1.0 + count.power_absorbed / count.power_in).abs(), 1e-11);
+        assert_below!(flying.magnitude, 0.05);
         // Momentum: what all rays carry now is what they carried less what their hits took.
         let taken: Vec3 = hits
             .iter()
             .map(|hit| (hit.direction_in - hit.direction_out * hit.reflectance) * hit.power_in)
             .sum();
-        assert!((all.flow + taken / count.power_in - Vec3::AXES[2]).norm() < 1e-10);
+        assert_near_vector!(all.flow + taken / count.power_in, Vec3::AXES[2], 1e-10);
         axis += all.flow.z / 8.0;
         magnitude += all.magnitude / 8.0;
         // Squares too: those of all rays at first, less what hits took of them.
         let lost: f64 = hits.iter().map(|hit| hit.power_in.powi(2) * (1.0 - hit.reflectance.powi(2))).sum();
         let squares = 1e-4 - lost / count.power_in.powi(2);
-        assert!((all.root_of_squares.powi(2) / squares - 1.0).abs() < 1e-10);
+        assert_close!(all.root_of_squares.powi(2), squares, 1e-10);
     }
     found("beam_power", &[("axis", axis), ("magnitude", magnitude)]);
     assert!((axis + 0.155).abs() < 0.01, "{axis}");
@@ -155,7 +155,7 @@ fn val_batches_of_hits_do_not_depend_on_threads() {
     };
     let (one, three) = (shoot(1), shoot(3));
     assert!(one.0.len() > 6, "{:?}", one.0);
-    assert!(one == three);
+    assert_eq!(one, three);
     // The order of one ray's hits is that of time: each begins where the last one ended, seen by its power.
     assert_eq!(one.1.len() as u64, one.2.pulses()[0].reflections);
 }
@@ -174,10 +174,10 @@ fn val_rays_that_start_in_a_grain_are_dropped() {
     assert!((f64::from(rays) / 10_000.0 - 0.64).abs() < 1e-3 && grain == 0, "{rays}");
     let count = flight.pulses()[0];
     assert_eq!((count.blocked, count.in_flight), (rays, 10_000 - rays));
-    assert!((count.power_truncated / count.power_in - f64::from(rays) / 10_000.0).abs() < 1e-12);
-    assert!((flight.beam_power().magnitude - 1.0).abs() < 1e-12);
+    assert_near!(count.power_truncated / count.power_in, f64::from(rays) / 10_000.0, 1e-12);
+    assert_near!(flight.beam_power().magnitude, 1.0, 1e-12);
     let hits = tracer.trace(&mut flight, &grains.targets());
-    assert!(hits.iter().all(|hit| (hit.point.norm() - 1.0).abs() < 1e-12));
+    assert_all!(hits.iter(), |hit| (hit.point.norm() - 1.0).abs() < 1e-12);
     wide.start = [-1.0, 0.0, 0.0].map(Quantity);
     let mut flight = Flight::default();
     flight.launch(&wide, &Medium::default(), 1, 0, 0);

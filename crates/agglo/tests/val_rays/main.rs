@@ -1,5 +1,8 @@
 //! Rays against closed forms, independent counts and conservation laws.
 
+#[macro_use]
+extern crate agglo_testing;
+
 mod ends;
 #[path = "../common/figures.rs"]
 mod figures;
@@ -57,7 +60,7 @@ impl Packing {
         let mut flight = Flight::default();
         flight.launch(beam, &Medium::default(), seed, 0, 0);
         let hits = tracer.trace(&mut flight, &self.targets());
-        assert!(flight.rays().is_empty());
+        assert_empty!(flight.rays());
         (flight, hits)
     }
 }
@@ -195,9 +198,9 @@ fn val_power_ledger_closes_at_every_instant() {
             assert_eq!(rays as u32, count.in_flight);
         }
     }
-    assert!(flight.rays().is_empty());
+    assert_empty!(flight.rays());
     found("power_ledger", &[("off", worst)]);
-    assert!(flight.pulses().iter().all(|count| count.power_truncated > 1e-3 * count.power_in));
+    assert_all!(flight.pulses().iter(), |count| count.power_truncated > 1e-3 * count.power_in);
 }
 
 /// Momentum of a beam on a mirror sphere: geometrical scattering is isotropic, so F = (I/c) pi R² forward.
@@ -218,7 +221,7 @@ fn val_radiation_force_on_a_perfect_reflector() {
         let expected = intensity / 1500.0 * PI * 0.9 * 0.9;
         found("reflector", &[("ratio", force.z / expected)]);
         assert!((force.z / expected - 1.0).abs() < 1e-3, "{pattern:?} {}", force.z / expected);
-        assert!(force.x.hypot(force.y) < 1e-3 * expected);
+        assert_below!(force.x.hypot(force.y), 1e-3 * expected);
     }
 }
 
@@ -242,11 +245,11 @@ fn val_momentum_of_rays_goes_to_grains() {
             hits.iter().map(|h| (h.direction_out * h.reflectance - h.direction_in) * h.power_in).sum();
         gone += rays.iter().map(|r| r.direction * r.power).sum::<Vec3>() + bounced - momentum(&flight);
     }
-    assert!(flight.rays().is_empty());
+    assert_empty!(flight.rays());
     // Sums of 1e4 terms.
     found("momentum_of_rays", &[("off", (force * 1500.0 + gone - before).norm() / before.norm())]);
-    assert!((force * 1500.0 + gone - before).norm() < 1e-11 * before.norm());
-    assert!(force.y * 1500.0 > 0.1 * before.norm());
+    assert_close_vector!(force * 1500.0 + gone, before, 1e-11);
+    assert_above!(force.y * 1500.0, 0.1 * before.norm());
 }
 
 /// A ray between two mirrors by hand: it starts in the middle of a gap of 2 and flies 7: bounces at 1, 3, 5, 7.
@@ -260,20 +263,20 @@ fn val_bounces_between_two_grains_by_hand() {
     let mut tracer = Tracer::new(FOLLOW_ALL, vec![CERAMIC]);
     let mut flight = Flight::default();
     flight.launch(&one, &Medium::default(), 1, 0, 0);
-    assert!(advance(&mut tracer, &mut flight, &grains, 0.999_999).is_empty());
+    assert_empty!(advance(&mut tracer, &mut flight, &grains, 0.999_999));
     let hits = advance(&mut tracer, &mut flight, &grains, 6.000_002);
     assert_eq!(hits.iter().map(|hit| hit.grain).collect::<Vec<_>>(), [1, 0, 1, 0]);
     let reflectance = (17.0_f64 / 19.0).powi(2);
     for (bounce, hit) in (0..).zip(&hits) {
         // The ray starts 7e-10 off the axis; the misses grow by about 3 per bounce and enter squared.
-        assert!((hit.power_in / (2.0 * reflectance.powi(bounce)) - 1.0).abs() < 1e-12);
-        assert!((hit.point - Vec3::new(if bounce % 2 == 0 { 1.0 } else { -1.0 }, 0.0, 0.0)).norm() < 1e-6);
-        assert!((hit.refracted - hit.direction_in).norm() < 1e-6);
+        assert_close!(hit.power_in, 2.0 * reflectance.powi(bounce), 1e-12, "in W");
+        assert_near_vector!(hit.point, Vec3::new(if bounce % 2 == 0 { 1.0 } else { -1.0 }, 0.0, 0.0), 1e-6);
+        assert_near_vector!(hit.refracted, hit.direction_in, 1e-6);
     }
-    assert!((flight.rays()[0].position().x + 1.0).abs() < 2e-6);
+    assert_near!(flight.rays()[0].position().x, -1.0, 2e-6, "in m");
     // Caught for ever, but its power is not: it ends when nothing is left.
     advance(&mut tracer, &mut flight, &grains, f64::INFINITY);
-    assert!(flight.rays().is_empty());
+    assert_empty!(flight.rays());
 }
 
 /// A grain that closes in on a ray kicks it out once; two that crush it between them drop it.
@@ -290,7 +293,8 @@ fn val_moving_grains_do_not_swallow_rays() {
     grains.positions[0].x = 1.5;
     let hits = advance(&mut tracer, &mut flight, &grains, 1.0);
     assert_eq!(hits.len(), 1);
-    assert!((hits[0].point.x - 1.0).abs() < 1e-15 && flight.rays()[0].position().x < 0.1);
+    assert_near!(hits[0].point.x, 1.0, 1e-15);
+    assert_below!(flight.rays()[0].position().x, 0.1, "in m");
 
     one.radius = Quantity(1e-4);
     let mut flight = Flight::default();
@@ -298,9 +302,11 @@ fn val_moving_grains_do_not_swallow_rays() {
     grains.positions = vec![Vec3::new(0.9, 0.0, 0.0), Vec3::new(-0.9, 0.0, 0.0)];
     let hits = advance(&mut tracer, &mut flight, &grains, 1.0);
     let count = flight.pulses()[0];
-    assert!(hits.len() < 100 && hits.len() > 10 && flight.rays().is_empty());
+    assert_below!(hits.len(), 100);
+    assert_above!(hits.len(), 10);
+    assert_empty!(flight.rays());
     let out = count.power_truncated + count.power_absorbed + count.power_escaped;
-    assert!((out / count.power_in - 1.0).abs() < 1e-12);
+    assert_close!(out, count.power_in, 1e-12);
 }
 
 /// Many small advances find the very hits of one long one: a ray remembers where its segment began.
@@ -313,7 +319,9 @@ fn val_chopped_flight_is_one_flight() {
     let mut flight = Flight::default();
     flight.launch(&beam, &Medium::default(), 7, 0, 0);
     let mut chopped = Vec::new();
+    let mut turns = agglo_testing::Turns::at_most(100_000, "all rays to end");
     while !flight.rays().is_empty() {
+        turns.take();
         chopped.extend(advance(&mut tracer, &mut flight, &packing, 0.007));
     }
     let key = |hit: &Hit| [hit.point.x, hit.point.y, hit.point.z, hit.power_in].map(f64::to_bits);
@@ -329,7 +337,7 @@ fn val_chopped_flight_is_one_flight() {
         (many.reflections, many.segments, many.longest_chain)
     );
     // The books add the same powers in another order.
-    assert!((one.power_absorbed / many.power_absorbed - 1.0).abs() < 1e-12);
+    assert_close!(one.power_absorbed, many.power_absorbed, 1e-12);
 }
 
 /// The same bits for 1, 2 and 7 threads, and for a flight that is written down and read back after every step, so
@@ -365,7 +373,7 @@ fn val_same_bits_for_any_number_of_threads_and_after_a_restart() {
         })
     };
     let alone = run(1, false);
-    assert!(alone.0.len() > 10_000);
+    assert_above!(alone.0.len(), 10_000);
     for (threads, restart) in [(2, false), (7, false), (2, true)] {
         let other = run(threads, restart);
         assert!(alone.0 == other.0 && alone.1 == other.1, "{threads} threads, restart {restart}");

@@ -25,7 +25,9 @@ fn overlap(simulation: &Simulation) -> f64 {
 fn contact(simulation: &mut Simulation) -> Contact {
     let mut found = Contact { overlap: 0.0, force: 0.0, duration: 0.0 };
     let mut before = 0.0;
+    let mut turns = agglo_testing::Turns::at_most(10_000_000, "the grains to part");
     loop {
+        turns.take();
         common::steps(simulation, 1);
         let (now, clock) = (overlap(simulation), simulation.clock());
         if now < 0.0 {

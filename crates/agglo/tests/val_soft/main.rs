@@ -2,6 +2,9 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+#[macro_use]
+extern crate agglo_testing;
+
 #[path = "../common/mod.rs"]
 mod common;
 

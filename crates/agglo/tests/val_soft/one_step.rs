@@ -8,7 +8,6 @@ use agglo::engine::soft::Simulation;
 use agglo::math::Vec3;
 
 use crate::common::{self, Listed, grain};
-use crate::unlike::{assert_close, assert_close_vector};
 
 const RADIUS: f64 = 20e-6;
 const STEP: f64 = 1e-6;
@@ -39,7 +38,7 @@ fn one_step(engine: &str, more: &str, velocity: Vec3, spin: Vec3) -> Simulation 
         grains.spin[0] = spin;
     });
     common::steps(&mut simulation, 1);
-    assert_close(simulation.clock().time, STEP, 1e-15, "time after the step", "s");
+    assert_close!(simulation.clock().time, STEP, 1e-15, "time after the step, s");
     simulation
 }
 
@@ -58,15 +57,15 @@ fn a_force_of_time() {
         let faster = velocity + mean * (STEP / mass());
         let what = |what: &str| format!("φ = {phi}, {}: {what}", engine.lines().next().unwrap());
         let row = grain(&found, 0);
-        assert_close_vector(row.velocity, faster, 1e-13, &what("velocity"), "m/s");
+        assert_close_vector!(row.velocity, faster, 1e-13, "{}, m/s", what("velocity"));
         let guess = if engine.contains("verlet") { velocity + before * (STEP / mass()) } else { faster };
         let place = (guess * phi + velocity * (1.0 - phi)) * STEP;
 
-        assert_close_vector(row.position, place, 1e-13, &what("position"), "m");
+        assert_close_vector!(row.position, place, 1e-13, "{}, m", what("position"));
         let flow = found.ledger.flows.supplies.field;
         let work = STEP * (phi * after.dot(guess) + (1.0 - phi) * before.dot(velocity));
-        assert_close(flow.power, work, 1e-12, &what("work of the field"), "J");
-        assert_close_vector(flow.force, mean * STEP, 1e-12, &what("impulse of the field"), "N s");
+        assert_close!(flow.power, work, 1e-12, "{}, J", what("work of the field"));
+        assert_close_vector!(flow.force, mean * STEP, 1e-12, "{}, N s", what("impulse of the field"));
     }
 }
 
@@ -93,17 +92,17 @@ fn a_drag_in_a_medium_that_moves() {
         let h = STEP / heavy;
         let x =
             (velocity.x + h * (phi * (drag * late + push) + (1.0 - phi) * at_start)) / (1.0 + phi * h * drag);
-        assert_close(row.velocity.x, x, 1e-9, &what("velocity along the flow"), "m/s");
+        assert_close!(row.velocity.x, x, 1e-9, "{}, m/s", what("velocity along the flow"));
         let z = velocity.z * (1.0 - (1.0 - phi) * h * drag) / (1.0 + phi * h * drag);
-        assert_close(row.velocity.z, z, 1e-12, &what("velocity across the flow"), "m/s");
+        assert_close!(row.velocity.z, z, 1e-12, "{}, m/s", what("velocity across the flow"));
         // Spin about x dies away; about z it is drawn to half the curl, 1e3 at the end and nothing at the start.
         let h = STEP / inertia;
         let of = |spin: f64, late: f64| {
             (spin + h * resistance * (phi * late - (1.0 - phi) * spin)) / (1.0 + phi * h * resistance)
         };
-        assert_close(row.spin.x, of(spin.x, 0.0), 1e-12, &what("spin across"), "rad/s");
+        assert_close!(row.spin.x, of(spin.x, 0.0), 1e-12, "{}, rad/s", what("spin across"));
         // The curl is a difference over a part of the radius.
-        assert_close(row.spin.z, of(spin.z, 1e3), 1e-8, &what("spin with the flow"), "rad/s");
+        assert_close!(row.spin.z, of(spin.z, 1e3), 1e-8, "{}, rad/s", what("spin with the flow"));
     }
 }
 
@@ -125,7 +124,7 @@ fn the_work_of_drag_in_a_medium_that_speeds_up() {
             .dot(mean(velocity, after.velocity))
             - mean(spin, after.spin).norm_squared() * resistance;
         let booked = found.ledger.flows.supplies.drag.power;
-        assert_close(booked, work * STEP, 1e-7, &format!("φ = {phi}: work of the drag"), "J");
+        assert_close!(booked, work * STEP, 1e-7, "φ = {phi}: work of the drag, J");
     }
 }
 
@@ -146,6 +145,6 @@ fn a_rotation_in_a_field_that_grows() {
         let wanted =
             Vec3::new((rest[0] + late * rest[1]) * over, (rest[1] - late * rest[0]) * over, velocity.z);
         let what = format!("φ = {phi}, {}: velocity", engine.lines().next().unwrap());
-        assert_close_vector(found, wanted, 1e-12, &what, "m/s");
+        assert_close_vector!(found, wanted, 1e-12, "{what}, m/s");
     }
 }

@@ -37,7 +37,7 @@ fn val_zohdi_2016_first_pulse() {
     );
     assert!((absorbed - 0.07).abs() < 0.01, "{absorbed}");
     let books = count.power_absorbed + count.power_escaped + count.power_truncated;
-    assert!((books / count.power_in - 1.0).abs() < 1e-12);
+    assert_close!(books, count.power_in, 1e-12);
 }
 
 /// All four pulses of the sample problem, grains that move: rays reach them wherever they are by then. The same run with a region
@@ -62,12 +62,12 @@ fn val_zohdi_2016_later_pulses_find_the_grains() {
         "{reflections:?}"
     );
     let narrow = run(&["acoustics.region.sphere.radius=1.6 m"]);
-    assert!(narrow.pulses.counts()[3].reflections < 200);
+    assert_below!(narrow.pulses.counts()[3].reflections, 200);
     let warned = |simulation: &Simulation, words: &str| {
         simulation.warnings.counts().keys().any(|warning| warning.contains(words))
     };
-    assert!(warned(&narrow, "acoustics.region leaves grains outside"));
-    assert!(!warned(&shipped, "acoustics.region"));
+    assert_true!(warned(&narrow, "acoustics.region leaves grains outside"), "among the warnings of the run");
+    assert_false!(warned(&shipped, "acoustics.region"), "among the warnings of the run");
 }
 
 /// Two grains of 1 cm at x = 0 and x = 1 m and a beam along x that starts at -5 cm.
@@ -122,14 +122,11 @@ fn pulses_for_nothing_are_told() {
         warnings(text, |_| {}).iter().any(|(text, count)| text.contains(words) && *count == 1)
     };
     let aside = |y: &str| aimed(&format!("[\"-5 cm\", \"{y}\", \"0 m\"]"), "0 s", "50 us");
-    assert!(
-        told(&aside("2.01 cm"), "passes all grains by") && !told(&aside("1.99 cm"), "passes all grains by")
-    );
+    assert_true!(told(&aside("2.01 cm"), "passes all grains by"), "a warning counted once");
+    assert_false!(told(&aside("1.99 cm"), "passes all grains by"), "a warning counted once");
     let until = |end: &str| aimed("[\"-5 cm\", \"0 m\", \"0 m\"]", "10 us", end);
-    assert!(
-        told(&until("36 us"), "after the end of the run")
-            && !told(&until("37 us"), "after the end of the run")
-    );
+    assert_true!(told(&until("36 us"), "after the end of the run"), "a warning counted once");
+    assert_false!(told(&until("37 us"), "after the end of the run"), "a warning counted once");
 }
 
 /// Grains crush a ray between them; a cap on bounces drops one in their cusp: each is counted.
@@ -147,5 +144,5 @@ fn rays_that_are_dropped_are_told() {
     let told = simulation.warnings.counts().iter().find(|(text, _)| text.starts_with("acoustics.bounces"));
     assert!(told.is_some_and(|(_, times)| *times == u64::from(count.capped)), "{told:?} {count:?}");
     let books = count.power_absorbed + count.power_escaped + count.power_truncated;
-    assert!((books / count.power_in - 1.0).abs() < 1e-12);
+    assert_close!(books, count.power_in, 1e-12);
 }

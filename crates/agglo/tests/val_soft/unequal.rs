@@ -7,7 +7,7 @@ use agglo::engine::soft::Simulation;
 use agglo::math::Vec3;
 
 use crate::common::{self, grain, place};
-use crate::unlike::{Unlike, assert_close, assert_close_vector};
+use crate::unlike::Unlike;
 
 /// Of stone at 420 K and of wood at 350 K; the wood is larger.
 fn stone_and_wood(distance: f64, more: &str) -> Unlike {
@@ -85,23 +85,11 @@ fn assert_loads(simulation: &Simulation, pair: &Askew, repulsion: f64, across: V
     let couple = pair.normal.cross(across);
     // The area follows from a difference of squares: rounding over the overlap's part of the radius, 1e-16/1e-2.
     let tolerance = 1e-11;
-    assert_close_vector(loads.force[first], force, tolerance, &format!("{what}: force on the stone"), "N");
-    assert_close_vector(loads.force[second], -force, tolerance, &format!("{what}: force on the wood"), "N");
+    assert_close_vector!(loads.force[first], force, tolerance, "{what}: force on the stone, N");
+    assert_close_vector!(loads.force[second], -force, tolerance, "{what}: force on the wood, N");
     let moments = pair.arms.map(|arm| couple * arm);
-    assert_close_vector(
-        loads.moment[first],
-        moments[0],
-        tolerance,
-        &format!("{what}: moment on the stone"),
-        "N m",
-    );
-    assert_close_vector(
-        loads.moment[second],
-        moments[1],
-        tolerance,
-        &format!("{what}: moment on the wood"),
-        "N m",
-    );
+    assert_close_vector!(loads.moment[first], moments[0], tolerance, "{what}: moment on the stone, N m");
+    assert_close_vector!(loads.moment[second], moments[1], tolerance, "{what}: moment on the wood, N m");
 }
 
 /// Hertz with the dashpot of a restitution and that of the spring across, which is not loaded yet: as it is, and cut to
@@ -186,7 +174,7 @@ fn one_ray_on_two_grains_by_hand() {
         common::steps(&mut simulation, 1);
         let seen = simulation.pulses.flight().rays()[0];
         let ray = Ray { origin: seen.origin, direction: seen.direction, power: seen.power };
-        assert_close(ray.power, 3e-3, 1e-15, "power of the ray", "W");
+        assert_close!(ray.power, 3e-3, 1e-15, "power of the ray, W");
         let on_second = ray.bounce(second, 30e-6, SOFT);
         let on_first = on_second.next.bounce(first, 20e-6, HARD);
         common::finish(&mut simulation);
@@ -203,9 +191,9 @@ fn one_ray_on_two_grains_by_hand() {
             let inertia = 0.4 * mass * radius * radius;
             let (velocity, spin) = (impulse / mass, arm.cross(impulse) / inertia);
             let what = |what: &str| format!("{law}: {what} of grain {id}");
-            assert_close_vector(found.velocity, velocity, 1e-9, &what("velocity"), "m/s");
-            assert_close_vector(found.spin, spin, 1e-9, &what("spin"), "rad/s");
-            assert_close(found.absorbed_power, hit.absorbed, 1e-9, &what("absorbed power"), "W");
+            assert_close_vector!(found.velocity, velocity, 1e-9, "{}, m/s", what("velocity"));
+            assert_close_vector!(found.spin, spin, 1e-9, "{}, rad/s", what("spin"));
+            assert_close!(found.absorbed_power, hit.absorbed, 1e-9, "{}, W", what("absorbed power"));
             books.0 += 0.5 * (mass * velocity.norm_squared() + inertia * spin.norm_squared());
             books.1 += impulse;
             books.2 += at.cross(impulse) + arm.cross(impulse);
@@ -217,20 +205,19 @@ fn one_ray_on_two_grains_by_hand() {
             "grain 2 is not hit"
         );
         let flow = simulation.ledger.flows.rays;
-        assert_close(flow.power, books.0, 1e-9, &format!("{law}: energy from rays"), "J");
-        assert_close_vector(flow.force, books.1, 1e-9, &format!("{law}: impulse from rays"), "N s");
+        assert_close!(flow.power, books.0, 1e-9, "{law}: energy from rays, J");
+        assert_close_vector!(flow.force, books.1, 1e-9, "{law}: impulse from rays, N s");
         // Grains move by a part of their radius of 1e-6 until they are hit.
-        assert_close_vector(flow.moment, books.2, 1e-5, &format!("{law}: moment of rays"), "N m s");
+        assert_close_vector!(flow.moment, books.2, 1e-5, "{law}: moment of rays, N m s");
         let pulse = simulation.pulses.counts()[0];
         assert_eq!((pulse.reflections, pulse.segments), (2, 3), "{law}");
-        assert_close(
+        assert_close!(
             pulse.power_absorbed,
             on_first.absorbed + on_second.absorbed,
             1e-9,
-            "absorbed by both",
-            "W",
+            "absorbed by both, W"
         );
-        assert_close(pulse.power_escaped, on_first.next.power, 1e-9, "power that leaves", "W");
+        assert_close!(pulse.power_escaped, on_first.next.power, 1e-9, "power that leaves, W");
     }
 }
 
@@ -342,36 +329,36 @@ fn one_bond_between_unequal_grains() {
         // What is left of the motion is below 1e-8; the axis turns by 1e-6 at most, to which the load is askew
         // then, and off its axis the medium draws the grain aside by 4e-7 of the force.
         let tolerance = 5e-6;
-        assert_close(stretch, force.x / along, tolerance, &what("stretch"), "m");
-        assert_close_vector(
+        assert_close!(stretch, force.x / along, tolerance, "{}, m", what("stretch"));
+        assert_close_vector!(
             Vec3::new(0.0, moved.y, moved.z),
             aside * give,
             tolerance,
-            &what("deflection"),
-            "m",
+            "{}, m",
+            what("deflection")
         );
         let drag_moment = radii.map(|radius: f64| 8.0 * PI * 5e-5 * radius.powi(3) * 100.0);
         let twist = Vec3::AXES[0] * drag_moment[1];
         let loads = &simulation.system.loads;
         let (heavy, free) = (place(&simulation, 0), place(&simulation, 1));
-        assert_close_vector(loads.force[heavy], force, tolerance, &what("force on the held grain"), "N");
+        assert_close_vector!(loads.force[heavy], force, tolerance, "{}, N", what("force on the held grain"));
         let reaction = Vec3::AXES[0].cross(aside) * length + twist + Vec3::AXES[0] * drag_moment[0];
-        assert_close_vector(
+        assert_close_vector!(
             loads.moment[heavy],
             reaction,
             tolerance,
-            &what("moment on the held grain"),
-            "N m",
+            "{}, N m",
+            what("moment on the held grain")
         );
         let rest = tolerance * force.norm();
         assert!(loads.force[free].norm() < rest, "{} N left", loads.force[free].norm());
         assert!(loads.moment[free].norm() < rest * length, "{} N m left", loads.moment[free].norm());
         let bond = simulation.system.network.bonds()[0];
-        assert_close(bond.state.twist, drag_moment[1], tolerance, &what("twisting moment"), "N m");
+        assert_close!(bond.state.twist, drag_moment[1], tolerance, "{}, N m", what("twisting moment"));
         let stored = 0.5
             * (force.x * force.x / along
                 + aside.norm_squared() * give
                 + drag_moment[1] * drag_moment[1] / twisting);
-        assert_close(simulation.stores().bonds, stored, tolerance, &what("energy of the bond"), "J");
+        assert_close!(simulation.stores().bonds, stored, tolerance, "{}, J", what("energy of the bond"));
     }
 }

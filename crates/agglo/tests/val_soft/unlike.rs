@@ -1,7 +1,6 @@
-//! Two grains that differ in all that they can, and how values are held to what they should be.
+//! Two grains that differ in all that they can.
 
 use agglo::engine::soft::Simulation;
-use agglo::math::Vec3;
 use agglo::particles::Particles;
 
 use crate::common::start;
@@ -52,23 +51,4 @@ impl Unlike {
     pub fn start(&self, change: impl FnOnce(&mut Particles)) -> Simulation {
         start(&self.text(), change)
     }
-}
-
-/// Asserts that a value is what it should be, to a part of it.
-#[track_caller]
-pub fn assert_close(found: f64, wanted: f64, tolerance: f64, what: &str, unit: &str) {
-    let off = (found / wanted - 1.0).abs();
-    assert!(off <= tolerance, "{what}: found {found:e} {unit}, expected {wanted:e} {unit}, off by {off:.1e}");
-}
-
-/// The same for a vector, to a part of its length, or in full where that is 0.
-#[track_caller]
-pub fn assert_close_vector(found: Vec3, wanted: Vec3, tolerance: f64, what: &str, unit: &str) {
-    let size = wanted.norm();
-    let off = (found - wanted).norm();
-    let (found, wanted) = (found.to_array(), wanted.to_array());
-    assert!(
-        off <= tolerance * if size > 0.0 { size } else { 1.0 },
-        "{what}: found {found:?} {unit}, expected {wanted:?} {unit}, off by {off:.1e}"
-    );
 }

@@ -33,31 +33,27 @@ fn at_rest() -> (BeamState, BeamPair) {
     (state, BeamPair { distance: 2.5e-3, normal: N, arms: [1.1e-3, 1.4e-3], ..Default::default() })
 }
 
-fn close(found: Vec3, wanted: Vec3) {
-    assert!((found - wanted).norm() <= 1e-9 * wanted.norm(), "{found:?} {wanted:?}");
-}
-
 #[test]
 fn stiffness_of_the_four_modes() {
     let [normal, shear, bending, twist] = by_hand();
     let (state, rest) = at_rest();
     let law = beam(0.0);
     let (load, after) = law.advance(&state, &BeamPair { distance: 2.5e-3 + 1e-6, ..rest });
-    close(load.force, N * (normal * 1e-6));
-    assert!((law.energy(&after, 2.5e-3 + 1e-6) / (0.5 * normal * 1e-12) - 1.0).abs() < 1e-9);
+    assert_close_vector!(load.force, N * (normal * 1e-6), 1e-9, "in N");
+    assert_close!(law.energy(&after, 2.5e-3 + 1e-6), 0.5 * normal * 1e-12, 1e-9, "in J");
     let (load, after) = law.advance(&state, &BeamPair { displacement: SIDE * 1e-6, ..rest });
-    close(load.force, SIDE * (shear * 1e-6));
-    close(load.moment_i, Vec3::AXES[2] * (shear * 1e-6 * 1.1e-3));
-    close(load.moment_j, Vec3::AXES[2] * (shear * 1e-6 * 1.4e-3));
-    assert!((law.energy(&after, 2.5e-3) / (0.5 * shear * 1e-12) - 1.0).abs() < 1e-9);
+    assert_close_vector!(load.force, SIDE * (shear * 1e-6), 1e-9, "in N");
+    assert_close_vector!(load.moment_i, Vec3::AXES[2] * (shear * 1e-6 * 1.1e-3), 1e-9, "in N m");
+    assert_close_vector!(load.moment_j, Vec3::AXES[2] * (shear * 1e-6 * 1.4e-3), 1e-9, "in N m");
+    assert_close!(law.energy(&after, 2.5e-3), 0.5 * shear * 1e-12, 1e-9, "in J");
     let (load, after) = law.advance(&state, &BeamPair { rotation: SIDE * 1e-3, ..rest });
-    close(load.moment_i, SIDE * (bending * 1e-3));
-    close(load.moment_j, SIDE * (-bending * 1e-3));
-    assert!((law.energy(&after, 2.5e-3) / (0.5 * bending * 1e-6) - 1.0).abs() < 1e-9);
+    assert_close_vector!(load.moment_i, SIDE * (bending * 1e-3), 1e-9, "in N m");
+    assert_close_vector!(load.moment_j, SIDE * (-bending * 1e-3), 1e-9, "in N m");
+    assert_close!(law.energy(&after, 2.5e-3), 0.5 * bending * 1e-6, 1e-9, "in J");
     let (load, after) = law.advance(&state, &BeamPair { rotation: N * 1e-3, ..rest });
-    close(load.moment_i, N * (twist * 1e-3));
-    close(load.moment_j, N * (-twist * 1e-3));
-    assert!((law.energy(&after, 2.5e-3) / (0.5 * twist * 1e-6) - 1.0).abs() < 1e-9);
+    assert_close_vector!(load.moment_i, N * (twist * 1e-3), 1e-9, "in N m");
+    assert_close_vector!(load.moment_j, N * (-twist * 1e-3), 1e-9, "in N m");
+    assert_close!(law.energy(&after, 2.5e-3), 0.5 * twist * 1e-6, 1e-9, "in J");
 }
 
 /// Tension and bending: F/A + M r/I; shear and twist: S/A + M r/J; compression takes away from the first.
@@ -76,8 +72,8 @@ fn strength() {
     let (load, _) = beam(0.0).advance(&state, &pair);
     let tensile = normal * 2e-6 / area + bending * 1e-3 * r / (PI * r.powi(4) / 4.0);
     let sheared = shear * 1e-6 / area + twist * 2e-3 * r / (PI * r.powi(4) / 2.0);
-    assert!((load.tensile_use / (tensile / 3e6) - 1.0).abs() < 1e-9);
-    assert!((load.shear_use / (sheared / 2e6) - 1.0).abs() < 1e-9);
+    assert_close!(load.tensile_use, tensile / 3e6, 1e-9);
+    assert_close!(load.shear_use, sheared / 2e6, 1e-9);
     let (load, _) = beam(0.0).advance(&state, &BeamPair { distance: 2.4e-3, ..rest });
     assert_eq!((load.tensile_use, load.breaks()), (0.0, None));
     let to_break = 3e6 * area / normal;
@@ -224,7 +220,7 @@ fn a_free_pair_keeps_energy_and_momentum() {
         let mut pair = two_grains(0.0);
         let (energy, momentum) = (pair.energy(), pair.angular_momentum());
         pair.run(dt, (time / dt).round() as usize);
-        assert!((pair.angular_momentum() - momentum).norm() < 1e-11 * momentum.norm());
+        assert_close_vector!(pair.angular_momentum(), momentum, 1e-11);
         (pair.energy() / energy - 1.0).abs()
     };
     // Some ten periods of the fast modes, and then a hundred times as long: no drift on top.
@@ -245,12 +241,13 @@ fn damping_power_is_the_work_of_the_dashpots() {
         load.force.dot(j.velocity - i.velocity) - load.moment_i.dot(i.spin) - load.moment_j.dot(j.spin)
     };
     let lost = power(&damped) - power(&plain);
-    assert!(lost > 0.0 && (damped.damping_power / lost - 1.0).abs() < 1e-12);
+    assert_above!(lost, 0.0);
+    assert_close!(damped.damping_power, lost, 1e-12, "in W");
     assert_eq!(plain.damping_power, 0.0);
     assert_eq!([damped.tensile_use, damped.shear_use], [plain.tensile_use, plain.shear_use]);
     let across = j.position - i.position;
     let turning = damped.moment_i + damped.moment_j - across.cross(damped.force);
-    assert!(turning.norm() < 1e-12 * damped.moment_i.norm());
+    assert_below!(turning.norm(), 1e-12 * damped.moment_i.norm());
 }
 
 /// A pair at ζ = 0.1 rings down as e^(-ζ ω t) in its axial mode.
@@ -300,11 +297,12 @@ fn rigid_rotation() {
         }
         let shear = (pair.bonds[0].shear - before.shear.rotated_about(axis, PI)).norm();
         let bending = (pair.bonds[0].bending - before.bending.rotated_about(axis, PI)).norm();
-        assert!((pair.bonds[0].twist - before.twist).abs() < 1e-15);
+        assert_near!(pair.bonds[0].twist, before.twist, 1e-15);
         (shear, bending)
     };
     let (coarse, fine) = (turned(2000), turned(4000));
-    assert!((coarse.0 / fine.0 - 4.0).abs() < 0.1 && (coarse.1 / fine.1 - 4.0).abs() < 0.1);
+    assert_near!(coarse.0 / fine.0, 4.0, 0.1);
+    assert_near!(coarse.1 / fine.1, 4.0, 0.1);
     // Chord against arc: k_s A d θ (π/steps)²/24 of shear, 5 N at most.
     assert!(fine.0 < 1e-2 && fine.1 < 1e-8, "{fine:?}");
 }
@@ -358,13 +356,13 @@ fn critical_step_of_a_pair() {
         let [i, j] = [pair.grains[0], pair.grains[1]];
         let (masses, inertias) = ([i.mass, j.mass], [i.inertia(), j.inertia()]);
         let step = pair.law.pace(&pair.bonds[0], masses, inertias, [1.1e-3, 1.4e-3]).critical_step();
-        assert!(growth(pair, 0.98 * step, 2000) < 100.0);
+        assert_below!(growth(pair, 0.98 * step, 2000), 100.0);
     }
     let thin = Beam { shear_ratio: 1e-6, radius_ratio: 1e-3, ..beam(0.0) };
     let state = thin.new_state(RADIUS, 1.4e-3, 2.5e-3, N);
     let step = thin.pace(&state, [1e-5, 3e-5], [4e-12, 2e-11], [1.1e-3, 1.4e-3]).critical_step();
     let by_hand = 2.0 * (0.75e-5 * 2.5e-3 / (2e9 * PI * 1e-12)).sqrt();
-    assert!((step / by_hand - 1.0).abs() < 1e-6);
+    assert_close!(step, by_hand, 1e-6);
     for (part, grows) in [(0.98, false), (1.02, true)] {
         let grain = |at: f64, speed: f64, mass: f64| Grain {
             position: N * at,

@@ -144,7 +144,7 @@ mod tests {
         assert_eq!(law.energy(&at(0.1)), 0.0);
         assert_eq!(law.tangential(&at(0.0999), 1.0, 1.0), 0.0);
         let area = std::f64::consts::PI * (1.0 - 0.81);
-        assert!((law.tangential(&at(0.2), 2.0, 1e-3) / (1e3 * 2.0 * 1e-3 * area) - 1.0).abs() < 1e-14);
+        assert_close!(law.tangential(&at(0.2), 2.0, 1e-3), 1e3 * 2.0 * 1e-3 * area, 1e-14);
     }
 
     /// With the paper's numbers the sum of contact and bond repels at every overlap.
@@ -154,7 +154,7 @@ mod tests {
         for overlap in [0.1, 0.2, 0.5, 1.0] {
             let touch = Touch { overlap, ..Touch::new([1.0; 2], [1.0; 2], [1e7; 2], 2.0) };
             let sum = contact.force(&PairConstants::default(), &touch) - bond(2.0).attraction(&touch);
-            assert!((sum / (9e6 * touch.strain().powi(2) * touch.area()) - 1.0).abs() < 1e-12);
+            assert_close!(sum, 9e6 * touch.strain().powi(2) * touch.area(), 1e-12);
         }
     }
 }

@@ -128,7 +128,7 @@ mod tests {
     fn edges_and_overrides() {
         assert_eq!([damping_ratio(1.0), damping_ratio(0.0), damping_ratio(-1.0)], [0.0, 1.0, 1.0]);
         // By hand: ln 2 / √(π² + ln² 2).
-        assert!((damping_ratio(0.5) - 0.215_453_761_966).abs() < 1e-12);
+        assert_near!(damping_ratio(0.5), 0.215_453_761_966, 1e-12);
         let hooke = Normal::Hooke(Hooke { stiffness: Quantity(1.0) });
         let touch = Touch { effective_mass: 1.0, ..Default::default() };
         let own = PairConstants { restitution: Some(1.0), ..Default::default() };

@@ -221,12 +221,13 @@ mod tests {
                 let (force, after) = LAW.advance(&NO_PAIR, &spring, &slide(by, 100.0, 1e3));
                 work += 0.5 * (before + force).dot(by);
                 spring = after;
-                assert!((spring.energy() - work).abs() < 1e-15);
+                assert_near!(spring.energy(), work, 1e-15, "in J");
             }
         }
-        assert!(spring.force.norm() < 1e-15 && !spring.sliding);
+        assert_below!(spring.force.norm(), 1e-15, "in N");
+        assert_false!(spring.sliding, "the pair slides");
         let (force, _) = LAW.advance(&NO_PAIR, &spring, &slide(Vec3::new(1e-3, 0.0, 0.0), 100.0, 1e3));
-        assert!((force - Vec3::new(0.08, 0.0, 0.0)).norm() < 1e-15);
+        assert_near_vector!(force, Vec3::new(0.08, 0.0, 0.0), 1e-15, "in N");
     }
 
     #[test]
@@ -243,10 +244,11 @@ mod tests {
             let wanted = if k < 62 { 0.8 * f64::from(k + 1) } else { 30.0 };
             assert!((force.x - wanted).abs() < 1e-9, "{k}: {}", force.x);
         }
-        assert!((highest - 49.6).abs() < 1e-9);
+        assert_near!(highest, 49.6, 1e-9);
         let back = slide(Vec3::new(-1e-3, 0.0, 0.0), 1000.0, 100.0);
         let (force, after) = law.advance(&NO_PAIR, &spring, &back);
-        assert!((force.x - 29.2).abs() < 1e-9 && !after.sliding);
+        assert_near!(force.x, 29.2, 1e-9, "in N");
+        assert_false!(after.sliding, "the pair slides");
     }
 
     #[test]
@@ -273,7 +275,11 @@ mod tests {
             spring = after;
             work += step;
             given = given.max(spring.energy() - work);
-            assert!(spring.energy() <= before + step.abs() + 0.5 * 0.8 * stiffness * by.norm_squared());
+            assert_at_most!(
+                spring.energy(),
+                before + step.abs() + 0.5 * 0.8 * stiffness * by.norm_squared(),
+                "in J"
+            );
         }
         assert!(work > 0.0 && given <= 1e-12, "{given}");
     }
@@ -328,7 +334,7 @@ mod tests {
         assert!((relative.dot(tangent) / expected - 1.0).abs() < 1e-3, "{relative:?}");
         let spin = 1.25 * 0.092 * 2.0 * v_n / 2.5e-3;
         assert!((end.spins[0].norm() / spin - 1.0).abs() < 1e-3, "{:?} {spin}", end.spins[0]);
-        assert!((end.spins[0] - end.spins[1]).norm() < 1e-9);
+        assert_near_vector!(end.spins[0], end.spins[1], 1e-9);
     }
 
     /// Stored and kinetic energy together never rise, at any angle, for any normal law, with and without dashpots.
@@ -360,7 +366,7 @@ mod tests {
                 });
                 // Leapfrog's own error at some thousand steps a contact.
                 assert!(rise < 1e-5 * first, "{normal:?} {degrees}: {}", rise / first);
-                assert!(oblique.kinetic(&end) <= first);
+                assert_at_most!(oblique.kinetic(&end), first, "in J");
             }
         }
     }

@@ -93,9 +93,9 @@ mod tests {
     fn stick_and_slip() {
         let pair = PairConstants::default();
         let stick = |speed: f64, dt: f64| LAW.force(&pair, 2e-3, speed, dt, 10.0);
-        assert!((stick(1e-3, 1e-2) - 0.2).abs() < 1e-15);
+        assert_near!(stick(1e-3, 1e-2), 0.2, 1e-15);
         assert_eq!(stick(1e-3, 1e-2), 2.0 * stick(1e-3, 5e-3));
-        assert!((stick(0.999 * 0.02, 1e-2) - 0.999 * 4.0).abs() < 1e-12);
+        assert_near!(stick(0.999 * 0.02, 1e-2), 0.999 * 4.0, 1e-12);
         assert_eq!(stick(1.001 * 0.02, 1e-2), 0.3 * 10.0);
         assert_eq!(LAW.force(&pair, 2e-3, 0.0, 1e-2, 0.0), 0.0);
     }

@@ -92,7 +92,7 @@ mod tests {
             speed: 0.3,
         }
         .integrate(1e-4);
-        assert!((rebound.duration / (std::f64::consts::PI * 0.1) - 1.0).abs() < 1e-8);
-        assert!((rebound.largest_overlap / 0.03 - 1.0).abs() < 1e-6);
+        assert_close!(rebound.duration, std::f64::consts::PI * 0.1, 1e-8, "in s");
+        assert_close!(rebound.largest_overlap, 0.03, 1e-6, "in m");
     }
 }

@@ -106,9 +106,9 @@ mod tests {
         for law in every_law() {
             let touch = |overlap| Touch { overlap, ..Touch::new([1.0, 0.5], [1.0; 2], [1e7; 2], 1.5) };
             assert_eq!([law.force(&pair, &touch(0.0)), law.energy(&pair, &touch(0.0))], [0.0, 0.0]);
-            assert!(law.tangent_stiffness(&pair, &touch(0.0)).is_finite());
+            assert_finite!(law.tangent_stiffness(&pair, &touch(0.0)));
             let ratio = law.force(&pair, &touch(2e-9)) / law.force(&pair, &touch(1e-9));
-            assert!((ratio.log2() - law.exponent()).abs() < 1e-6);
+            assert_near!(ratio.log2(), law.exponent(), 1e-6);
         }
     }
 }

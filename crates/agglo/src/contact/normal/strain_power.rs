@@ -106,8 +106,8 @@ mod tests {
         let delta = touch.overlap;
         let by_hand = 2.0 * std::f64::consts::PI * 3e7 * effective * delta.powi(3) / (0.07 * 0.07);
         let law = StrainPower { exponent: 2.0 };
-        assert!((law.force(&PairConstants::default(), &touch) / by_hand - 1.0).abs() < 1e-7);
+        assert_close!(law.force(&PairConstants::default(), &touch), by_hand, 1e-7, "in N");
         let ratio = law.tangent_stiffness(&PairConstants::default(), &touch) * delta / by_hand;
-        assert!((ratio - 3.0).abs() < 1e-6);
+        assert_near!(ratio, 3.0, 1e-6);
     }
 }

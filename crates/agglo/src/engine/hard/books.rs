@@ -285,8 +285,8 @@ mod tests {
         (0..1_000_000).for_each(|_| books.add(&loss(part)));
         // One rounding of the sum.
         let wanted = 1.0 + 1e6 * part;
-        assert!((books.flows.impacts.normal - wanted).abs() < 3e-16);
-        assert!((books.flows.impacts.heat - wanted).abs() < 3e-16);
+        assert_near!(books.flows.impacts.normal, wanted, 3e-16);
+        assert_near!(books.flows.impacts.heat, wanted, 3e-16, "in J");
     }
 
     /// 4 J of reaction, and 7 J of heat of which 1 J was lost motion: 2 J of nothing, twice what motion gave.
@@ -309,9 +309,11 @@ mod tests {
             books.add(&ImpactEnergy { normal, heat, ..ImpactEnergy::default() });
             books.balance(Stores { kinetic: 1.0, thermal }, 0.0).is_finite()
         };
-        assert!(spoiled(1.0, 1.0, 4.0));
+        assert_true!(spoiled(1.0, 1.0, 4.0), "the balance is finite with this work, heat and store, J");
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-            assert!(!spoiled(bad, 1.0, 4.0) && !spoiled(1.0, bad, 4.0) && !spoiled(1.0, 1.0, bad));
+            assert_false!(spoiled(bad, 1.0, 4.0), "the balance is finite with this work, heat and store, J");
+            assert_false!(spoiled(1.0, bad, 4.0), "the balance is finite with this work, heat and store, J");
+            assert_false!(spoiled(1.0, 1.0, bad), "the balance is finite with this work, heat and store, J");
         }
     }
 
@@ -322,6 +324,6 @@ mod tests {
         books.add(&ImpactEnergy { normal: 1.0, reaction: 4.0, heat: 7.0, ..ImpactEnergy::default() });
         let balance = books.balance(Stores { kinetic: 1.0, thermal: 11.1 }, 0.0);
         // 11.1 - 10 loses three bits.
-        assert!((balance.drift_relative - 0.1).abs() < 1e-14);
+        assert_near!(balance.drift_relative, 0.1, 1e-14);
     }
 }

@@ -40,10 +40,10 @@ fn a_lattice_in_step() {
             for (velocity, grain) in speeds(&simulation).iter().zip(&grains) {
                 let wanted = grain.1[0] * if turns % 2 == 0 { 1.0 } else { -1.0 };
                 // Each impact rounds once.
-                assert!((*velocity - Vec3::new(wanted, 0.0, 0.0)).norm() < 1e-13 * speed);
+                assert_near_vector!(*velocity, Vec3::new(wanted, 0.0, 0.0), 1e-13 * speed, "in m/s");
             }
         }
-        assert!(simulation.balance().kinetic_drift_relative.abs() < 1e-14);
+        assert_below!(simulation.balance().kinetic_drift_relative.abs(), 1e-14);
     }
 }
 
@@ -57,7 +57,7 @@ fn newtons_cradle() {
         advance_to(&mut simulation, 1e-3);
         let after = speeds(&simulation);
         assert!(after[..4].iter().all(|velocity| velocity.norm() < 1e-14), "{after:?}");
-        assert!((after[4] - Vec3::new(7.0, 0.0, 0.0)).norm() < 1e-14);
+        assert_near_vector!(after[4], Vec3::new(7.0, 0.0, 0.0), 1e-14);
         assert_eq!(simulation.cloud().state.counts.impacts, 4);
         // 1 mm to the first; then on with the last one.
         let place = simulation.snapshot().grains.position[4].x;
@@ -86,15 +86,15 @@ fn a_merged_sphere_among_others() {
     let counts = simulation.cloud().state.counts.clone();
     assert_eq!((simulation.grains(), counts.merges, counts.impacts), (3, 3, 3));
     // Of the other two merges at least one overlapped by more than rounding.
-    assert!(counts.overlapping >= 1);
+    assert_at_least!(counts.overlapping, 1);
     let now = simulation.snapshot();
     let mut primaries = now.primaries.clone();
     primaries.sort_unstable();
     assert_eq!(primaries, [1, 1, 4]);
     let largest = now.primaries.iter().position(|n| *n == 4).unwrap();
-    assert!((now.grains.radius[largest] - 4_f64.cbrt() * r).abs() < 1e-16);
-    assert!((now.grains.velocity[largest] - Vec3::new(0.0, -0.125, -0.15)).norm() < 1e-15);
-    assert!(simulation.momentum_drift_relative() < 1e-15);
+    assert_near!(now.grains.radius[largest], 4_f64.cbrt() * r, 1e-16, "in m");
+    assert_near_vector!(now.grains.velocity[largest], Vec3::new(0.0, -0.125, -0.15), 1e-15, "in m/s");
+    assert_below!(simulation.momentum_drift_relative(), 1e-15);
 }
 
 /// Two slide along a wall into one another: their merged sphere reaches into the wall, turns round at once and never
@@ -118,8 +118,8 @@ fn a_merged_sphere_at_a_wall() {
         let now = simulation.snapshot().grains;
         assert!((now.velocity[0] - Vec3::new(-side * 0.01, 0.0, 0.0)).norm() < 1e-15, "{:?}", now.velocity);
         // 5 um on, and 0.1 um back.
-        assert!((now.position[0].x - side * (0.01 - r - 5e-6 - 1e-7)).abs() < 1e-15);
-        assert!(simulation.momentum_drift_relative() < 1e-15);
+        assert_near!(now.position[0].x, side * (0.01 - r - 5e-6 - 1e-7), 1e-15, "in m");
+        assert_below!(simulation.momentum_drift_relative(), 1e-15);
         advance_to(&mut simulation, 0.9);
         assert_eq!(simulation.cloud().state.counts.walls, 1);
     }
@@ -155,7 +155,7 @@ fn pairs_that_stay_together_do_not_stop_the_clock() {
         ];
         let mut simulation = start(&scenario(engine, "open", &impact), &grains);
         advance_to(&mut simulation, 1e-3);
-        assert!(simulation.cloud().state.counts.impacts >= 2);
+        assert_at_least!(simulation.cloud().state.counts.impacts, 2);
     }
 }
 
@@ -172,7 +172,7 @@ fn inelastic_collapse_is_passed() {
         advance_to(&mut simulation, 0.01);
         let counts = &simulation.cloud().state.counts;
         assert!(counts.guarded > 0 && counts.impacts < 100_000, "{counts:?}");
-        assert!(simulation.balance().drift_relative.abs() < 1e-12);
+        assert_below!(simulation.balance().drift_relative.abs(), 1e-12);
     }
 }
 
@@ -220,7 +220,7 @@ fn first_bounces_of_one_moment_lose_energy() {
     let [events, steps] = totals.map(|[impacts, merges]| [impacts as f64, merges as f64]);
     assert!((steps[0] / events[0] - 1.0).abs() < 0.03, "{events:?} {steps:?}");
     assert!((steps[1] - events[1]).abs() < 3.0 * (steps[1] + events[1]).sqrt(), "{events:?} {steps:?}");
-    assert!(events[1] > 40.0);
+    assert_above!(events[1], 40.0);
 }
 
 /// Agglomerates that break in a crowd, at walls and across faces: pieces are clear of one another and of everybody else,
@@ -259,7 +259,7 @@ fn pieces_have_room() {
         let wanted = grains.iter().map(|grain| if mass(grain) > 4e-6 { 12 } else { 1 }).sum::<u32>();
         assert_eq!(primaries, wanted);
         let total: f64 = simulation.snapshot().grains.mass.iter().sum();
-        assert!((total / grains.iter().map(mass).sum::<f64>() - 1.0).abs() < 1e-13);
+        assert_close!(total, grains.iter().map(mass).sum::<f64>(), 1e-13);
     }
     assert!(broke > 300, "{broke}");
 }
@@ -303,14 +303,15 @@ fn the_ledger_has_the_surfaces_of_the_pieces() {
             let areas = |radii: &[f64]| radii.iter().map(|b| 4.0 * std::f64::consts::PI * b * b).sum::<f64>();
             let (after, before) = (areas(&simulation.snapshot().grains.radius), areas(&[1.2e-3, 0.9e-3]));
             let booked = simulation.cloud().state.books.flows.impacts.surface;
-            assert!(simulation.cloud().state.counts.fragmentations > 0 && booked > 0.0);
+            assert_above!(simulation.cloud().state.counts.fragmentations, 0);
+            assert_above!(booked, 0.0, "in J");
             // 1 J/m²; sums of up to 130 areas.
             assert!(
                 (booked - (after - before)).abs() < 1e-13 * after,
                 "{booked} {} {pieces}",
                 after - before
             );
-            assert!(simulation.balance().drift_relative.abs() < 1e-14);
+            assert_below!(simulation.balance().drift_relative.abs(), 1e-14);
         }
     }
 }

@@ -93,10 +93,20 @@ mod tests {
     fn only_a_pair_that_bounces_again_and_again() {
         let mut collapse = Collapse::default();
         for k in 0..BEFORE {
-            assert!(!collapse.has_come([7, 3], f64::from(k) * 0.9, 1.0));
+            assert_false!(
+                collapse.has_come([7, 3], f64::from(k) * 0.9, 1.0),
+                "the collapse of 3 and 7 by the impact at this time, s"
+            );
             assert!(!collapse.has_come([7, 100 + k], f64::from(k) * 0.9, 1.0), "a first bounce");
         }
-        assert!(collapse.has_come([3, 7], 3.0, 1.0) && collapse.has_come([7, 3], 3.0, 1.0));
+        assert_true!(
+            collapse.has_come([3, 7], 3.0, 1.0),
+            "the collapse of 3 and 7 by the impact at this time, s"
+        );
+        assert_true!(
+            collapse.has_come([7, 3], 3.0, 1.0),
+            "the collapse of 3 and 7 by the impact at this time, s"
+        );
         assert!(!collapse.has_come([3, 7], 4.0, 1.0), "a contact duration later");
     }
 

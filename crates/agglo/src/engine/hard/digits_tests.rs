@@ -30,7 +30,7 @@ fn error_of(mut simulation: Simulation) -> SimError {
         if let Err(error) = simulation.advance(f64::INFINITY) {
             return error;
         }
-        assert!(!simulation.is_finished());
+        assert_false!(simulation.is_finished(), "the run has come to its end");
     }
     panic!("it goes on for ever");
 }
@@ -80,7 +80,7 @@ fn nobody_is_passed_within_a_step() {
                 advance_to(&mut simulation, 0.55 / speed);
                 assert_eq!(simulation.cloud().state.counts.impacts, 1, "{radius} at {speed} in {boundary}");
                 // The step after the impact may end behind a wall.
-                assert!((simulation.snapshot().grains.velocity[1].x.abs() / speed - 1.0).abs() < 1e-14);
+                assert_close!(simulation.snapshot().grains.velocity[1].x.abs(), speed, 1e-14, "in m/s");
             }
         }
     }

@@ -48,11 +48,6 @@ fn primaries(state: &MicroState) -> Vec<u32> {
     state.grown.iter().map(|grown| grown.primaries).collect()
 }
 
-/// Round-off of a few operations.
-fn close(found: f64, expected: f64) {
-    assert!((found / expected - 1.0).abs() < 1e-12, "{found} instead of {expected}");
-}
-
 /// The first impact comes after 1 mm at 4 m/s, 0.25 ms; the pair flies on at 8/13 m/s. All figures by hand.
 #[test]
 fn two_that_stick() {
@@ -63,29 +58,29 @@ fn two_that_stick() {
     let (clay, lead) = (2000.0 * cubed, 11000.0 * cubed);
     assert_eq!((means.grains, primaries(&state)), (2, vec![2, 1]));
     let pair = 0;
-    close(state.grains.velocity[pair].x, 4.0 * 2.0 / 13.0);
-    close(state.grains.radius[pair], 5e-4 * 2_f64.cbrt());
+    assert_close!(state.grains.velocity[pair].x, 4.0 * 2.0 / 13.0, 1e-12, "in m/s");
+    assert_close!(state.grains.radius[pair], 5e-4 * 2_f64.cbrt(), 1e-12, "in m");
     let heat = 0.5 * clay * lead / (clay + lead) * 16.0;
-    close(means.heat, heat);
-    close(means.mass, 2.0 * clay + lead);
-    close(means.momentum.x, clay * 4.0);
-    close(means.mean_velocity.x, 8.0 / 15.0);
-    close(means.kinetic, 0.5 * (clay * 4.0).powi(2) / (clay + lead));
+    assert_close!(means.heat, heat, 1e-12, "in J");
+    assert_close!(means.mass, 2.0 * clay + lead, 1e-12, "in kg");
+    assert_close!(means.momentum.x, clay * 4.0, 1e-12);
+    assert_close!(means.mean_velocity.x, 8.0 / 15.0, 1e-12, "in m/s");
+    assert_close!(means.kinetic, 0.5 * (clay * 4.0).powi(2) / (clay + lead), 1e-12, "in J");
     let capacities = [clay * 1000.0, lead * 130.0, clay * 1000.0];
     let thermal = capacities[0] * 300.0 + capacities[1] * 400.0 + capacities[2] * 350.0 + heat;
-    close(means.thermal, thermal);
-    close(means.mean_temperature, thermal / capacities.iter().sum::<f64>());
+    assert_close!(means.thermal, thermal, 1e-12);
+    assert_close!(means.mean_temperature, thermal / capacities.iter().sum::<f64>(), 1e-12, "in K");
     let box_volume = 1e-6;
-    close(means.number_density, 2.0 / box_volume);
-    close(means.solid_fraction, 3.0 * cubed / box_volume);
-    close(means.mean_radius, 0.5 * 5e-4 * (1.0 + 2_f64.cbrt()));
-    close(means.growth, (0.5 * (1.0 + 2_f64.cbrt())).powi(3));
+    assert_close!(means.number_density, 2.0 / box_volume, 1e-12);
+    assert_close!(means.solid_fraction, 3.0 * cubed / box_volume, 1e-12);
+    assert_close!(means.mean_radius, 0.5 * 5e-4 * (1.0 + 2_f64.cbrt()), 1e-12, "in m");
+    assert_close!(means.growth, (0.5 * (1.0 + 2_f64.cbrt())).powi(3), 1e-12);
     for rate in [means.impact_rate, means.merge_rate] {
-        close(rate, 1.0 / (box_volume * 1e-3));
+        assert_close!(rate, 1.0 / (box_volume * 1e-3), 1e-12);
     }
     assert_eq!((means.breakage_rate, means.cooled, means.reaction), (0.0, 0.0, 0.0));
     // Three pairs for 0.25 ms, then none of two singles.
-    close(means.kernels[0].exposure, 3.0 * 0.25e-3 / box_volume);
+    assert_close!(means.kernels[0].exposure, 3.0 * 0.25e-3 / box_volume, 1e-12);
 }
 
 /// The pair of the first step is one of two primaries in the next ones, where it takes the third grain.
@@ -101,10 +96,10 @@ fn a_state_carries_over() {
     }
     assert_eq!((primaries(&state), state.step), (vec![3], 8));
     let cubed = 4.0 / 3.0 * PI * 5e-4_f64.powi(3);
-    close(state.grown[0].heat_capacity, cubed * (2.0 * 2000.0 * 1000.0 + 11000.0 * 130.0));
+    assert_close!(state.grown[0].heat_capacity, cubed * (2.0 * 2000.0 * 1000.0 + 11000.0 * 130.0), 1e-12);
     assert!((merges - 2.0).abs() < 1e-12, "{merges}");
-    close(state.grains.velocity[0].x, 8.0 / 15.0);
-    close(state.grains.radius[0], 5e-4 * 3_f64.cbrt());
+    assert_close!(state.grains.velocity[0].x, 8.0 / 15.0, 1e-12, "in m/s");
+    assert_close!(state.grains.radius[0], 5e-4 * 3_f64.cbrt(), 1e-12, "in m");
 }
 
 /// A crowd placed at random that bounces without loss: energy and momentum stay to the round-off of some hundred
@@ -128,13 +123,13 @@ fn an_elastic_crowd() {
     };
     let (state, means) = microscale.step(&start, 5e-3).unwrap();
     assert!(means.impact_rate * 5e-3 * 1e-6 > 100.0, "{}", means.impact_rate);
-    close(means.kinetic, kinetic_of(&start.grains));
-    close(means.kinetic, kinetic_of(&state.grains));
+    assert_close!(means.kinetic, kinetic_of(&start.grains), 1e-12, "in J");
+    assert_close!(means.kinetic, kinetic_of(&state.grains), 1e-12, "in J");
     let parts = 0.5 * means.mean_velocity.norm_squared() + 1.5 * means.granular_temperature;
-    close(means.kinetic, means.mass * parts);
+    assert_close!(means.kinetic, means.mass * parts, 1e-12, "in J");
     let tensor = means.velocity_covariance;
     assert_eq!((tensor[0][1], tensor[2][0], tensor[1][2]), (tensor[1][0], tensor[0][2], tensor[2][1]));
-    close(means.mean_temperature, 300.0);
+    assert_close!(means.mean_temperature, 300.0, 1e-12, "in K");
     // A step is a pure function of its state.
     let (again, means_again) = microscale.step(&start, 5e-3).unwrap();
     assert_eq!((&state, &means), (&again, &means_again));
@@ -157,11 +152,11 @@ fn the_tensor_of_two() {
     let theta = 22.0 / 169.0;
     for (row, expected) in [(0, [1.0, 2.0]), (1, [2.0, 4.0])] {
         for (column, expected) in expected.into_iter().enumerate() {
-            close(means.velocity_covariance[row][column], theta * expected);
+            assert_close!(means.velocity_covariance[row][column], theta * expected, 1e-12);
         }
     }
     assert_eq!(means.velocity_covariance[2], [0.0; 3]);
-    close(means.granular_temperature, theta * 5.0 / 3.0);
+    assert_close!(means.granular_temperature, theta * 5.0 / 3.0, 1e-12, "in K");
 }
 
 /// Both engines come to the same merge.
@@ -171,7 +166,11 @@ fn step_by_step() {
     let start = microscale.state(&three()).unwrap();
     let (state, means) = microscale.step(&start, 1e-3).unwrap();
     assert_eq!((means.grains, means.duration), (2, 1e-3));
-    close(state.grains.velocity.iter().map(|velocity| velocity.x).fold(0.0, f64::max), 8.0 / 13.0);
+    assert_close!(
+        state.grains.velocity.iter().map(|velocity| velocity.x).fold(0.0, f64::max),
+        8.0 / 13.0,
+        1e-12
+    );
 }
 
 #[test]
@@ -209,7 +208,7 @@ fn bad_input_is_refused_in_words() {
     );
     let state = microscale.state(&three()).unwrap();
     for duration in [0.0, -1.0, f64::NAN] {
-        assert!(matches!(microscale.step(&state, duration), Err(EmbeddedError::Duration(_))));
+        assert_matches!(microscale.step(&state, duration), Err(EmbeddedError::Duration(_)));
     }
     let mut ragged = state.clone();
     ragged.grains.radius.pop();
@@ -217,7 +216,7 @@ fn bad_input_is_refused_in_words() {
     assert_eq!(message, "`radius` has 2 values for 3 grains");
     let mut spoiled = state;
     spoiled.grains.temperature[0] = f64::NAN;
-    assert!(microscale.step(&spoiled, 1.0).unwrap_err().to_string().contains("`temperatures` of grain 0"));
+    assert_contains!(microscale.step(&spoiled, 1.0).unwrap_err().to_string(), "`temperatures` of grain 0");
 }
 
 /// All materials are held to what the laws need, used by a group or not.
@@ -225,7 +224,7 @@ fn bad_input_is_refused_in_words() {
 fn a_scenario_that_lacks_something_is_refused() {
     let mut scenario = microscale(ELASTIC, "event_driven").scenario;
     scenario.impact = None;
-    assert!(matches!(Microscale::new(&scenario), Err(EmbeddedError::Run(SimError::NoImpact))));
+    assert_matches!(Microscale::new(&scenario), Err(EmbeddedError::Run(SimError::NoImpact)));
     let law = r#"{"restitution": {"hardness": {}}}"#;
     scenario.impact = serde_json::from_str(law).unwrap();
     let message = Microscale::new(&scenario).unwrap_err().to_string();

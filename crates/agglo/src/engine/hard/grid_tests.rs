@@ -112,7 +112,8 @@ fn an_open_volume_has_no_end() {
             let level = found.agendas[at].level as usize;
             let (place, reach) = (found.spheres[at].position, 1.6 * found.spheres[at].radius);
             found.grid.visit_within(level, block(place, reach), |other, image| near.push((other, image)));
-            assert!(near.contains(&(at as u32 + 40, [0; 3])) && near.contains(&(at as u32, [0; 3])));
+            assert_has!(near, &(at as u32 + 40, [0; 3]));
+            assert_has!(near, &(at as u32, [0; 3]));
         }
     }
 }
@@ -160,8 +161,8 @@ fn levels_are_nested() {
     for (sphere, agenda) in spheres.iter().zip(&agendas) {
         let fits = |level: usize| 2.0 * sphere.radius <= grid.levels()[level].widest();
         let own = agenda.level as usize;
-        assert!(own == 0 || fits(own));
-        assert!((own + 1..grid.levels().len()).all(|finer| !fits(finer)));
+        assert!(own == 0 || fits(own), "a grain does not fit into its level {own}");
+        assert_all!(own + 1..grid.levels().len(), |finer| !fits(finer));
         for coarser in 0..own {
             let cell = grid.coarser_cell(agenda.cell, agenda.level, coarser);
             assert_eq!(cell, grid.cell_of(coarser as u8, sphere.position));
@@ -187,7 +188,7 @@ fn exits_are_at_faces() {
             let overlaps = exit.is_wall && time == 0.0;
             assert!(overlaps || (place[axis] - at).abs() < 1e-14, "{} and not {at}", place[axis]);
             assert_eq!(exit.side > 0, sphere.velocity[axis] > 0.0);
-            assert!(!exit.is_wall || boundary == Boundary::Reflecting);
+            assert!(!exit.is_wall || boundary == Boundary::Reflecting, "a wall in {boundary:?}");
             let before = sphere.at(time * (1.0 - 1e-9));
             assert_eq!(grid.cell_of(agenda.level, before), agenda.cell);
         }
@@ -206,7 +207,7 @@ fn cells_fly_with_a_wind() {
         sphere.position += back;
         for axis in 0..3 {
             let edges = back[axis] / grid.edges[axis];
-            assert!((edges - edges.round()).abs() < 1e-12);
+            assert_near!(edges, edges.round(), 1e-12);
             let from_corner = (sphere.at(time) - grid.frame.flown(time) - grid.frame.lower)[axis];
             // Positions of some hundred edges are rounded at 1e-14 of an edge.
             assert!((-1e-12..grid.edges[axis] + 1e-12).contains(&from_corner), "{from_corner}");
@@ -216,12 +217,17 @@ fn cells_fly_with_a_wind() {
         let (exit, _) = grid.exit(&agenda, &sphere, time);
         let cell = |time: f64| grid.cell_of(agenda.level, sphere.at(time) - grid.frame.flown(time));
         let stay = exit - time;
-        assert!(stay > 0.0 && stay.is_finite());
+        assert_above!(stay, 0.0);
+        assert_finite!(stay);
         assert_eq!(cell(time + stay * (1.0 - 1e-6)), agenda.cell);
         // Beyond a face of the whole block cells are clamped.
         let later = time + stay * (1.0 + 1e-6);
         let after = sphere.at(later) - grid.frame.flown(later);
-        assert!(!volume.contains(after) || cell(later) != agenda.cell);
+        assert!(
+            !volume.contains(after) || cell(later) != agenda.cell,
+            "still in cell {:?} at {after:?}",
+            agenda.cell
+        );
     }
     let back = grid.take_back(&volume, 7.0);
     let flown = Vec3::new(40.0, -2.0, 0.3) * 6.5 + back;

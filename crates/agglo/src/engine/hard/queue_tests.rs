@@ -98,7 +98,8 @@ fn all_at_one_moment() {
         let mut last = None;
         for _ in 0..5000 {
             let (found, sphere) = queue.next(&mut agendas, f64::MAX, |_, _, _| {}).unwrap();
-            assert!(found == time && last < Some(id(sphere)));
+            assert_eq!(found, time);
+            assert_below!(last, Some(id(sphere)));
             last = Some(id(sphere));
             agendas[sphere as usize].collision = f64::INFINITY;
             queue.file(&mut agendas, sphere);

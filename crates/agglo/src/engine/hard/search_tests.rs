@@ -9,11 +9,11 @@ fn closed_forms() {
     // 4 m to go at 2 m/s.
     assert_eq!(meet([5.0, 0.0, 0.0], [-2.0, 0.0, 0.0], 1.0), 2.0);
     // 0.6 of the reach off the line: they touch 0.8 of it before the nearest point. One rounding each of four.
-    assert!((meet([10.0, 0.6, 0.0], [-1.0, 0.0, 0.0], 1.0) / 9.2 - 1.0).abs() < 1e-15);
-    assert!((meet([0.0, 3.0, -50.0], [0.0, 0.0, 10.0], 5.0) / 4.6 - 1.0).abs() < 1e-15);
+    assert_close!(meet([10.0, 0.6, 0.0], [-1.0, 0.0, 0.0], 1.0), 9.2, 1e-15);
+    assert_close!(meet([0.0, 3.0, -50.0], [0.0, 0.0, 10.0], 5.0), 4.6, 1e-15);
     // Along a diagonal: (3, 4, 12) is 13 long, 8 to go at 2.
     let along = [-6.0 / 13.0, -8.0 / 13.0, -24.0 / 13.0];
-    assert!((meet([3.0, 4.0, 12.0], along, 5.0) / 4.0 - 1.0).abs() < 1e-15);
+    assert_close!(meet([3.0, 4.0, 12.0], along, 5.0), 4.0, 1e-15);
 }
 
 #[test]
@@ -50,10 +50,10 @@ fn touching_overlapping_and_at_rest() {
 fn small_gaps_do_not_cancel() {
     let gap = 2_f64.powi(-40);
     // 1 + 2 gap + gap² is rounded at 1e-16: 1e-4 of the gap's 1e-12; the root adds no more.
-    assert!((meet([1.0 + gap, 0.0, 0.0], [-1.0, 0.0, 0.0], 1.0) / gap - 1.0).abs() < 1e-4);
+    assert_close!(meet([1.0 + gap, 0.0, 0.0], [-1.0, 0.0, 0.0], 1.0), gap, 1e-4);
     let (distance, velocity) = (Vec3::new(0.3, -1.7, 2.9), Vec3::new(-0.31, 1.5, -2.2));
     let forth = time_to_meet(distance, velocity, 0.7, f64::INFINITY);
-    assert!(forth.is_finite());
+    assert_finite!(forth);
     assert_eq!(forth.to_bits(), time_to_meet(-distance, -velocity, 0.7, f64::INFINITY).to_bits());
     // Lengths and times in other units: powers of two round nothing.
     assert_eq!(
@@ -83,6 +83,7 @@ fn small_spheres_far_apart() {
 fn what_is_rounding() {
     let x = Vec3::AXES[0];
     let speeds = [x * 1e3, x * 1e3];
-    assert!(is_rounding(x, x * -1e-13, speeds) && !is_rounding(x, x * -1e-11, speeds));
-    assert!(!is_rounding(x, x * -1e-13, [x * 1e-13, Vec3::ZERO]));
+    assert_true!(is_rounding(x, x * -1e-13, speeds), "such an overlap is only round-off");
+    assert_false!(is_rounding(x, x * -1e-11, speeds), "such an overlap is only round-off");
+    assert_false!(is_rounding(x, x * -1e-13, [x * 1e-13, Vec3::ZERO]), "such an overlap is only round-off");
 }

@@ -59,7 +59,9 @@ pub fn start(scenario: &Scenario, grains: &[Grain]) -> Simulation {
 
 /// Advances to a time [s].
 pub fn advance_to(simulation: &mut Simulation, until: f64) {
+    let mut turns = agglo_testing::Turns::at_most(10_000_000, "the time that is due");
     while simulation.clock().time < until {
+        turns.take();
         simulation.advance(until).unwrap_or_else(|error| panic!("{error}"));
     }
 }

@@ -17,7 +17,9 @@ fn scenario(boundary: &str, engine: &str, impact: &str, end: f64) -> Scenario {
 }
 
 fn run(simulation: &mut Simulation) {
+    let mut turns = agglo_testing::Turns::at_most(10_000_000, "the end of the run");
     while !simulation.is_finished() {
+        turns.take();
         simulation.advance(f64::INFINITY).unwrap();
     }
 }
@@ -59,7 +61,8 @@ fn head_on_impact_comes_at_its_time() {
             let at_end = simulation.snapshot().grains;
             let after = [0, 1].map(|k| at_end.velocity[k].x);
             // Equal masses: (10 - 5)/2 -+ e 15/2, but for rounding.
-            assert!((after[0] + 1.25).abs() < 1e-14 && (after[1] - 6.25).abs() < 1e-14);
+            assert_near!(after[0], -1.25, 1e-14);
+            assert_near!(after[1], 6.25, 1e-14);
             let apart = at_end.position[1].x - at_end.position[0].x;
             let exact = 2e-3 + restitution * speed * (end - way / speed);
             // A delay of t shortens the way by t (1 + e) c.
@@ -68,7 +71,7 @@ fn head_on_impact_comes_at_its_time() {
             errors.push(delay);
         }
     }
-    assert!(errors[6..].iter().sum::<f64>() < 0.1 * errors[..3].iter().sum::<f64>());
+    assert_below!(errors[6..].iter().sum::<f64>(), 0.1 * errors[..3].iter().sum::<f64>());
 }
 
 /// Two that touch become one sphere, wide enough to touch the third.
@@ -85,9 +88,9 @@ fn merging_goes_on_within_the_step() {
     let one = simulation.snapshot();
     assert_eq!(one.primaries, [3]);
     // A third of the velocity, three times the volume, at the centre of mass after 10 ns.
-    assert!((one.grains.velocity[0] - Vec3::new(0.0, -1.0, 0.0)).norm() < 1e-15);
-    assert!((one.grains.radius[0] - 3.0_f64.cbrt() * 1e-3).abs() < 1e-17);
-    assert!((one.grains.position[0] - Vec3::new(0.0, 0.7e-3 - 1e-8, 0.0)).norm() < 1e-17);
+    assert_near_vector!(one.grains.velocity[0], Vec3::new(0.0, -1.0, 0.0), 1e-15, "in m/s");
+    assert_near!(one.grains.radius[0], 3.0_f64.cbrt() * 1e-3, 1e-17, "in m");
+    assert_near_vector!(one.grains.position[0], Vec3::new(0.0, 0.7e-3 - 1e-8, 0.0), 1e-17, "in m");
 
     // With nearest neighbours only, the merged sphere waits for the next step.
     let sticky = scenario("open", "pairs = \"nearest\"", STICKY, 1.0);
@@ -106,8 +109,8 @@ fn newtons_cradle_in_one_step() {
     simulation.advance(1.0).unwrap();
     let after = simulation.snapshot().grains.velocity;
     // Three impacts that each round once.
-    assert!(after[..3].iter().all(|velocity| velocity.norm() < 1e-14));
-    assert!((after[3] - Vec3::new(7.0, 0.0, 0.0)).norm() < 1e-14);
+    assert_all!(after[..3].iter(), |velocity| velocity.norm() < 1e-14);
+    assert_near_vector!(after[3], Vec3::new(7.0, 0.0, 0.0), 1e-14);
     assert_eq!(simulation.cloud().state.counts.impacts, 3);
 }
 
@@ -123,14 +126,15 @@ fn a_pair_bounces_once_per_step() {
     let mut simulation = start(&scenario("open", SOUND, ELASTIC, 1e-4), &grains);
     simulation.advance(1.0).unwrap();
     assert_eq!(simulation.cloud().state.counts.impacts, 2);
-    assert!(simulation.cloud().state.warnings.counts().values().sum::<u64>() > 0);
+    assert_above!(simulation.cloud().state.warnings.counts().values().sum::<u64>(), 0);
     run(&mut simulation);
     let after = simulation.snapshot().grains;
-    assert!(after.velocity[0].x < after.velocity[1].x && after.velocity[1].x < after.velocity[2].x);
-    assert!(simulation.cloud().state.counts.impacts > 4);
+    assert_below!(after.velocity[0].x, after.velocity[1].x, "in m/s");
+    assert_below!(after.velocity[1].x, after.velocity[2].x, "in m/s");
+    assert_above!(simulation.cloud().state.counts.impacts, 4);
     // The rounding of a few ten impacts.
-    assert!(simulation.balance().kinetic_drift_relative.abs() < 1e-13);
-    assert!(simulation.momentum_drift_relative() < 1e-14);
+    assert_below!(simulation.balance().kinetic_drift_relative.abs(), 1e-13);
+    assert_below!(simulation.momentum_drift_relative(), 1e-14);
 }
 
 /// A ball alone in a box: its motion along each axis is a triangle wave, at all times.
@@ -140,7 +144,9 @@ fn walls_reflect_exactly() {
     let grains = [([1e-3, -2e-3, 3e-3], velocity, radius)];
     let mut simulation = start(&scenario("reflecting", SOUND, ELASTIC, 0.01), &grains);
     let mut bounces = 0;
+    let mut turns = agglo_testing::Turns::at_most(10_000_000, "the end of the run");
     while !simulation.is_finished() {
+        turns.take();
         simulation.advance(1.0).unwrap();
         let (time, place) = (simulation.clock().time, simulation.snapshot().grains.position[0]);
         bounces = 0;
@@ -157,11 +163,12 @@ fn walls_reflect_exactly() {
     }
     let cloud = simulation.cloud();
     // The last bounce of each axis may be due at the very end.
-    assert!(bounces >= 20 && cloud.state.counts.walls == bounces);
+    assert_at_least!(bounces, 20);
+    assert_eq!(cloud.state.counts.walls, bounces);
     // Each bounce gives twice the momentum; those of one axis take turns.
     let mass = cloud.state.spheres.bulk[0].mass;
     let gained = cloud.state.spheres.motion[0].velocity - Vec3::from(velocity);
-    assert!((cloud.state.books.flows.walls - gained * mass).norm() < 1e-15 * mass * 29.0);
+    assert_near_vector!(cloud.state.books.flows.walls, gained * mass, 1e-15 * mass * 29.0);
 }
 
 /// A large ball and a small one that is faster than it: the small one is turned round at the wall within a long step if
@@ -188,12 +195,13 @@ fn faces_of_a_periodic_volume_are_no_borders() {
         assert_eq!(simulation.cloud().state.counts.impacts, impacts, "{boundary}");
         for place in &simulation.cloud().state.spheres.motion {
             let inside = simulation.cloud().volume.wrap(place.position) == place.position;
-            assert!(inside || boundary == "antipodal");
+            assert!(inside || boundary == "antipodal", "a grain has left a volume with {boundary} faces");
         }
         let x = simulation.snapshot().grains.position[0].x;
         if boundary == "periodic" {
             // 0.2 mm apart along z, so that the normal is 0.995 along x: it came back most of the way.
-            assert!(x < 9e-3 && x > 6e-3);
+            assert_below!(x, 9e-3);
+            assert_above!(x, 6e-3);
         } else {
             // 3 mm on, less up to twice what the step flew too far.
             assert!(x < -9e-3 && x > -9e-3 - 2.0 * 10.0 * 0.2e-3, "{x}");
@@ -241,7 +249,7 @@ fn entering_an_antipodal_volume_where_somebody_is() {
     let mut simulation = start(&scenario("antipodal", "longest_step = \"1 us\"", ELASTIC, 2e-6), &grains);
     run(&mut simulation);
     assert_eq!(simulation.cloud().state.counts.overlapping, 1);
-    assert!((simulation.snapshot().grains.velocity[1].x - 50.0).abs() < 1e-13);
+    assert_near!(simulation.snapshot().grains.velocity[1].x, 50.0, 1e-13, "in m/s");
 }
 
 /// Without losses, friction or merges nothing is deeper than one shortest step can bring it.
@@ -250,7 +258,9 @@ fn nothing_overlaps_more_than_one_shortest_step() {
     for boundary in ["periodic", "reflecting", "antipodal", "open"] {
         let engine = "shortest_step = \"0.1 us\"";
         let mut simulation = start(&scenario(boundary, engine, ELASTIC, 0.5e-3), &crowd(150, 1e-3, 4.0, 3));
+        let mut turns = agglo_testing::Turns::at_most(10_000_000, "the end of the run");
         while !simulation.is_finished() {
+            turns.take();
             simulation.advance(1.0).unwrap();
             let spheres = &simulation.cloud().state.spheres;
             let deepest = images(spheres, boundary)
@@ -265,8 +275,8 @@ fn nothing_overlaps_more_than_one_shortest_step() {
         let impacts = simulation.cloud().state.counts.impacts;
         assert!(impacts > 50, "{impacts} in {boundary}");
         // Some hundred impacts, rounded each.
-        assert!(simulation.balance().drift_relative.abs() < 1e-12);
-        assert!(simulation.momentum_drift_relative() < 1e-12);
+        assert_below!(simulation.balance().drift_relative.abs(), 1e-12);
+        assert_below!(simulation.momentum_drift_relative(), 1e-12);
     }
 }
 
@@ -342,7 +352,7 @@ fn nearest_neighbours_against_brute_force() {
                 };
                 assert!(nearest.contacts().iter().any(is_it), "{at} of {n} in {boundary}");
             }
-            assert!(nearest.contacts().len() < n);
+            assert_below!(nearest.contacts().len(), n);
         }
     }
 }
@@ -361,10 +371,10 @@ fn books_close() {
             assert!(state.counts.merges + state.counts.fragmentations > 20, "{boundary}: {:?}", state.counts);
             let mass: f64 = state.spheres.bulk.iter().map(|bulk| bulk.mass).sum();
             // Sums of 200 terms over some thousand impacts.
-            assert!((mass / state.books.mass_at_start - 1.0).abs() < 1e-13);
+            assert_close!(mass, state.books.mass_at_start, 1e-13, "in kg");
             assert!(balance.kinetic_drift_relative.abs() < 1e-12, "{boundary} {engine} {balance:?}");
             assert!(balance.drift_relative.abs() < 1e-12, "{boundary} {engine} {balance:?}");
-            assert!(simulation.momentum_drift_relative() < 1e-12);
+            assert_below!(simulation.momentum_drift_relative(), 1e-12);
             let primaries: u32 = simulation.snapshot().primaries.iter().sum();
             assert_eq!(primaries, 200);
         }
@@ -407,7 +417,9 @@ fn resumed_runs_are_the_same_runs() {
             let mut simulation = start(&scenario, &crowd(120, 1e-3, 3.0, 2));
             let mut resumed = simulation.clone();
             run(&mut simulation);
+            let mut turns = agglo_testing::Turns::at_most(10_000_000, "the end of the run");
             while !resumed.is_finished() {
+                turns.take();
                 for _ in 0..37 {
                     if !resumed.is_finished() {
                         resumed.advance(1.0).unwrap();
@@ -440,9 +452,10 @@ fn published_cooling_takes_the_steps_of_the_clock() {
         temperature -= 0.5 * 3.0 / (1e-3 * 1000.0 * 1000.0) * flux;
     }
     // Four steps of some ten roundings.
-    assert!((simulation.snapshot().grains.temperature[0] / temperature - 1.0).abs() < 1e-14);
+    assert_close!(simulation.snapshot().grains.temperature[0], temperature, 1e-14, "in K");
     assert_eq!(simulation.clock().step, 4);
-    assert!(temperature < 860.0 && simulation.balance().drift_relative.abs() < 1e-14);
+    assert_below!(temperature, 860.0, "in K");
+    assert_below!(simulation.balance().drift_relative.abs(), 1e-14);
 }
 
 #[test]
@@ -450,8 +463,8 @@ fn trouble_is_told() {
     // Two that become one wider than the volume.
     let grains = [([-5e-3, 0.0, 0.0], [1.0, 0.0, 0.0], 8e-3), ([5e-3, 0.0, 0.0], [-1.0, 0.0, 0.0], 9e-3)];
     let mut simulation = start(&scenario("periodic", "", STICKY, 1.0), &grains);
-    assert!(matches!(simulation.advance(1.0), Err(SimError::Outgrown { grain: 1, .. })));
+    assert_matches!(simulation.advance(1.0), Err(SimError::Outgrown { grain: 1, .. }));
     let grains = [([-5e-3, 0.0, 0.0], [1e160, 0.0, 0.0], 5e-3), ([5e-3, 0.0, 0.0], [-1.0, 0.0, 0.0], 5e-3)];
     let mut simulation = start(&scenario("open", "", ELASTIC, 1.0), &grains);
-    assert!(matches!(simulation.advance(1.0), Err(SimError::ImpactNotFinite { grain: 0, .. })));
+    assert_matches!(simulation.advance(1.0), Err(SimError::ImpactNotFinite { grain: 0, .. }));
 }

@@ -104,7 +104,7 @@ mod tests {
         let solved = response.solved((explicit, explicit), (guess, guess), (0.8, 0.6));
         let back = explicit + (solved.drag + solved.magnetic) * 0.8;
         assert!((back - solved.velocity).norm() < 1e-15, "{back:?}");
-        assert!((explicit + solved.moment * 0.6 - solved.spin).norm() < 1e-15);
+        assert_near_vector!(explicit + solved.moment * 0.6, solved.spin, 1e-15);
     }
 
     /// A rotation keeps the speed, whatever the step.

@@ -93,7 +93,8 @@ fn forces_on_single_grains() {
     let trap = "[fields.lorentz]\nelectric_field = [\"-2e11*x\", \"-2e11*y\", \"-2e11*z\"]\n";
     let found = paces(trap).lorentz;
     // A difference over a hundredth of the radius, rounded.
-    assert!((found.square / (3.0_f64.sqrt() * 0.2 / MASS) - 1.0).abs() < 1e-9 && found.rate == 0.0);
+    assert_close!(found.square, 3.0_f64.sqrt() * 0.2 / MASS, 1e-9);
+    assert_eq!(found.rate, 0.0);
     let field = "[fields.magnetic]\nmagnetisability = \"1e-9 J/T2\"\n\
                  magnetic_flux_density = [\"1 T\", \"0 T\", \"1e4*z\"]\n";
     let found = paces(field).magnetic;

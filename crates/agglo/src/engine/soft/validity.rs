@@ -87,9 +87,9 @@ mod tests {
     #[test]
     fn drag_warns_from_its_reynolds_number_on() {
         assert_eq!(warning("stokes", 0.995 * 1.0 / 2000.0), None);
-        assert!(warning("stokes", 1.005 * 1.0 / 2000.0).unwrap().contains("above 1,"));
+        assert_contains!(warning("stokes", 1.005 * 1.0 / 2000.0).unwrap(), "above 1,");
         assert_eq!(warning("schiller_naumann", 0.995 * 0.5), None);
-        assert!(warning("schiller_naumann", 1.005 * 0.5).unwrap().contains("above 1000"));
+        assert_contains!(warning("schiller_naumann", 1.005 * 0.5).unwrap(), "above 1000");
     }
 
     /// k a = 2 π f R/c = 10 at 2.387 MHz for 1 mm in water at 1500 m/s; the larger grain does not count.

@@ -230,7 +230,7 @@ mod tests {
         // A R*/(3 g³) at the smallest gap, to O(g/R).
         let by_hand = 1e-19 * 0.5e-6 / (3.0 * 4e-10_f64.powi(3));
         for distance in [2e-6, 2e-6 + 4e-10] {
-            assert!((capped.gradient(&grain, &grain, distance) / by_hand - 1.0).abs() < 1e-3);
+            assert_close!(capped.gradient(&grain, &grain, distance), by_hand, 1e-3);
         }
     }
 
@@ -241,9 +241,9 @@ mod tests {
             assert_eq!([near.force(&A, &B, 0.021), near.energy(&A, &B, 0.021)], [0.0, 0.0]);
             assert_eq!(near.energy(&A, &B, 0.02), 0.0);
             let largest = near.truncation_error(&A, &B);
-            assert!(largest > 0.0);
+            assert_above!(largest, 0.0);
             for distance in [0.02, 0.025, 0.1, 1.0] {
-                assert!(near.law.force(&A, &B, distance).abs() <= largest * (1.0 + 1e-14));
+                assert_at_most!(near.law.force(&A, &B, distance).abs(), largest * (1.0 + 1e-14), "in N");
             }
         }
     }
@@ -261,7 +261,7 @@ mod tests {
         let cutoff = Some(Quantity(0.5));
         let near = NearField { law: NearFieldLaw::PowerPair(power), cutoff, truncation: 0.05 };
         let by_hand = std::f64::consts::PI * 100.0 * 2.0 * 10.0 / 3.0 / 0.5_f64.powi(3);
-        assert!((near.truncation_error_in_cloud(&A, &B, 100.0) / by_hand - 1.0).abs() < 1e-14);
+        assert_close!(near.truncation_error_in_cloud(&A, &B, 100.0), by_hand, 1e-14);
         let law = NearFieldLaw::Coulomb(Coulomb { relative_permittivity: 1.0 });
         let coulomb = NearField { law, cutoff, truncation: 0.05 };
         assert_eq!(coulomb.truncation_error_in_cloud(&A, &B, 1.0), f64::INFINITY);

@@ -175,7 +175,7 @@ mod tests {
                 repulsion: 3.0,
                 repulsion_exponent: 2.0,
             };
-            assert!((law.force(&a, &b, 2.0) / (product * balance) - 1.0).abs() < 1e-14);
+            assert_close!(law.force(&a, &b, 2.0), product * balance, 1e-14, "in N");
             let other = Source { polarity: -1.0, ..b };
             assert_eq!(law.force(&a, &other, 2.0), -law.force(&a, &b, 2.0));
         }
@@ -191,7 +191,7 @@ mod tests {
             repulsion_exponent: 7.0,
         };
         let one = Source { charge: 1.0, polarity: 1.0, ..Source::default() };
-        assert!((law.energy(&one, &one, 1.0) - (1.0 / 6.0 - 1.0 / 1.5)).abs() < 1e-15);
-        assert!(law.energy(&one, &one, 1e9).abs() < 1e-13);
+        assert_near!(law.energy(&one, &one, 1.0), 1.0 / 6.0 - 1.0 / 1.5, 1e-15, "in J");
+        assert_below!(law.energy(&one, &one, 1e9).abs(), 1e-13, "in J");
     }
 }

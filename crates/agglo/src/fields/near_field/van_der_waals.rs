@@ -126,10 +126,10 @@ mod tests {
     fn limits() {
         let (a, b) = (grain(1e-3), grain(2e-3));
         let near = -1e-19 * (2e-3 / 3.0) / (6.0 * 1e-9 * 1e-9);
-        assert!((LAW.force(&a, &b, 3e-3 + 1e-9) / near - 1.0).abs() < 1e-5);
+        assert_close!(LAW.force(&a, &b, 3e-3 + 1e-9), near, 1e-5, "in N");
         let (far, d) = (1e-19 * 8e-18, 3.0_f64);
-        assert!((LAW.force(&a, &b, d) / (-32.0 / 3.0 * far / d.powi(7)) - 1.0).abs() < 1e-5);
-        assert!((LAW.energy(&a, &b, d) / (-16.0 / 9.0 * far / d.powi(6)) - 1.0).abs() < 1e-5);
+        assert_close!(LAW.force(&a, &b, d), -32.0 / 3.0 * far / d.powi(7), 1e-5, "in N");
+        assert_close!(LAW.energy(&a, &b, d), -16.0 / 9.0 * far / d.powi(6), 1e-5, "in J");
     }
 
     /// Below the smallest gap the force stays and the energy goes on along its slope, without a jump.
@@ -139,10 +139,10 @@ mod tests {
         let cap = 3e-6 + 4e-10;
         let held = LAW.force(&a, &b, cap);
         for distance in [cap - 1e-12, 3e-6, 2.9e-6] {
-            assert!((LAW.force(&a, &b, distance) / held - 1.0).abs() < 1e-8);
+            assert_close!(LAW.force(&a, &b, distance), held, 1e-8, "in N");
         }
         let step = LAW.energy(&a, &b, cap) - LAW.energy(&a, &b, 2.9e-6);
-        assert!((step / (-held * (cap - 2.9e-6)) - 1.0).abs() < 1e-8);
+        assert_close!(step, -held * (cap - 2.9e-6), 1e-8);
         let jump = LAW.energy(&a, &b, cap + 1e-16) / LAW.energy(&a, &b, cap - 1e-16) - 1.0;
         assert!(jump.abs() < 1e-6, "{jump}");
         // Nanometre grains: a difference over a gap of 1 nm would drown in the rounding of micrometres.

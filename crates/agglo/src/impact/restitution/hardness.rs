@@ -210,10 +210,10 @@ mod tests {
         for (ratio, wanted) in [(1e-12, 1.0 - 1e-6), (0.01, 0.9), (0.25, 0.5), (0.81, 0.1)] {
             assert!((whole.restitution(ratio) - wanted).abs() < 2e-16, "{ratio}");
         }
-        assert!((half.restitution(0.25) - (9.0 - 33.0_f64.sqrt()) / 8.0).abs() < 3e-16);
+        assert_near!(half.restitution(0.25), (9.0 - 33.0_f64.sqrt()) / 8.0, 3e-16);
         for one in [whole, half] {
             assert_eq!((one.restitution(0.0), one.restitution(1.0), one.restitution(7.0)), (1.0, 0.0, 0.0));
-            assert!(one.restitution(1.0 - 1e-9) > 0.0);
+            assert_above!(one.restitution(1.0 - 1e-9), 0.0);
         }
     }
 
@@ -268,7 +268,7 @@ mod tests {
         let reduced = 0.5 * density * 4.0 / 3.0 * PI * b.powi(3);
         let at = |v_p: f64| one.restitution(one.load(reduced, 2.0 * v_p, b) / hardness);
         assert_eq!(at(critical * (1.0 + 1e-12)), 0.0);
-        assert!(at(critical * (1.0 - 1e-12)) > 0.0);
+        assert_above!(at(critical * (1.0 - 1e-12)), 0.0);
     }
 
     /// With a0 = 0 the plain iteration flips between 0 and 1 - x; with a0 = af it is at the root at once.
@@ -279,6 +279,6 @@ mod tests {
         assert_eq!((first, one.substituted(first, 0.25)), (0.75, 0.0));
         assert_eq!(law(0.5, 0.5, ForceTime::Impact).substituted(0.3, 0.25), 0.5);
         let published = law(0.5, 0.5, ForceTime::Compression);
-        assert!((published.substituted(0.2, 0.25) - 0.4).abs() < 1e-15);
+        assert_near!(published.substituted(0.2, 0.25), 0.4, 1e-15);
     }
 }

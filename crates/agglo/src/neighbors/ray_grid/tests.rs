@@ -87,12 +87,16 @@ fn clear_rays_meet_nothing() {
             // 0 says that the ray starts where a sphere may be.
             let to = clear.until * (1.0 - 1e-15);
             let is_met = grid.nearest(&RaySpan { to, ..*span }).is_some();
-            assert!(clear.until == 0.0 || (!is_met && grid.is_clear(clear, to)));
+            assert!(
+                clear.until == 0.0 || (!is_met && grid.is_clear(clear, to)),
+                "clear until {} but met: {is_met}",
+                clear.until
+            );
         }
     }
     let far: Vec<Vec3> = start.iter().map(|&place| place + Vec3::AXES[0] * grid.margin * 1.01).collect();
     grid.update(&far, &radii);
-    assert!(clear.iter().all(|clear| !grid.is_clear(clear, 0.0)));
+    assert_all!(clear.iter(), |clear| !grid.is_clear(clear, 0.0));
 }
 
 /// A ray that grazes past a sphere on its way out is not clear: the sphere may move so that it lies ahead.
@@ -103,7 +107,8 @@ fn a_ray_beside_a_sphere_is_not_clear() {
     let direction = Vec3::new(1.0, 1e-3, 0.0).normalized();
     let origin = Vec3::new(0.0, 1.02, 0.0);
     let span = RaySpan { origin, direction, from: 0.0, to: 5.0, skip: NO_SPHERE };
-    assert!(grid.nearest(&span).is_none() && grid.clear_until(&span).until == 0.0);
+    assert_none!(grid.nearest(&span));
+    assert_eq!(grid.clear_until(&span).until, 0.0);
     grid.update(&[Vec3::new(0.05, 0.08, 0.0)], &[1.0]);
     assert_eq!((grid.builds(), grid.nearest(&span).unwrap().at), (1, 0.0));
 }
@@ -115,7 +120,8 @@ fn distance_and_limits_by_hand() {
     let span = RaySpan { origin: Vec3::ZERO, direction: Vec3::AXES[0], from: 0.0, to: 9.0, skip: NO_SPHERE };
     // 3 - sqrt(1 - 0.36) = 2.2; of two equal spheres the first is hit.
     let hit = grid.nearest(&span).unwrap();
-    assert!((hit.at - 2.2).abs() < 1e-15 && hit.sphere == 0);
+    assert_near!(hit.at, 2.2, 1e-15);
+    assert_eq!(hit.sphere, 0);
     assert_eq!(grid.nearest(&RaySpan { skip: 0, ..span }).unwrap().sphere, 1);
     assert_eq!(grid.nearest(&RaySpan { to: 2.19, ..span }), None);
     assert_eq!(grid.nearest(&RaySpan { to: hit.at, ..span }), Some(hit));

@@ -141,13 +141,13 @@ mod tests {
         list.add(2.5e-7, "frames/a&b.vtp");
         list.write(&path).unwrap();
         let text = std::fs::read_to_string(&path).unwrap();
-        assert!(text.contains("timestep=\"0\" group=\"\" part=\"0\" file=\"frames/grains-0.vtp\""));
-        assert!(text.contains("timestep=\"2.5e-7\" group=\"\" part=\"0\" file=\"frames/a&amp;b.vtp\""));
+        assert_contains!(text, "timestep=\"0\" group=\"\" part=\"0\" file=\"frames/grains-0.vtp\"");
+        assert_contains!(text, "timestep=\"2.5e-7\" group=\"\" part=\"0\" file=\"frames/a&amp;b.vtp\"");
         assert_eq!(list.len(), 2);
         assert_eq!(Collection::read(&path).unwrap().frames().next(), Some((0.0, "frames/grains-0.vtp")));
         std::fs::write(&path, &text[..text.len() - 20]).unwrap();
-        assert!(matches!(Collection::read(&path), Err(RecordError::Damaged { .. })));
+        assert_matches!(Collection::read(&path), Err(RecordError::Damaged { .. }));
         std::fs::write(&path, [0xff, 0x00, 0x81]).unwrap();
-        assert!(Collection::read(&path).is_err());
+        assert_err!(Collection::read(&path));
     }
 }

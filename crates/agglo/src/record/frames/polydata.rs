@@ -322,8 +322,8 @@ mod tests {
         let short = message(frame(&points, &[1.0]));
         assert!(short.ends_with("the field `mass_kg` has 1 values where 2 are due"), "{short}");
         let lost = PolyData { cells: Cells::Lines(&[[0, 2]]), ..frame(&points, &[1.0, 2.0]) };
-        assert!(message(lost).ends_with("the list of points has 2 values where 3 are due"));
+        assert_ends!(message(lost), "the list of points has 2 values where 3 are due");
         let order = PolyData { order: Some(&[0]), ..frame(&points, &[1.0, 2.0]) };
-        assert!(message(order).ends_with("the order of points has 1 values where 2 are due"));
+        assert_ends!(message(order), "the order of points has 1 values where 2 are due");
     }
 }

@@ -125,7 +125,8 @@ fn missing_and_damaged_files_are_said_and_the_rest_is_shown() {
         assert!(notes.iter().any(|note| note.contains(wanted)), "{wanted}: {notes:?}");
     }
     let text = fs::read_to_string(page).unwrap();
-    assert!(text.contains("Every candidate") && !text.contains("against generation"));
+    assert_contains!(text, "Every candidate");
+    assert_lacks!(text, "against generation");
 }
 
 #[test]
@@ -147,7 +148,7 @@ evaluation,generation,stage,status,starts,violation,cost_1,cost_2,cost_1_standar
     let report = report(folder.path());
     let series = &chart(&report, "front").series;
     assert_eq!((&series[0].x[..], &series[0].y[..]), (&[0.9, 0.7][..], &[2.5, 1.5][..]), "with its own sign");
-    assert!(!report.charts.iter().any(|chart| chart.id == "candidates"));
+    assert_no!(report.charts.iter(), |chart| chart.id == "candidates");
 }
 
 fn study(plan: &str, files: &[(&str, &str)]) -> Report {
@@ -172,7 +173,7 @@ fn a_study_shows_what_its_plan_is_for() {
         (&drawn.x.names[..], &drawn.series[0].y[..]),
         (&["v", "hardness"].map(str::to_owned)[..], &[0.25, 0.125][..])
     );
-    assert!(morris.tables.iter().any(|table| table.title == "Sensitivity"));
+    assert_any!(morris.tables.iter(), |table| table.title == "Sensitivity");
 
     let shares = "target,parameter,first,first_lower,first_upper,total,total_lower,total_upper,variance,noise_share,blocks\n\
                   growth_deficit,v,0.5,0.25,0.75,0.625,0.5,0.75,0.1,0.01,16\n";

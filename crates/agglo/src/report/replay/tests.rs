@@ -63,8 +63,8 @@ fn packed_places_come_back_within_half_a_step_and_names_exactly() {
         }
         assert_eq!(names(&replay, frame), (0..50).collect::<Vec<u32>>());
     }
-    assert!(replay.notes.is_empty());
-    assert!(replay.plan.columns.iter().any(|column| column.name == "temperature"));
+    assert_empty!(replay.notes);
+    assert_any!(replay.plan.columns.iter(), |column| column.name == "temperature");
     assert!(!replay.plan.columns.iter().any(|column| column.name == "charge"), "all charges are 0");
 }
 
@@ -127,25 +127,28 @@ fn large_runs_are_thinned_and_said() {
     let bonds = [chain, skip].concat();
     write_bonds(&folder.path().join("bonds_000039.vtp"), 0.0, &last, &bonds, &[]).unwrap();
     let whole = replay(&paths).unwrap();
-    assert!(whole.notes.is_empty() && whole.plan.frames.len() == 40 && whole.plan.share == 1);
+    assert_empty!(whole.notes);
+    assert_eq!(whole.plan.frames.len(), 40);
+    assert_eq!(whole.plan.share, 1);
     let bytes = whole.packed.len();
     // First frames go, the first and the last of them never.
     let fewer = within(&paths, bytes * 8 / 10).unwrap();
     let frames = fewer.plan.frames.len();
     assert!((24..40).contains(&frames) && fewer.plan.share == 1, "{frames} frames");
-    assert!(fewer.packed.len() <= bytes * 8 / 10);
+    assert_at_most!(fewer.packed.len(), bytes * 8 / 10);
     let times = fewer.plan.frames.iter().map(|frame| frame.time).collect::<Vec<_>>();
     assert_eq!((times[0], times[frames - 1]), (0.0, 0.5 * 39.0));
     assert!(fewer.notes[0].contains(&format!("{frames} of 40 frames")), "{:?}", fewer.notes);
     // 40 frames are not thinned below 24; then grains go, the same ones in all frames, with their bonds.
     let thinned = within(&paths, bytes / 5).unwrap();
     let share = thinned.plan.share;
-    assert!(thinned.packed.len() <= bytes / 5 && share > 1);
+    assert_at_most!(thinned.packed.len(), bytes / 5);
+    assert_above!(share, 1);
     assert_eq!((thinned.plan.frames.len(), thinned.grains), (24, 600));
     let kept: Vec<u32> = (0..600).filter(|name| u64::from(*name).is_multiple_of(share)).collect();
     assert_eq!(names(&thinned, 0), kept);
     assert_eq!(names(&thinned, 23), kept);
-    assert!(thinned.notes.iter().any(|note| note.contains(&format!("one of {share} grains"))));
+    assert_any!(thinned.notes.iter(), |note| note.contains(&format!("one of {share} grains")));
     let both_ends = |pair: &&[u32; 2]| pair.iter().all(|&name| u64::from(name).is_multiple_of(share));
     let due = bonds.iter().filter(both_ends).flatten().copied().collect::<Vec<_>>();
     let found =

@@ -152,15 +152,15 @@ mod tests {
         let growth = Growth::of(&snapshot(&rows));
         assert_eq!((growth.grains, growth.mean_radius, growth.largest_radius), (3, 2.0, 3.0));
         assert_eq!((growth.largest, growth.largest_primaries, growth.largest_fraction), (1, 9, 0.5));
-        assert!((growth.united_radius - 36_f64.cbrt()).abs() < 1e-15);
-        assert!((growth.deviation_radius - (2.0_f64 / 3.0).sqrt()).abs() < 1e-15);
+        assert_near!(growth.united_radius, 36_f64.cbrt(), 1e-15, "in m");
+        assert_near!(growth.deviation_radius, (2.0_f64 / 3.0).sqrt(), 1e-15, "in m");
         assert_eq!((growth.mass, growth.mean_temperature), (4.0, 1200.0 / 4.0));
         assert_eq!((growth.lowest_temperature, growth.highest_temperature), (100.0, 400.0));
         // V = (4 + 2 - 2, 0, 6 - 2)/4 = (1, 0, 1); deviations (3, -1), (0, 2), (-3, -3): 10 + 4 + 18 over 9.
         assert_eq!(growth.mean_velocity, Vec3::new(1.0, 0.0, 1.0));
-        assert!((growth.granular_temperature - 32.0 / 9.0).abs() < 1e-15);
+        assert_near!(growth.granular_temperature, 32.0 / 9.0, 1e-15, "in K");
         let speed = (4.0 + 10_f64.sqrt() + 8_f64.sqrt()) / 3.0;
-        assert!((growth.mean_speed - speed).abs() < 1e-15);
+        assert_near!(growth.mean_speed, speed, 1e-15, "in m/s");
         assert_eq!(growth.largest_speed, 4.0);
     }
 
@@ -168,7 +168,7 @@ mod tests {
     #[test]
     fn val_zohdi_2004_cost_of_the_best() {
         let growth = Growth { mean_radius: 3.2292, united_radius: 1000_f64.cbrt(), ..Growth::default() };
-        assert!((growth.cost() - 0.67708).abs() < 1e-12);
+        assert_near!(growth.cost(), 0.67708, 1e-12);
     }
 
     #[test]

@@ -92,7 +92,7 @@ fn the_mean_free_time_counts_both_partners() {
     let last = LastRow { time: 1.0, grains: 20.0, impacts: 5 };
     let now = LastRow { time: 3.0, grains: 10.0, impacts: 35 };
     assert_eq!(last.mean_free_time(&now), 15.0 * 2.0 / 60.0);
-    assert!(now.mean_free_time(&now).is_nan());
+    assert_nan!(now.mean_free_time(&now));
 }
 
 /// Two singles, one of 5 and one of 7, of 1 kg a primary: 2 of 14 kg, none, 12 of 14 kg.
@@ -142,6 +142,6 @@ fn events_and_descents_fit_their_tables() {
     let events = read("events.csv");
     let lines: Vec<&str> = events.lines().collect();
     assert_eq!(lines[1], "3,0.125,merge,4,9,1e-6,2.5e-6,2,0,1,2,3,4,5");
-    assert!(lines[2].starts_with("3,0.125,break,"));
+    assert_starts!(lines[2], "3,0.125,break,");
     assert_eq!(read("genealogy.csv"), "event,parent,child,primaries,mass_kg\n3,4,9,12,1e-6\n");
 }

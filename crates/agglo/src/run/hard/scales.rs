@@ -96,9 +96,9 @@ convection = "20 W/(m2 K)"
     #[test]
     fn figures_by_hand() {
         let scales = Scales::of(&scenario(""), &grains(), 2);
-        assert!((scales.biot.unwrap() / 0.133_407_488_38 - 1.0).abs() < 1e-12);
+        assert_close!(scales.biot.unwrap(), 0.133_407_488_38, 1e-12);
         let radius = 1.5e-3 * (1e6 / (std::f64::consts::TAU * 6.6743e-11)).sqrt();
-        assert!((scales.self_gravity_radius.unwrap() / radius - 1.0).abs() < 1e-12);
+        assert_close!(scales.self_gravity_radius.unwrap(), radius, 1e-12, "in m");
         // Water, the default, is not taken for the gas that hard spheres fly in.
         assert_eq!(scales.reynolds, None);
         assert_eq!(Scales::of(&scenario(""), &grains(), 0).self_gravity_radius, None);

@@ -357,7 +357,7 @@ mod tests {
         let few = summary(9, 0.5e-3);
         let figures = row(&few).unwrap();
         assert!(figures.contains("9 bounces") && figures.contains("0.90 %"), "{figures}");
-        assert!(few.warnings.is_empty());
+        assert_empty!(few.warnings);
         assert_eq!(summary(11, 0.5e-3).warnings[GUARD_MATTERS], 11);
         assert_eq!(summary(9, 1.1e-3).warnings[GUARD_MATTERS], 9);
     }

@@ -94,7 +94,8 @@ mod tests {
         for kind in ["hcp", "fcc", "bcc", "cubic"] {
             let places = lattice(kind, 1.0, 0.0, "").1.position;
             let (grains, contacts) = (places.len(), pairs_by_hand(&places));
-            assert!(grains > 100 && contacts > 2 * grains as u64);
+            assert_above!(grains, 100);
+            assert_above!(contacts, 2 * grains as u64);
             for (radius, at) in [(1.0, 0.0), (1.0, 0.1), (0.3, 17.7), (1e-6, 0.012), (4e-5, -1.0 / 3.0)] {
                 let found = together(lattice(kind, radius, at, ""));
                 let size = found.summary.largest_size as usize;
@@ -123,7 +124,7 @@ mod tests {
         let with = |largest_fraction| Clusters { count: 1, largest_fraction };
         let cases = [(0.0025, 0.0025, 0.0), (1.0, 0.5, 0.5), (0.0025, 0.01, -3.0), (0.8, 0.2, 0.75)];
         for (start, now, degree) in cases {
-            assert!((dispersion_since(&with(start), &with(now)) - degree).abs() < 1e-15);
+            assert_near!(dispersion_since(&with(start), &with(now)), degree, 1e-15);
         }
     }
 }

@@ -78,7 +78,7 @@ fn differences_within_the_noise_have_no_order() {
     // The last difference is 0.03; two standard errors of it are 2*0.011*sqrt(2) = 0.0311.
     assert_eq!(observed_order(&levels, Starts::Own), Convergence::WithinNoise);
     // Where both have met the same luck nothing of it is noise.
-    assert!(matches!(observed_order(&levels, Starts::Shared), Convergence::Converging(_)));
+    assert_matches!(observed_order(&levels, Starts::Shared), Convergence::Converging(_));
     // Differences of round-off are no differences, however regular they are.
     let flat = exact(&[(0.4, 1.0 + 4e-15), (0.2, 1.0 + 2e-15), (0.1, 1.0 + 1e-15)]);
     assert_eq!(observed_order(&flat, Starts::Own), Convergence::WithinNoise);
@@ -107,9 +107,8 @@ fn what_scatter_cannot_tell_is_not_shown() {
     let found = differences(&levels, 0.01, Starts::Shared)[0];
     let mean = finest.moments().mean;
     // Round-off of sums of eight; the quantile's own digits.
-    assert!(
-        (found.value / mean + 0.0130).abs() < 1e-12 && (found.standard_error / mean - 0.0063).abs() < 1e-12
-    );
+    assert_near!(found.value / mean, -0.0130, 1e-12);
+    assert_near!(found.standard_error / mean, 0.0063, 1e-12);
     assert!((found.half_width / found.standard_error - 2.364_624).abs() < 1e-6, "{found:?}");
     assert_eq!(found.verdict, Verdict::NotShown);
     assert_eq!(settled(&[found]), (None, Verdict::NotShown));
@@ -132,7 +131,8 @@ fn a_single_start_shows_nothing() {
     let single = exact(&[(2.0, 1.0), (1.0, 1.0)]);
     for starts in [Starts::Shared, Starts::Own] {
         let found = differences(&single, 0.5, starts);
-        assert!(found[0].verdict == Verdict::NotShown && found[0].half_width.is_infinite());
+        assert_eq!(found[0].verdict, Verdict::NotShown);
+        assert_true!(found[0].half_width.is_infinite(), "one level has no interval");
         let equal = [2.0, 1.0].map(|size| Level { size, starts: vec![1.0; 3] });
         assert_eq!(verdicts(&equal, 1e-9, starts), [Verdict::Settled]);
     }
@@ -146,7 +146,7 @@ fn levels_with_their_own_starts_have_welchs_freedom() {
     let third = 0.03_f64.sqrt();
     let fine = Level { size: 1.0, starts: vec![1.0 - third, 1.0, 1.0 + third] };
     let found = differences(&[coarse, fine], 0.01, Starts::Own)[0];
-    assert!((found.standard_error - 0.05_f64.sqrt()).abs() < 1e-15);
+    assert_near!(found.standard_error, 0.05_f64.sqrt(), 1e-15);
     // The table has three decimals.
     assert!((found.half_width / found.standard_error - 12.706).abs() < 5e-4, "{found:?}");
 }

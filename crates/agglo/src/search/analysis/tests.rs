@@ -45,16 +45,19 @@ fn what_failed_has_no_shares_and_no_effects() {
         let outcomes: Vec<_> =
             (0..40).map(|k| (k / 4 < whole).then_some([f64::from(k) * f64::from(k), 0.1])).collect();
         let shares = variance_shares(2, &outcomes, 100, 0.9, 1);
-        assert!(shares.variance.is_nan() && shares.noise_share.is_nan() && shares.blocks == whole as usize);
-        assert!(
-            shares.parameters.iter().all(|share| share.first.is_nan() && share.total_interval[0].is_nan())
-        );
+        assert_nan!(shares.variance);
+        assert_nan!(shares.noise_share);
+        assert_eq!(shares.blocks, whole as usize);
+        assert_all!(shares.parameters.iter(), |share| share.first.is_nan()
+            && share.total_interval[0].is_nan());
     }
     // One effect tells its size and no scatter.
     let first = |k: usize, _: &Vec<f64>| (k < 3).then_some([k as f64, 0.0]);
     let outcomes: Vec<_> = points.iter().enumerate().map(|(k, point)| first(k, point)).collect();
     for effect in elementary_effects(&points, &outcomes) {
-        assert!(effect.mean.is_finite() && effect.standard_error.is_nan() && effect.count == 1);
+        assert_finite!(effect.mean);
+        assert_nan!(effect.standard_error);
+        assert_eq!(effect.count, 1);
     }
 }
 
@@ -133,13 +136,12 @@ fn linear_functions_have_their_coefficients() {
     let value = |u: &Vec<f64>| u.iter().zip(coefficients).map(|(u, c)| u * c).sum::<f64>();
     let outcomes: Vec<_> = points.iter().map(|u| Some([value(u), 0.3])).collect();
     for (effects, coefficient) in elementary_effects(&points, &outcomes).iter().zip(coefficients) {
-        assert!(
-            (effects.mean - coefficient).abs() < 1e-13
-                && (effects.mean_size - coefficient.abs()).abs() < 1e-13
-        );
-        assert!(effects.standard_deviation < 1e-13 && effects.count == 10);
+        assert_near!(effects.mean, coefficient, 1e-13);
+        assert_near!(effects.mean_size, coefficient.abs(), 1e-13);
+        assert_below!(effects.standard_deviation, 1e-13);
+        assert_eq!(effects.count, 10);
         // Two errors of 0.3 over a step of 0.6.
-        assert!((effects.noise - 0.5 * 2.0_f64.sqrt()).abs() < 1e-13);
+        assert_near!(effects.noise, 0.5 * 2.0_f64.sqrt(), 1e-13);
     }
 }
 
@@ -287,7 +289,7 @@ fn searches_have_their_pictures() {
     with_folder(|folder| {
         let files = search_pictures(folder, &searched(2)).unwrap();
         assert_eq!(file_names(&files), ["cost.svg", "parallel.svg", "pairs.svg", "front.svg"]);
-        assert!(search_pictures(folder, &Evaluations::default()).unwrap().is_empty());
+        assert_empty!(search_pictures(folder, &Evaluations::default()).unwrap());
     });
 }
 
@@ -326,8 +328,9 @@ fn refinement_says_where_it_settled() {
     let words: Vec<&str> = rows[1..].iter().map(|row| row[column("settling")]).collect();
     assert_eq!(words, ["not_settled", "not_settled", "settled", "settled"]);
     let of = |name: &str| rows[3][column(name)].parse::<f64>().unwrap();
-    assert!((of("difference") - 0.015).abs() < 4.0 * of("difference_standard_error"));
-    assert!(of("difference_lower") < of("difference") && of("difference") < of("difference_upper"));
+    assert_near!(of("difference"), 0.015, 4.0 * of("difference_standard_error"));
+    assert_below!(of("difference_lower"), of("difference"));
+    assert_below!(of("difference"), of("difference_upper"));
     let said = findings(&plan, &evaluations, 1);
     let wanted =
         "power [W] is settled from rays = 4000 on: within 1 % of the finest level, with 95 % confidence";
@@ -389,8 +392,8 @@ fn what_there_is_nothing_to_say_of_is_said() {
         });
         let mut failed = studied(&plan);
         failed.rows.iter_mut().for_each(|row| row.status = Status::Failed);
-        assert!(findings(&plan, &failed, 1)[0].contains("not known for any candidate"));
-        assert!(study_tables(&plan, &failed, 1)[0].1.lines().skip(1).all(|line| !line.contains("NaN")));
+        assert_contains!(findings(&plan, &failed, 1)[0], "not known for any candidate");
+        assert_all!(study_tables(&plan, &failed, 1)[0].1.lines().skip(1), |line| !line.contains("NaN"));
     }
     let single = {
         let mut refined = refined();

@@ -302,7 +302,7 @@ mod tests {
         let deviation = (2.5_f64 / 3.0).sqrt();
         assert_eq!(noise.starts_mean, Some(2.5));
         // Round-off of a root and its square.
-        assert!((noise.start_deviation.unwrap() - deviation).abs() < 1e-15);
+        assert_near!(noise.start_deviation.unwrap(), deviation, 1e-15);
         let difference = noise.significant_difference.unwrap();
         // The table's t has seven digits.
         assert!((difference / (3.182_446 * deviation * 0.8_f64.sqrt()) - 1.0).abs() < 1e-6, "{difference}");

@@ -319,8 +319,14 @@ mod tests {
         }
         let entry = |outcome| Entry { seed: 7, outcome };
         let figures = entry(Ok(vec![1.0, 2.0]));
-        assert!(figures.is_of(7, 2) && !figures.is_of(7, 3) && !figures.is_of(7, 1) && !figures.is_of(8, 2));
-        assert!(entry(Err("it failed".to_owned())).is_of(7, 3));
+        assert_true!(figures.is_of(7, 2), "an outcome of this candidate and start");
+        assert_false!(figures.is_of(7, 3), "an outcome of this candidate and start");
+        assert_false!(figures.is_of(7, 1), "an outcome of this candidate and start");
+        assert_false!(figures.is_of(8, 2), "an outcome of this candidate and start");
+        assert_true!(
+            entry(Err("it failed".to_owned())).is_of(7, 3),
+            "an outcome of this candidate and start"
+        );
     }
 
     #[test]

@@ -179,7 +179,9 @@ fn a_campaign_that_was_stopped_and_cut_ends_with_the_same_files() {
     whole(&reference, &straight, 2, &genetic());
     let model = noisy();
     let mut sittings = 0;
+    let mut turns = agglo_testing::Turns::at_most(1_000, "the campaign to end");
     loop {
+        turns.take();
         sittings += 1;
         let mut stop = |progress: &CampaignProgress| {
             if progress.starts > 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
@@ -187,7 +189,8 @@ fn a_campaign_that_was_stopped_and_cut_ends_with_the_same_files() {
         match conducted(&model, &dir, (2, &genetic()), &mut stop).unwrap() {
             CampaignEnding::Finished(_) => break,
             CampaignEnding::Interrupted => {
-                assert!(finished(&dir).is_none() && !dir.join("summary.json").exists());
+                assert_none!(finished(&dir));
+                assert_gone!(dir.join("summary.json"));
                 let journal = dir.join("starts.journal");
                 let bytes = fs::read(&journal).unwrap();
                 // Not for ever: the last start would be lost again and again.
@@ -232,16 +235,23 @@ fn tables_and_summary_tell_the_same() {
                 assert_eq!(number(evaluation, "cost"), mean);
                 // The cost is the sum of both figures; round-off of the means.
                 let sum = number(evaluation, "value") + number(evaluation, "noise");
-                assert!((sum - mean).abs() < 1e-12 * (1.0 + mean.abs()));
+                assert_near!(sum, mean, 1e-12 * (1.0 + mean.abs()));
             }
-            "failed" => assert!(evaluation["cost"].is_empty() && costs.is_empty()),
-            "excluded" => assert!(number(evaluation, "violation") > 0.0 && costs.is_empty()),
+            "failed" => {
+                assert_empty!(evaluation["cost"]);
+                assert_empty!(costs);
+            }
+            "excluded" => {
+                assert_above!(number(evaluation, "violation"), 0.0);
+                assert_empty!(costs);
+            }
             other => panic!("{other}"),
         }
     }
     let count = |status: &str| evaluations.iter().filter(|row| row["status"] == status).count() as u64;
     assert_eq!((count("failed"), count("excluded")), (summary.failures, summary.excluded));
-    assert!(summary.failures > 0 && summary.excluded > 0);
+    assert_above!(summary.failures, 0);
+    assert_above!(summary.excluded, 0);
     let failures = fs::read_to_string(dir.join("failures.csv")).unwrap();
     assert!(failures.contains("\"too low,\nfar \"\"too\"\" low\""), "{failures}");
     let generations = rows(&dir, "generations.csv");
@@ -259,7 +269,8 @@ fn the_best_is_told_by_starts_that_the_search_did_not_see() {
     let model = Analytic { sigma: 1000.0, ..Analytic::default() };
     let summary = whole(&model, &dir, 2, &genetic());
     let best = summary.best.unwrap();
-    assert!(best.is_confirmed && best.starts == 5);
+    assert_true!(best.is_confirmed, "the best was run again on new seeds");
+    assert_eq!(best.starts, 5);
     let (evaluations, runs) = (rows(&dir, "evaluations.csv"), rows(&dir, "runs.csv"));
     let stage =
         |row: &BTreeMap<String, String>| evaluations[number(row, "evaluation") as usize]["stage"].clone();
@@ -269,16 +280,19 @@ fn the_best_is_told_by_starts_that_the_search_did_not_see() {
     let (seen, fresh) = (seeds(|stage| stage == "search"), seeds(|stage| stage == "confirm"));
     let last = seeds(|stage| stage == "final");
     assert_eq!((fresh.len(), last.len()), (5, 5), "common to the three candidates; of the best of them");
-    assert!(seen.is_disjoint(&fresh) && seen.is_disjoint(&last) && fresh.is_disjoint(&last));
-    assert!(last.contains(best.start_seed.to_string().as_str()));
+    assert_true!(seen.is_disjoint(&fresh), "{seen:?} and {fresh:?}");
+    assert_true!(seen.is_disjoint(&last), "{seen:?} and {last:?}");
+    assert_true!(fresh.is_disjoint(&last), "{fresh:?} and {last:?}");
+    assert_has!(last, best.start_seed.to_string().as_str());
     let table = rows(&dir, "best.csv");
     assert_eq!(table.len(), 3);
-    assert!(table.windows(2).all(|pair| number(&pair[0], "cost") <= number(&pair[1], "cost")));
+    assert_all!(table.windows(2), |pair| number(&pair[0], "cost") <= number(&pair[1], "cost"));
     assert_eq!(
         ["cost", "search_cost", "final_cost"].map(|column| number(&table[0], column)),
         [best.confirm_cost.unwrap(), best.search_cost.unwrap(), best.cost]
     );
-    assert!(table[1]["final_cost"].is_empty() && table[1]["final_evaluation"].is_empty());
+    assert_empty!(table[1]["final_cost"]);
+    assert_empty!(table[1]["final_evaluation"]);
     // The error of the fresh mean from its five starts.
     let costs: Vec<f64> = runs
         .iter()
@@ -287,7 +301,7 @@ fn the_best_is_told_by_starts_that_the_search_did_not_see() {
         .collect();
     let mean = costs.iter().sum::<f64>() / 5.0;
     let error = (costs.iter().map(|cost| (cost - mean).powi(2)).sum::<f64>() / 20.0).sqrt();
-    assert!((best.cost_standard_error.unwrap() / error - 1.0).abs() < 1e-12);
+    assert_close!(best.cost_standard_error.unwrap(), error, 1e-12);
     // About 300 starts of which the pooled deviation is made: 4 % of scatter, five times that.
     let deviation = summary.noise.start_deviation.unwrap();
     assert!((deviation / 1000.0 - 1.0).abs() < 0.35, "{deviation}");
@@ -373,9 +387,11 @@ fn folders_in_use_and_foreign_journals_are_refused() {
     let dir = folder.path().join("run");
     whole(&Analytic::default(), &dir, 1, &Method::Random(Random { points: 3 }));
     let error = CampaignFolder::create(&dir).unwrap_err();
-    assert!(matches!(error, FolderError::InUse { .. }) && error.exit_code() == 2);
+    assert_matches!(error, FolderError::InUse { .. });
+    assert_eq!(error.exit_code(), 2);
     let error = CampaignFolder::take(folder.path()).unwrap_err();
-    assert!(matches!(error, FolderError::NoCampaign { .. }) && error.exit_code() == 2);
+    assert_matches!(error, FolderError::NoCampaign { .. });
+    assert_eq!(error.exit_code(), 2);
     fs::write(dir.join("starts.journal"), "agglo 0.0.1,00000000\n").unwrap();
     let go_on = &mut |_: &CampaignProgress| ControlFlow::Continue(());
     let error = conducted(&Analytic::default(), &dir, (1, &genetic()), go_on).unwrap_err();
@@ -393,10 +409,14 @@ fn the_observer_is_told_how_far_it_is() {
     };
     conducted(&model, &folder.path().join("run"), (2, &genetic()), observer).unwrap();
     let last = told.last().unwrap();
-    assert!(told.len() >= 2 && last.evaluations > 0 && last.evaluations_at_most == Some(85));
-    assert!(last.best.is_some() && last.starts >= last.evaluations && last.starts_per_second > 0.0);
-    assert!(told.windows(2).all(|pair| pair[0].evaluations <= pair[1].evaluations));
-    assert!(told.iter().any(|progress| progress.left_s.is_some()));
+    assert_at_least!(told.len(), 2);
+    assert_above!(last.evaluations, 0);
+    assert_eq!(last.evaluations_at_most, Some(85));
+    assert_some!(last.best);
+    assert_at_least!(last.starts, last.evaluations);
+    assert_above!(last.starts_per_second, 0.0);
+    assert_all!(told.windows(2), |pair| pair[0].evaluations <= pair[1].evaluations);
+    assert_any!(told.iter(), |progress| progress.left_s.is_some());
 }
 
 /// Sixty searches among candidates that are all equal but for noise of standard deviation 1000 (the bowl has 52 at most),
@@ -442,7 +462,9 @@ fn candidates_that_come_again_use_what_is_known() {
         repeats += 1;
         let same = ["status", "starts", "cost", "cost_standard_error", "x_m_s", "y_m_s", "value", "noise"];
         assert!(same.iter().all(|column| row[*column] == evaluations[earlier][*column]), "{row:?}");
-        assert!(earlier < number && own == 0 && evaluations[earlier]["repeats"].is_empty());
+        assert_below!(earlier, number);
+        assert_eq!(own, 0);
+        assert_empty!(evaluations[earlier]["repeats"]);
     }
     // 205 points on 121 places: 1 - (1 - 1/121)^205 of these are met, so about 205 - 99 come again.
     assert!((70..140).contains(&repeats) && summary.repeats == repeats, "{repeats}");
@@ -468,12 +490,13 @@ fn a_budget_of_time_ends_the_search_and_is_kept_when_resumed() {
     // Interrupted when all is evaluated: what the clock decided is in the journal.
     let interrupted = Setup { budget_s: Some(1.0), is_interrupted: true, ..Setup::default() };
     let ended = conducted_with(&slow(), &dir, (2, &method), &interrupted, go_on).unwrap();
-    assert!(matches!(ended, CampaignEnding::Interrupted));
+    assert_matches!(ended, CampaignEnding::Interrupted);
     let journal = fs::read_to_string(dir.join("starts.journal")).unwrap();
     let decided: Vec<&str> = journal.lines().filter(|line| line.starts_with("budget,")).collect();
     assert!(decided.last().unwrap().contains(",ends,"), "{decided:?}");
     let at: u64 = decided.last().unwrap().split(',').nth(1).unwrap().parse().unwrap();
-    assert!(at > 8 && at < 100_000);
+    assert_above!(at, 8);
+    assert_below!(at, 100_000);
     // The same journal on another number of threads, with all the time in the world gone by: the same files.
     let again = folder.path().join("again");
     fs::create_dir(&again).unwrap();
@@ -491,7 +514,8 @@ fn a_budget_of_time_ends_the_search_and_is_kept_when_resumed() {
     assert_eq!(summary.ended_early.as_deref(), Some("budget.time"));
     assert_eq!((summary.stages[0].candidates, summary.stages[0].allowed), (at, Some(100_000)));
     let best = summary.best.as_ref().unwrap();
-    assert!(best.is_confirmed && best.confirm_cost.is_some());
+    assert_true!(best.is_confirmed, "the best was run again on new seeds");
+    assert_some!(best.confirm_cost);
     let said = summary.table().into_iter().find(|(what, _)| what == "evaluations").unwrap().1;
     assert!(said.contains(&format!("search {at} of 100000 (the time was up)")), "{said}");
 }

@@ -84,13 +84,13 @@ mod tests {
             for i in 0..d {
                 let product: f64 = (0..d).map(|j| original[i * d + j] * vectors[j * d + k]).sum();
                 // Round-off of some hundred rotations of numbers up to 4.
-                assert!((product - value * vectors[i * d + k]).abs() < 1e-13);
+                assert_near!(product, value * vectors[i * d + k], 1e-13);
             }
         }
         values.sort_by(f64::total_cmp);
         for (k, value) in values.iter().enumerate() {
             let angle = (k + 1) as f64 * std::f64::consts::PI / (d + 1) as f64;
-            assert!((value - (2.0 - 2.0 * angle.cos())).abs() < 1e-13);
+            assert_near!(*value, 2.0 - 2.0 * angle.cos(), 1e-13);
         }
     }
 }

@@ -219,11 +219,11 @@ mod tests {
         let parameters = Genetic { generations: 150, ..Default::default() };
         let mut search = parameters.start(10, 1, 1);
         let best = minimise(&mut search, 10_000, |point, n| {
-            assert!(point.iter().all(|x| (0.0..=1.0).contains(x)));
+            assert_all!(point.iter(), |x| (0.0..=1.0).contains(x));
             noisy.fitness(point, n)
         });
         // Random points of as many evaluations have about 15.
-        assert!(TestFunction::Sphere.at(&best.unwrap()) < 1e-3);
+        assert_below!(TestFunction::Sphere.at(&best.unwrap()), 1e-3);
     }
 
     fn search(parameters: Genetic, parents: &[Point]) -> Search {

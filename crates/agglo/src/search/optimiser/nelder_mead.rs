@@ -283,7 +283,7 @@ mod tests {
     fn stays_within_the_bounds() {
         let parameters = NelderMead { start: vec![0.9; 3], evaluations: 600, ..Default::default() };
         let best = minimise(&mut parameters.start(3), 600, |point, _| {
-            assert!(point.iter().all(|x| (0.0..=1.0).contains(x)));
+            assert_all!(point.iter(), |x| (0.0..=1.0).contains(x));
             Fitness::new(vec![-point.iter().sum::<f64>()])
         })
         .unwrap();

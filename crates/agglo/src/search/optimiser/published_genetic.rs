@@ -226,10 +226,10 @@ mod tests {
         let mut counts = Vec::new();
         generations(NOISY, 30, |points, _, _| {
             counts.push(points.len());
-            assert!(points.iter().flatten().all(|x| (0.0..=1.0).contains(x)));
+            assert_all!(points.iter().flatten(), |x| (0.0..=1.0).contains(x));
         });
         assert_eq!(counts[0], 20);
-        assert!(counts[1..].iter().all(|&count| count == 14));
+        assert_all!(counts[1..].iter(), |&count| count == 14);
     }
 
     #[test]
@@ -238,7 +238,7 @@ mod tests {
         generations(NOISY, 30, |points, _, search| {
             for (child, pair) in points.iter().zip(parents.chunks_exact(2).flat_map(|pair| [pair, pair])) {
                 for ((x, a), b) in child.iter().zip(&pair[0]).zip(&pair[1]) {
-                    assert!((a.min(*b)..=a.max(*b)).contains(x));
+                    assert_between!(*x, a.min(*b)..=a.max(*b));
                 }
             }
             parents = search.parents.iter().map(|parent| parent.point.clone()).collect();

@@ -220,7 +220,7 @@ mod tests {
                 for point in &points {
                     seen[(256.0 * point[axis]) as usize] = true;
                 }
-                assert!(seen.iter().all(|seen| *seen));
+                assert_all!(seen.iter(), |seen| *seen);
             }
         }
     }
@@ -242,6 +242,6 @@ mod tests {
         // Round-off of sums of 512² terms up to 1 over 512².
         assert!((discrepancy(&points) - 6.850_419_136_950_06e-6).abs() < 1e-14, "{}", discrepancy(&points));
         let random = (2.0_f64.powi(-5) - 3.0_f64.powi(-5)) / 512.0;
-        assert!(discrepancy(&points) < random / 7.0);
+        assert_below!(discrepancy(&points), random / 7.0);
     }
 }

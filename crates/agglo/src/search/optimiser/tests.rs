@@ -36,7 +36,10 @@ fn the_seed_decides_and_bounds_are_kept() {
         let points = asked(&method, 3);
         assert_eq!(points, asked(&method, 3));
         // The simplex has nothing random.
-        assert!(matches!(method, Method::NelderMead(_)) || points != asked(&method, 4));
+        assert!(
+            matches!(method, Method::NelderMead(_)) || points != asked(&method, 4),
+            "another seed asks for the same points: {method:?}"
+        );
         assert!(points.iter().flatten().all(|x| (0.0..=1.0).contains(x)), "{method:?}");
         assert!(points.len() <= 400 && points.len() > 60, "{method:?} {}", points.len());
     }
@@ -179,7 +182,9 @@ fn budgets_are_used_to_the_last_evaluation() {
             ] {
                 let mut count = 0;
                 let mut search = method.start(dimensions, 1, 3);
+                let mut turns = agglo_testing::Turns::at_most(1_000_000, "the search to end");
                 loop {
+                    turns.take();
                     let points = search.ask();
                     if points.is_empty() {
                         break;
@@ -188,7 +193,11 @@ fn budgets_are_used_to_the_last_evaluation() {
                     search.tell(&points.iter().map(|x| Fitness::new(vec![rugged(x)])).collect::<Vec<_>>());
                 }
                 assert_eq!(count, method.evaluations(), "{method:?} in {dimensions} dimensions");
-                assert!(search.recommended().is_some_and(|point| point.len() == dimensions));
+                assert_eq!(
+                    search.recommended().map(|point| point.len()),
+                    Some(dimensions),
+                    "coordinates of the recommended point"
+                );
             }
         }
     }

@@ -23,16 +23,16 @@ fn grid_has_every_combination_once() {
 fn list_goes_side_by_side() {
     let plan = Plan::List(List {});
     assert_eq!(plan.points(&[Some(2), Some(2)], 0), [[0.25, 0.25], [0.75, 0.75]]);
-    assert!(plan.faults(&[Some(2), Some(2)]).is_empty());
-    assert!(plan.faults(&[Some(2), Some(3)])[0].1.contains("these have 2, 3"));
-    assert!(plan.faults(&[Some(2), None])[0].1.contains("choices"));
+    assert_empty!(plan.faults(&[Some(2), Some(2)]));
+    assert_contains!(plan.faults(&[Some(2), Some(3)])[0].1, "these have 2, 3");
+    assert_contains!(plan.faults(&[Some(2), None])[0].1, "choices");
 }
 
 #[test]
 fn refinement_goes_through_its_choices() {
     let plan = Plan::Refinement(Refinement::default());
     assert_eq!(plan.points(&[Some(4)], 0), [[0.125], [0.375], [0.625], [0.875]]);
-    assert!(plan.faults(&[Some(4)]).is_empty());
+    assert_empty!(plan.faults(&[Some(4)]));
     assert_eq!(
         plan.faults(&[Some(1)]).len() + plan.faults(&[None]).len() + plan.faults(&[Some(3), None]).len(),
         3
@@ -51,13 +51,13 @@ fn trajectories_move_once_along_each_axis() {
             for axis in 0..5 {
                 if pair[0][axis] != pair[1][axis] {
                     moved[axis] += 1;
-                    assert!(((pair[0][axis] - pair[1][axis]).abs() - morris.step()).abs() < 1e-15);
+                    assert_near!((pair[0][axis] - pair[1][axis]).abs(), morris.step(), 1e-15);
                 }
             }
         }
         assert_eq!(moved, [1; 5]);
         for u in &trajectory[0] {
-            assert!((0.0..=1.0).contains(u));
+            assert_between!(*u, 0.0..=1.0);
             hits[(u * 5.0).round() as usize] += 1;
         }
     }
@@ -71,7 +71,7 @@ fn plans_propose_once_and_recommend_the_best() {
     assert_eq!(laid.ask(), [[0.0], [0.5], [1.0]]);
     laid.tell(&[Fitness::failed(), Fitness::new(vec![2.0]), Fitness::new(vec![1.0])]);
     assert_eq!(laid.recommended(), Some(vec![1.0]));
-    assert!(laid.ask().is_empty());
+    assert_empty!(laid.ask());
 }
 
 #[test]

@@ -194,9 +194,10 @@ mod tests {
         };
         let (alone, run_alone) = decided(1, 0);
         assert_eq!(run_alone, alone.iter().map(Vec::len).sum::<usize>(), "one worker runs nothing in vain");
-        assert!(alone.iter().any(|starts| starts.len() == 6) && alone.iter().any(|starts| starts.len() == 2));
+        assert_any!(alone.iter(), |starts| starts.len() == 6);
+        assert_any!(alone.iter(), |starts| starts.len() == 2);
         let failed = |starts: &Vec<Outcome>| matches!(starts.last(), Some(Outcome::Failed(_)));
-        assert!(alone.iter().any(failed));
+        assert_any!(alone.iter(), failed);
         for workers in [2, 3, 40] {
             for seed in 1..6 {
                 assert_eq!(decided(workers, seed).0, alone, "{workers} workers");
@@ -211,11 +212,15 @@ mod tests {
         assert_eq!(order, [(0, 0), (1, 0), (0, 1), (1, 1), (0, 2), (1, 2)]);
         // Candidate 1 is undecided after its two starts: its third, already given out, is needed; the fourth may be.
         for (start, cost) in [(0, 1.0), (1, 2.0)] {
-            assert!(!schedule.report(1, start, Outcome::Figures { figures: vec![cost], costs: vec![cost] }));
+            assert_false!(
+                schedule.report(1, start, Outcome::Figures { figures: vec![cost], costs: vec![cost] }),
+                "the search has all that it waits for"
+            );
         }
         assert_eq!(schedule.next(), Some((0, 3)));
         let steady = Outcome::Figures { figures: vec![1.0], costs: vec![1.0] };
-        assert!(!schedule.report(0, 0, steady.clone()) && schedule.report(0, 1, steady));
+        assert_false!(schedule.report(0, 0, steady.clone()), "the search has all that it waits for");
+        assert_true!(schedule.report(0, 1, steady), "the search has all that it waits for");
         assert_eq!(schedule.next(), Some((1, 3)), "the decided one gets no more");
     }
 
@@ -233,9 +238,12 @@ mod tests {
     fn starts_that_no_ensemble_comes_to_are_left_aside() {
         let mut schedule = Schedule::new(&Ensemble::fixed(4), 1);
         for start in [4, u32::MAX] {
-            assert!(!schedule.report(0, start, outcome(0, start)));
+            assert_false!(
+                schedule.report(0, start, outcome(0, start)),
+                "the search has all that it waits for"
+            );
         }
-        assert!(schedule.candidates[0].outcomes.is_empty());
+        assert_empty!(schedule.candidates[0].outcomes);
         assert_eq!(schedule.next(), Some((0, 0)));
     }
 
@@ -243,7 +251,8 @@ mod tests {
     fn several_costs_must_all_be_enough() {
         let mut schedule = Schedule::new(&settling(), 1);
         let both = |a: f64, b: f64| Outcome::Figures { figures: vec![a, b], costs: vec![a, b] };
-        assert!(!schedule.report(0, 0, both(1.0, 1.0)) && !schedule.report(0, 1, both(1.0, 2.0)));
-        assert!(schedule.report(0, 2, both(1.0, 1.5)));
+        assert_false!(schedule.report(0, 0, both(1.0, 1.0)), "the search has all that it waits for");
+        assert_false!(schedule.report(0, 1, both(1.0, 2.0)), "the search has all that it waits for");
+        assert_true!(schedule.report(0, 2, both(1.0, 1.5)), "the search has all that it waits for");
     }
 }

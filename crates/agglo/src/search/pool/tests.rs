@@ -54,7 +54,7 @@ fn any_number_of_workers_comes_to_the_same() {
         || Analytic { sigma: 5.0, slowest, fails_below: 0.1, panics_above: 0.9, ..Analytic::default() };
     let alone = evaluate(&model(), &settling(), 1, 2);
     assert_eq!(alone[..24], alone[24..]);
-    assert!(alone.iter().map(Vec::len).max() > Some(2));
+    assert_above!(alone.iter().map(Vec::len).max(), Some(2));
     for workers in [2, 5] {
         assert_eq!(evaluate(&model(), &settling(), workers, 2), alone, "{workers} workers");
     }
@@ -70,24 +70,25 @@ fn failures_and_errors_of_the_program_are_told_and_cost_one_candidate_each() {
     };
     // 24 points at (k + 1/2)/24: two of them below 0.1, two above 0.9.
     let reasons: Vec<_> = outcomes.iter().map(|outcomes| failed(outcomes)).collect();
-    assert!(reasons[2..22].iter().all(Option::is_none));
+    assert_all!(reasons[2..22].iter(), Option::is_none);
     assert_eq!(reasons[0].as_deref(), Some("too low,\nfar \"too\" low"));
     assert_eq!(reasons[23].as_deref(), Some("the program made an error: first is 0.9791666666666666"));
-    assert!(reasons[1].is_some() && reasons[22].is_some());
+    assert_some!(reasons[1]);
+    assert_some!(reasons[22]);
 }
 
 #[test]
 fn costs_that_are_not_numbers_are_failures() {
     let model = Analytic { sigma: f64::NAN, ..Analytic::default() };
     let outcomes = evaluate(&model, &Ensemble::fixed(3), 2, 1);
-    assert!(outcomes.iter().all(|starts| starts[..] == [Outcome::Failed("its cost is NaN".to_owned())]));
+    assert_all!(outcomes.iter(), |starts| starts[..] == [Outcome::Failed("its cost is NaN".to_owned())]);
 }
 
 #[test]
 fn candidates_that_cannot_be_prepared_say_why() {
     let outcomes = evaluate(&Analytic { is_broken: true, ..Analytic::default() }, &Ensemble::fixed(3), 2, 1);
     let wanted = [Outcome::Failed("there is no scenario, \"really\"".to_owned())];
-    assert!(outcomes.iter().all(|starts| starts[..] == wanted));
+    assert_all!(outcomes.iter(), |starts| starts[..] == wanted);
 }
 
 /// Two workers and starts of up to 2 ms: without look-ahead one would wait while the other settles a lone candidate.

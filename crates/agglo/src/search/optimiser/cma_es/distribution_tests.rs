@@ -2,11 +2,8 @@
 
 use super::*;
 
-fn assert_close(found: f64, wanted: f64, what: &str) {
-    // Fifteen digits were written down.
-    let off = (found - wanted).abs();
-    assert!(off <= 2e-14 * wanted.abs().max(1.0), "{what}: found {found}, expected {wanted}");
-}
+/// Fifteen digits were written down.
+const DIGITS: f64 = 2e-14;
 
 /// N. Hansen (2016), table 1 with α_cov = 2: n, λ, then μ_eff, c_σ, d_σ, c_c, c_1, c_μ, and of the weights the sum of the
 /// negative ones, the first and the last.
@@ -135,7 +132,12 @@ fn constants_of_the_tutorial() {
             ("last weight", rates.weights[population - 1]),
         ];
         for ((name, found), wanted) in found.into_iter().zip(wanted) {
-            assert_close(found, wanted, &format!("{name} for n = {dimensions}, λ = {population}"));
+            assert_near!(
+                found,
+                wanted,
+                DIGITS * wanted.abs().max(1.0),
+                "{name} for n = {dimensions}, λ = {population}"
+            );
         }
     }
 }
@@ -269,8 +271,9 @@ fn a_draw_tells_its_length() {
         let [x, y] = [draw.step[0], draw.step[1]];
         // yᵀ C⁻¹ y of a 2 x 2 matrix.
         let square = (d * x * x - 2.0 * b * x * y + a * y * y) / (a * d - b * b);
-        assert_close(draw.square, square, "squared length of a draw");
+        assert_near!(draw.square, square, DIGITS * square.max(1.0), "squared length of a draw");
         let point: Vec<f64> = distribution.point(&draw).collect();
-        assert_close(point[1], first.mean[1] + first.sigma * y, "point of a draw");
+        let wanted = first.mean[1] + first.sigma * y;
+        assert_near!(point[1], wanted, DIGITS * wanted.abs().max(1.0), "point of a draw");
     }
 }

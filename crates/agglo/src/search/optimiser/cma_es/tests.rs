@@ -55,7 +55,9 @@ fn noise_makes_generations_larger() {
         let mut search = Search::new(CmaEs::default(), 5, 1);
         let mut sizes = Vec::new();
         let mut evaluations = 0;
+        let mut turns = agglo_testing::Turns::at_most(1_000_000, "the search to end");
         loop {
+            turns.take();
             let points = search.ask();
             if points.is_empty() || search.stage == Stage::Mean {
                 // The last one is what was left of the budget.
@@ -70,8 +72,8 @@ fn noise_makes_generations_larger() {
         }
     };
     // 6 + 4.5 ln 5 = 13.2.
-    assert!(sizes(0.0).iter().all(|size| *size == 13));
-    assert!(sizes(1.0).iter().max() == Some(&(8 * 13)));
+    assert_all!(sizes(0.0).iter(), |size| *size == 13);
+    assert_eq!(sizes(1.0).iter().max(), Some(&(8 * 13)));
 }
 
 /// All that fail teach nothing; then the search goes on from where it was.
@@ -116,7 +118,7 @@ fn weights_by_hand() {
     let raw: Vec<f64> = (1..=5).map(|rank| 5.5_f64.ln() - f64::from(rank).ln()).collect();
     let sum: f64 = raw.iter().sum();
     for (weight, raw) in rates.weights.iter().zip(&raw) {
-        assert!((weight - raw / sum).abs() < 1e-15);
+        assert_near!(*weight, raw / sum, 1e-15);
     }
     // (Σ w)²/Σ w² of 1.7047, 1.0116, 0.6061, 0.3185, 0.0953.
     assert!((rates.effective_parents - 3.1673).abs() < 1e-4, "{}", rates.effective_parents);

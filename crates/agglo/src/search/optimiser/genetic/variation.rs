@@ -68,7 +68,7 @@ mod tests {
         for _ in 0..DRAWS {
             // Far from the bounds: the part of probability cut off is 10^-16.
             let (c, d) = crossed(0.55, 0.45, 15.0, &mut stream);
-            assert!((c + d - 1.0).abs() < 1e-15);
+            assert_near!(c + d, 1.0, 1e-15);
             let spread = (c - d).abs() / 0.1;
             sum += spread;
             squares += spread * spread;
@@ -82,7 +82,7 @@ mod tests {
         );
         // Var β shows an index that is 1 % wrong: ∫ β² p = (η + 1)/2 (1/(η + 3) + 1/(η - 1)).
         let second = 8.0 * (1.0 / 18.0 + 1.0 / 14.0);
-        assert!((squares / DRAWS as f64 - second).abs() < 5e-4);
+        assert_near!(squares / DRAWS as f64, second, 5e-4);
     }
 
     /// ∫ |δ| p(δ) = 1/(η + 2), ∫ δ p(δ) = 0, ∫ δ² p(δ) = 2/((η + 2)(η + 3)).
@@ -100,10 +100,11 @@ mod tests {
         let count = DRAWS as f64;
         let (variance, mean_length) = (2.0 / (22.0 * 23.0), 1.0 / 22.0);
         let error = (variance / count).sqrt();
-        assert!((sum / count).abs() < 5.0 * error);
-        assert!((length / count - mean_length).abs() < 5.0 * error && error < 0.01 / 5.0 * mean_length);
+        assert_below!((sum / count).abs(), 5.0 * error);
+        assert_near!(length / count, mean_length, 5.0 * error);
+        assert_below!(error, 0.01 / 5.0 * mean_length);
         // Standard error of δ² is below 2.5 times its mean over the root of the count.
-        assert!((squares / count / variance - 1.0).abs() < 5.0 * 2.5 / count.sqrt());
+        assert_close!(squares / count, variance, 5.0 * 2.5 / count.sqrt());
     }
 
     #[test]
@@ -114,7 +115,8 @@ mod tests {
             let (mut c, mut d) = crossed(a, b, 2.0, &mut stream);
             mutate_coordinate(&mut c, 1.0, &mut stream);
             mutate_coordinate(&mut d, 1.0, &mut stream);
-            assert!((0.0..=1.0).contains(&c) && (0.0..=1.0).contains(&d));
+            assert_between!(c, 0.0..=1.0);
+            assert_between!(d, 0.0..=1.0);
         }
     }
 }
