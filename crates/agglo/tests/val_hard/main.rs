@@ -21,3 +21,4 @@ mod impact;
 mod mixture;
 mod radiation;
 mod reacting;
+mod unlike;
