@@ -1,6 +1,8 @@
 //! The page of a search or study.
 
 mod charts;
+#[cfg(test)]
+mod distinct_tests;
 mod folder;
 mod study;
 mod tables;

@@ -53,7 +53,7 @@ fn counts() -> Counts {
     }
 }
 
-fn scenario() -> Scenario {
+pub(super) fn scenario() -> Scenario {
     let grains = RADII.iter().zip(PLACES).map(|(radius, [x, y, z])| {
         format!(
             "[[grains]]\nmaterial = \"grain\"\nsize.constant.radius = \"{radius:e} m\"\n\
@@ -72,7 +72,7 @@ fn scenario() -> Scenario {
     Scenario::from_toml(&text).unwrap_or_else(|faults| panic!("{faults}"))
 }
 
-fn distinct() -> Hard {
+pub(super) fn distinct() -> Hard {
     let scenario = scenario();
     let grains = crate::packing::place(&scenario, Path::new("")).unwrap();
     let grown = PRIMARIES.iter().zip(CAPACITIES);

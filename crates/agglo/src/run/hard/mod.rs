@@ -184,4 +184,6 @@ fn write_once<const N: usize>(
 #[cfg(test)]
 mod distinct_tests;
 #[cfg(test)]
+mod sizes_tests;
+#[cfg(test)]
 mod tests;

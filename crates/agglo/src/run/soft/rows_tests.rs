@@ -84,6 +84,54 @@ fn clusters_of_soft_spheres_stand_under_their_names() {
     assert_row("series/clusters.csv", &wanted, ROUND_OFF);
 }
 
+/// A row of 41 grains that touch and, apart from it, a ball of 33: the dimension in the table is that of the row, which has the
+/// more mass, with the masses of its grains.
+#[test]
+fn the_fractal_dimension_is_that_of_the_heaviest_cluster() {
+    let row = (-20..=20).map(|k| [f64::from(k) * 2e-3, 0.0, 0.0]);
+    let block = (0..125).map(|k| [k % 5 - 2, k / 5 % 5 - 2, k / 25 - 2].map(f64::from));
+    let ball = block.filter(|at| at.iter().map(|along| along * along).sum::<f64>() < 4.5);
+    let ball = ball.map(|[x, y, z]| [x * 2e-3, y * 2e-3 + 0.03, z * 2e-3]);
+    let places: Vec<[f64; 3]> = row.chain(ball).collect();
+    let list: Vec<String> =
+        places.iter().map(|[x, y, z]| format!("[\"{x:e} m\", \"{y:e} m\", \"{z:e} m\"]")).collect();
+    let text = format!(
+        "version = 1\ntime.end = \"1 s\"\nengine.verlet.step = \"1 us\"\n[materials.glass]\ndensity = \"2500 kg/m3\"\n\
+         youngs_modulus = \"1 MPa\"\npoisson_ratio = 0.2\n[[grains]]\nmaterial = \"glass\"\nsize.constant.radius = \"1 mm\"\n\
+         placement.list.positions = [{}]\n[contact.normal.hertz]\n[measures]\ncluster_gap = 0.5\n",
+        list.join(", ")
+    );
+    let scenario = Scenario::from_toml(&text).unwrap_or_else(|faults| panic!("{faults}"));
+    let mut grains = crate::packing::place(&scenario, std::path::Path::new("")).unwrap();
+    // Ever heavier along the row: with equal masses it would be another dimension.
+    let heavy = |x: f64| 1e-5 * (1.0 + (x / 0.02).powi(2));
+    for (mass, place) in grains.mass.iter_mut().zip(&grains.position) {
+        *mass = if place.y == 0.0 { heavy(place.x) } else { 1e-6 };
+    }
+    let members = |is_row: bool| -> Vec<u32> {
+        (0..grains.len()).filter(|at| (grains.position[*at].y == 0.0) == is_row).map(|at| at as u32).collect()
+    };
+    let of = |masses: &[f64], members: &[u32]| {
+        crate::measure::fractal_dimension(&grains.position, &grains.radius, masses, members).unwrap()
+    };
+    let (wanted, others) = (of(&grains.mass, &members(true)), of(&vec![1.0; grains.len()], &members(true)));
+    assert_between!(wanted, 0.8..1.2, "of a row, whose masses grow outwards");
+    assert_above!((wanted - others).abs(), 0.01, "equal masses give {others}");
+    let mut job =
+        Soft::start(&scenario, grains.into(), &mut |_| std::ops::ControlFlow::Continue(())).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let mut tables = tables(Soft::TABLES, folder.path());
+    job.record_rows(&mut tables).unwrap();
+    tables.flush().unwrap();
+    let (names, cells) = crate::run::distinct::only_row(folder.path(), "series/clusters.csv");
+    let cell = |column: &str| -> f64 {
+        cells[names.iter().position(|name| name == column).unwrap()].parse().unwrap()
+    };
+    assert_eq!([cell("clusters"), cell("largest_grains")], [2.0, 41.0], "clusters, grains of the row");
+    // Sums of 41 grains in another order.
+    assert_close!(cell("fractal_dimension"), wanted, 1e-12, "series/clusters.csv: fractal_dimension");
+}
+
 /// Mean, deviation, skewness and kurtosis by mass ([A] 40).
 fn moments_by_mass(values: [f64; 7]) -> [f64; 4] {
     let mass: f64 = MASSES.iter().sum();
