@@ -50,8 +50,13 @@ struct After {
     energies: [f64; 5],
 }
 
-/// The impact by hand, from momentum and energy: each partner's own impulse and each one's share of the heat by mass.
+/// The impact by hand at the usual friction, which the slip outlasts.
 fn by_hand(restitution: f64, is_one: bool, surfaces: [f64; 2]) -> After {
+    by_hand_with(FRICTION, restitution, is_one, surfaces)
+}
+
+/// The impact by hand, from momentum and energy: each partner's own impulse and each one's share of the heat by mass.
+fn by_hand_with(friction: f64, restitution: f64, is_one: bool, surfaces: [f64; 2]) -> After {
     let [m, n] = [mass(0), mass(1)];
     let relative = VELOCITY[0] - VELOCITY[1];
     let approach = relative.dot(NORMAL);
@@ -60,9 +65,9 @@ fn by_hand(restitution: f64, is_one: bool, surfaces: [f64; 2]) -> After {
         [(VELOCITY[0] * m + VELOCITY[1] * n) / (m + n); 2]
     } else {
         // What the pair's slip and approach become; the rest is the centre of mass's.
-        let kept = 1.0 - FRICTION * (1.0 + restitution) * approach / slip.norm();
-        assert_above!(kept, 0.0, "the slip goes on");
-        let left = slip * kept - NORMAL * (restitution * approach);
+        let kept = 1.0 - friction * (1.0 + restitution) * approach / slip.norm();
+        assert_true!((kept > 0.0) == (friction == FRICTION), "{kept} of the slip would be kept");
+        let left = slip * kept.max(0.0) - NORMAL * (restitution * approach);
         let center = (VELOCITY[0] * m + VELOCITY[1] * n) / (m + n);
         [center + left * (n / (m + n)), center - left * (m / (m + n))]
     };
@@ -182,16 +187,21 @@ fn assert_ledger(simulation: &Simulation, wanted: [f64; 5], tolerance: f64, what
 }
 
 fn constant(restitution: f64, more: &str) -> String {
+    constant_with(FRICTION, restitution, more)
+}
+
+fn constant_with(friction: f64, restitution: f64, more: &str) -> String {
     format!(
-        "[impact]\n{more}\ntangential.friction = {FRICTION}\nrestitution.constant.restitution = {restitution}\n"
+        "[impact]\n{more}\ntangential.friction = {friction}\nrestitution.constant.restitution = {restitution}\n"
     )
 }
 
-fn assert_bounce(restitution: f64, more: &str) {
-    let hand = by_hand(restitution, false, [0.0; 2]);
+fn assert_bounce(friction: f64, restitution: f64, more: &str) {
+    let hand = by_hand_with(friction, restitution, false, [0.0; 2]);
     each_way(|engine, tolerance, boundary, names| {
         let what = format!("{engine} {boundary} {names:?} e = {restitution}");
-        let mut simulation = start(engine, boundary, &constant(restitution, more), [1.0, 1.0], names);
+        let mut simulation =
+            start(engine, boundary, &constant_with(friction, restitution, more), [1.0, 1.0], names);
         advance_to(&mut simulation, END);
         let now = simulation.snapshot();
         assert_eq!(now.grains.id, [0, 1], "{what}: names");
@@ -225,13 +235,19 @@ fn assert_bounce(restitution: f64, more: &str) {
 /// e = 0.6 with friction that the slip outlasts.
 #[test]
 fn an_oblique_bounce_of_clay_and_lead() {
-    assert_bounce(0.6, "");
+    assert_bounce(FRICTION, 0.6, "");
+}
+
+/// Friction of 5 would turn the slip round; it ends it.
+#[test]
+fn friction_ends_the_slip_of_clay_and_lead() {
+    assert_bounce(5.0, 0.6, "");
 }
 
 /// A pair of sticky spheres that stay two: nothing is left of the approach, and the slip goes on.
 #[test]
 fn clay_and_lead_that_stay_two_at_no_restitution() {
-    assert_bounce(0.0, "sticking = \"never\"");
+    assert_bounce(FRICTION, 0.0, "sticking = \"never\"");
 }
 
 /// Heat in halves: each its own temperature.
@@ -353,6 +369,8 @@ fn clay_and_lead_that_break() {
             let own: Vec<usize> = (0..grains.len()).filter(|at| grains.material[*at] == k as u32).collect();
             assert_eq!(own.len(), pieces[k] as usize, "{what}: pieces of {k}");
             let part = 1.0 / f64::from(pieces[k]);
+            // How far the pieces are in the mean from where each of the two was.
+            let mut off = [Vec3::ZERO; 2];
             for at in own {
                 assert_eq!(
                     now.primaries[at],
@@ -370,12 +388,17 @@ fn clay_and_lead_that_break() {
                 assert_close_vector!(velocity, wanted, tolerance, "{what}: velocity of a piece of {k}, m/s");
                 let (warm, wanted) = (grains.temperature[at], hand.temperatures[k]);
                 assert_close!(warm, wanted, tolerance, "{what}: temperature of a piece of {k}, K");
-                let center = meeting_place(boundary) + NORMAL * ((RADIUS[0] + RADIUS[1]) * k as f64);
-                let off =
-                    wrapped(grains.position[at] - center - velocity * (simulation.clock().time - MEETING))
-                        .norm();
-                assert_below!(off, 3.0 * RADIUS[k], "{what}: of a piece of {k} from where its whole was, m");
+                let moved = velocity * (simulation.clock().time - MEETING);
+                for (other, mean) in off.iter_mut().enumerate() {
+                    let center = meeting_place(boundary) + NORMAL * ((RADIUS[0] + RADIUS[1]) * other as f64);
+                    *mean += wrapped(grains.position[at] - center - moved) * part;
+                }
             }
+            assert_below!(
+                off[k].norm(),
+                off[1 - k].norm(),
+                "{what}: pieces of {k} from its place and the other's, m"
+            );
         }
         assert_ledger(&simulation, hand.energies, 10.0 * tolerance, &what);
         assert_story(&simulation, EventKind::Break, 0.3, &hand, names, (tolerance, &what));

@@ -101,7 +101,12 @@ convection = "20 W/(m2 K)"
         assert_close!(scales.self_gravity_radius.unwrap(), radius, 1e-12, "in m");
         // Water, the default, is not taken for the gas that hard spheres fly in.
         assert_eq!(scales.reynolds, None);
-        assert_eq!(Scales::of(&scenario(""), &grains(), 0).self_gravity_radius, None);
+        let first = Scales::of(&scenario(""), &grains(), 0);
+        assert_eq!(
+            (first.self_gravity_radius, first.biot),
+            (None, scales.biot),
+            "whichever grain is the largest"
+        );
     }
 
     /// 2 r v is 6 m²/s for all: in air of 1.2 kg/m³ and 18 uPa s 6 1.2/1.8e-5 = 4e5.
