@@ -1,5 +1,8 @@
 //! The readers that fuzzers throw bytes at: those of the test `hostile`, so that both hold them to the same.
 
+#[macro_use]
+extern crate agglo_testing;
+
 use std::sync::LazyLock;
 
 #[path = "../../crates/agglo/tests/hostile/readers.rs"]
