@@ -14,7 +14,8 @@
 //! | files                        | `assert_there!`, `assert_gone!`                                                         |
 //! | yes or no                    | `assert_true!`, `assert_false!`, which ask for words                                    |
 //!
-//! [`Turns`] ends loops that wait for something. `assert!` with words of its own is as good; `tests/no_bare_asserts.rs` finds one without.
+//! [`Turns`] ends loops that wait for something. `assert!` with words of its own is as good; `tests/no_bare_asserts.rs` finds one
+//! without.
 
 mod numbers;
 mod texts;

@@ -1,31 +1,50 @@
 //! Numbers and vectors: close, near, finite.
 
-use std::fmt::Debug;
+use std::fmt::{Arguments, Debug};
 
 use crate::Told;
 
-#[doc(hidden)]
+/// Fails where `off` is more than allowed, or not a number; `of` says of what it is a part.
 #[track_caller]
-pub fn close(found: f64, wanted: f64, part: f64, wanted_source: &str, told: Told<'_>) {
-    let off = (found / wanted - 1.0).abs();
-    let agrees = off <= part;
+fn within(
+    [off, allowed]: [f64; 2],
+    of: &str,
+    [found, wanted]: [Arguments<'_>; 2],
+    wanted_source: &str,
+    told: Told<'_>,
+) {
+    let agrees = off <= allowed;
     if !agrees {
         told.fail(&format!(
-            "  found  {found:e}\n  wanted {wanted:e} = {wanted_source}\n  off by {off:.3e} of it, allowed {part:e}"
+            "  found  {found}\n  wanted {wanted} = {wanted_source}\n  off by {off:.3e}{of}, allowed {allowed:e}"
         ));
     }
 }
 
 #[doc(hidden)]
 #[track_caller]
+pub fn close(found: f64, wanted: f64, part: f64, wanted_source: &str, told: Told<'_>) {
+    let off = (found / wanted - 1.0).abs();
+    within(
+        [off, part],
+        " of it",
+        [format_args!("{found:e}"), format_args!("{wanted:e}")],
+        wanted_source,
+        told,
+    );
+}
+
+#[doc(hidden)]
+#[track_caller]
 pub fn near(found: f64, wanted: f64, tolerance: f64, wanted_source: &str, told: Told<'_>) {
     let off = (found - wanted).abs();
-    let agrees = off <= tolerance;
-    if !agrees {
-        told.fail(&format!(
-            "  found  {found:e}\n  wanted {wanted:e} = {wanted_source}\n  off by {off:.3e}, allowed {tolerance:e}"
-        ));
-    }
+    within(
+        [off, tolerance],
+        "",
+        [format_args!("{found:e}"), format_args!("{wanted:e}")],
+        wanted_source,
+        told,
+    );
 }
 
 /// The same for what has a distance `off` worked out by its own operations.
@@ -39,12 +58,7 @@ pub fn apart(
     wanted_source: &str,
     told: Told<'_>,
 ) {
-    let agrees = off <= allowed;
-    if !agrees {
-        told.fail(&format!(
-            "  found  {found:?}\n  wanted {wanted:?} = {wanted_source}\n  off by {off:.3e}, allowed {allowed:e}"
-        ));
-    }
+    within([off, allowed], "", [format_args!("{found:?}"), format_args!("{wanted:?}")], wanted_source, told);
 }
 
 #[doc(hidden)]

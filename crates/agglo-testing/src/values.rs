@@ -37,17 +37,19 @@ pub fn between<T: PartialOrd + Debug>(found: &T, range: &(impl RangeBounds<T> + 
     }
 }
 
+/// Fails at the first entry of which the condition is not as due: true of each, or of none.
 #[doc(hidden)]
 #[track_caller]
-pub fn all<I>(items: I, mut holds: impl FnMut(I::Item) -> bool, condition: &str, told: Told<'_>)
+pub fn each<I>(items: I, mut holds: impl FnMut(I::Item) -> bool, due: bool, condition: &str, told: Told<'_>)
 where
     I: IntoIterator,
     I::Item: Debug,
 {
     for (at, item) in items.into_iter().enumerate() {
         let text = shown(&item);
-        if !holds(item) {
-            told.fail(&format!("  entry {at} is {text}\n  wanted of each: {condition}"));
+        if holds(item) != due {
+            let wanted = if due { "of each:" } else { "none with" };
+            told.fail(&format!("  entry {at} is {text}\n  wanted {wanted} {condition}"));
         }
     }
 }
@@ -70,30 +72,25 @@ where
     told.fail(&format!("  found  [{texts}]\n  wanted one with {condition}"));
 }
 
+/// A value and its bound stand to each other as an operator says.
 #[doc(hidden)]
-#[track_caller]
-pub fn no<I>(items: I, mut holds: impl FnMut(I::Item) -> bool, condition: &str, told: Told<'_>)
-where
-    I: IntoIterator,
-    I::Item: Debug,
-{
-    for (at, item) in items.into_iter().enumerate() {
-        let text = shown(&item);
-        if holds(item) {
-            told.fail(&format!("  entry {at} is {text}\n  wanted none with {condition}"));
+#[macro_export]
+macro_rules! assert_order {
+    ($found:expr, $operator:tt, $bound:expr, $relation:literal $(, $($words:tt)+)?) => {
+        match (&$found, &$bound) {
+            (found, bound) => {
+                let holds = found $operator bound;
+                $crate::order(holds, &found, &bound, $relation, stringify!($bound), $crate::told!($found $(, $($words)+)?));
+            }
         }
-    }
+    };
 }
 
 /// A value lies below a bound: found, bound, words.
 #[macro_export]
 macro_rules! assert_below {
     ($found:expr, $bound:expr $(, $($words:tt)+)?) => {
-        match (&$found, &$bound) {
-            (found, bound) => {
-                $crate::order(found < bound, &found, &bound, "less than", stringify!($bound), $crate::told!($found $(, $($words)+)?));
-            }
-        }
+        $crate::assert_order!($found, <, $bound, "less than" $(, $($words)+)?)
     };
 }
 
@@ -101,11 +98,7 @@ macro_rules! assert_below {
 #[macro_export]
 macro_rules! assert_at_most {
     ($found:expr, $bound:expr $(, $($words:tt)+)?) => {
-        match (&$found, &$bound) {
-            (found, bound) => {
-                $crate::order(found <= bound, &found, &bound, "at most", stringify!($bound), $crate::told!($found $(, $($words)+)?));
-            }
-        }
+        $crate::assert_order!($found, <=, $bound, "at most" $(, $($words)+)?)
     };
 }
 
@@ -113,11 +106,7 @@ macro_rules! assert_at_most {
 #[macro_export]
 macro_rules! assert_above {
     ($found:expr, $bound:expr $(, $($words:tt)+)?) => {
-        match (&$found, &$bound) {
-            (found, bound) => {
-                $crate::order(found > bound, &found, &bound, "more than", stringify!($bound), $crate::told!($found $(, $($words)+)?));
-            }
-        }
+        $crate::assert_order!($found, >, $bound, "more than" $(, $($words)+)?)
     };
 }
 
@@ -125,11 +114,7 @@ macro_rules! assert_above {
 #[macro_export]
 macro_rules! assert_at_least {
     ($found:expr, $bound:expr $(, $($words:tt)+)?) => {
-        match (&$found, &$bound) {
-            (found, bound) => {
-                $crate::order(found >= bound, &found, &bound, "at least", stringify!($bound), $crate::told!($found $(, $($words)+)?));
-            }
-        }
+        $crate::assert_order!($found, >=, $bound, "at least" $(, $($words)+)?)
     };
 }
 
@@ -197,7 +182,7 @@ macro_rules! assert_filled {
 #[macro_export]
 macro_rules! assert_all {
     ($found:expr, $holds:expr $(, $($words:tt)+)?) => {
-        $crate::all($found, $holds, stringify!($holds), $crate::told!($found $(, $($words)+)?))
+        $crate::each($found, $holds, true, stringify!($holds), $crate::told!($found $(, $($words)+)?))
     };
 }
 
@@ -213,7 +198,7 @@ macro_rules! assert_any {
 #[macro_export]
 macro_rules! assert_no {
     ($found:expr, $holds:expr $(, $($words:tt)+)?) => {
-        $crate::no($found, $holds, stringify!($holds), $crate::told!($found $(, $($words)+)?))
+        $crate::each($found, $holds, false, stringify!($holds), $crate::told!($found $(, $($words)+)?))
     };
 }
 
