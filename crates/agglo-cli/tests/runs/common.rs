@@ -141,6 +141,28 @@ pub fn until_it_succeeds<T>(run: &Path, mut attempt: impl FnMut() -> Option<T>) 
     panic!("expected a program that is stopped on its way; 20 of them came to their end before");
 }
 
+/// SIGKILL at ten moments spread over a run or search of `wall_s` [s], each time in the sitting that went on after the last, until
+/// all ten hit one. `sit` gives the order of a sitting, the first or a later one; `wait_for` waits for a part of the whole.
+pub fn kill_at_ten_moments(out: &Path, wall_s: f64, sit: impl Fn(bool) -> Command, wait_for: impl Fn(f64)) {
+    const KILLS: u32 = 10;
+    // A third is left at the last kill, and none comes later than that by a tenth of the whole.
+    let mut spread = wall_s / 10.0;
+    until_it_succeeds(out, || {
+        let mut killed = 0;
+        for kill in 0..KILLS {
+            let mut child = sit(kill == 0).spawn().unwrap();
+            wait_for(f64::from(kill) / f64::from(KILLS + 4));
+            // Away from the checkpoint, into steps, frames and the next checkpoint.
+            std::thread::sleep(Duration::from_secs_f64(spread * f64::from(kill * 7 % 23) / 23.0));
+            child.kill().unwrap();
+            killed += u32::from(child.wait().unwrap().code().is_none());
+        }
+        // On a busy machine a sitting may have reached the end before its kill; then sooner.
+        spread /= 2.0;
+        (killed == KILLS).then_some(())
+    });
+}
+
 /// Sends a signal by its name.
 pub fn signal(child: &Child, name: &str) {
     assert!(is_signaled(child, name), "kill -{name} failed");

@@ -1,35 +1,23 @@
 //! A run that is killed or stopped, and goes on.
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use crate::common::{
-    Bench, EVENTS, STAGGERED, STEPS, VERLET, assert_same, checkpoints, complained, ended, reference, said,
-    steps, summary, until_it_succeeds, wait_for_step,
+    Bench, EVENTS, STAGGERED, STEPS, VERLET, assert_same, checkpoints, complained, ended,
+    kill_at_ten_moments, reference, said, steps, summary, wait_for_step,
 };
 use crate::company::storms;
 
 /// SIGKILL at ten moments spread over the run, each time in the sitting that went on after the last; then the rest.
 fn killed_ten_times(scenario: &'static str) {
-    const KILLS: u64 = 10;
     let reference = reference(scenario);
-    // A third of the run is left at the last kill, and none comes later than that by a tenth of the run.
-    let mut part = summary(reference)["wall_s"].as_f64().unwrap() / 10.0;
     let bench = Bench::with(scenario);
-    until_it_succeeds(&bench.run(), || {
-        let mut killed = 0;
-        for kill in 0..KILLS {
-            let mut order = if kill == 0 { bench.start(&[]) } else { bench.resume() };
-            let mut child = order.spawn().unwrap();
-            wait_for_step(&bench.run(), steps(reference) * kill / (KILLS + 4));
-            // Away from the checkpoint, into steps, frames and the next checkpoint.
-            std::thread::sleep(Duration::from_secs_f64(part * (kill * 7 % 23) as f64 / 23.0));
-            child.kill().unwrap();
-            killed += u64::from(child.wait().unwrap().code().is_none());
-        }
-        // On a busy machine a sitting may have reached the end before its kill; then sooner.
-        part /= 2.0;
-        (killed == KILLS).then_some(())
-    });
+    kill_at_ten_moments(
+        &bench.run(),
+        summary(reference)["wall_s"].as_f64().unwrap(),
+        |is_first| if is_first { bench.start(&[]) } else { bench.resume() },
+        |part| wait_for_step(&bench.run(), (steps(reference) as f64 * part) as u64),
+    );
     ended(bench.resume().output().unwrap(), 0);
     assert_same(&bench.run(), reference);
 }

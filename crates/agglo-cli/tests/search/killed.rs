@@ -4,7 +4,7 @@ use std::fs;
 use std::time::Duration;
 
 use crate::bench::{Bench, SEARCH, assert_same, reference};
-use crate::common::{complained, ended, interrupted, said, until_it_succeeds};
+use crate::common::{complained, ended, interrupted, kill_at_ten_moments, said, until_it_succeeds};
 
 fn runs() -> usize {
     reference().summary()["runs"].as_u64().unwrap() as usize
@@ -20,24 +20,13 @@ fn one_thread_writes_the_same_files_as_two() {
 /// SIGKILL at ten moments spread over the search, each time in the sitting that went on after the last; then the rest.
 #[test]
 fn a_search_killed_at_ten_moments_ends_with_the_same_files() {
-    const KILLS: usize = 10;
     let (bench, runs) = (Bench::with(SEARCH), runs());
-    // A third of the search is left at the last kill, and none comes later than that by a tenth of the search.
-    let mut part = reference().summary()["wall_s"].as_f64().unwrap() / 10.0;
-    until_it_succeeds(&bench.out(), || {
-        let mut killed = 0;
-        for kill in 0..KILLS {
-            let mut order = if kill == 0 { bench.order("search", &[]) } else { bench.resume() };
-            let mut child = order.spawn().unwrap();
-            bench.wait_for_starts(runs * kill / (KILLS + 4));
-            std::thread::sleep(Duration::from_secs_f64(part * (kill * 7 % 23) as f64 / 23.0));
-            child.kill().unwrap();
-            killed += usize::from(child.wait().unwrap().code().is_none());
-        }
-        // On a busy machine a sitting may have reached the end before its kill; then sooner.
-        part /= 2.0;
-        (killed == KILLS).then_some(())
-    });
+    kill_at_ten_moments(
+        &bench.out(),
+        reference().summary()["wall_s"].as_f64().unwrap(),
+        |is_first| if is_first { bench.order("search", &[]) } else { bench.resume() },
+        |part| bench.wait_for_starts((runs as f64 * part) as usize),
+    );
     ended(bench.resume().output().unwrap(), 0);
     assert_same(&bench.out(), &reference().out());
 }
