@@ -317,5 +317,8 @@ fn untouched(bodies: [&Body; 2]) -> Outcome {
 }
 
 #[cfg(test)]
+#[path = "solution_tests.rs"]
+mod solution_tests;
+#[cfg(test)]
 #[path = "laws_tests.rs"]
 mod tests;

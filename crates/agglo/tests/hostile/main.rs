@@ -1,7 +1,8 @@
 //! Hostile input: every reader of files is given made-up ones, always the same. `fuzz/` looks for further ones.
 //!
 //! The input of the case at hand lies in `target/tmp/hostile-READER-PROCESS` while it is read, so that it is there after a crash
-//! or a hang; that of one that fails stays as `hostile-READER-PROCESS.CASE`. `AGGLO_INPUT=FILE cargo test -p agglo --test hostile READER` reads that again, and
+//! or a hang; that of one that fails stays as `hostile-READER-PROCESS.CASE`.
+//! `AGGLO_INPUT=FILE cargo test -p agglo --test hostile READER` reads that again, and
 //! `AGGLO_CASES=30 cargo test -p agglo --test hostile` reads thirty times as many cases.
 
 #[macro_use]

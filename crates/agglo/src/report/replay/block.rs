@@ -1,6 +1,6 @@
 //! The block of bytes and where things are in it.
 //!
-//! Numbers are rounded to 65,536 steps between the least and the largest value: far finer than a pixel.
+//! Numbers are rounded to 65,535 steps between the least and the largest value: far finer than a pixel.
 
 use std::collections::BTreeMap;
 

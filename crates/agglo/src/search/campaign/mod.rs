@@ -58,4 +58,6 @@ pub fn finished(dir: &Path) -> Option<CampaignSummary> {
 }
 
 #[cfg(test)]
+mod saving_tests;
+#[cfg(test)]
 mod tests;
