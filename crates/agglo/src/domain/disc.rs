@@ -207,6 +207,10 @@ mod tests {
             let holds = |radius: f64| disc.lies_in(&cylinder([0.0, 0.0, 2.0], radius, 9.0));
             assert!(holds(farthest + 1e-9) && !holds(farthest - 1e-12), "{k} {axis:?} {middle:?} {farthest}");
         }
+        // Its middle off the axis of the cylinder along the short half axis of the ellipse, so far that the end of that is the
+        // farthest point: 2 + 0.3 cos 60° = 2.15.
+        let tilted = disc([2.0, 0.0, 0.0], [3.0_f64.sqrt(), 0.0, 1.0], 0.3);
+        assert_near!(tilted.farthest_from_line(tilted.center, Vec3::AXES[2]), 2.15, 1e-14, "in m");
         let across = disc([0.0; 3], [0.0, 0.0, 1.0], 0.3);
         let flat = |length: f64| cylinder([0.0, 0.0, 1.0], 1.0, length);
         assert_true!(across.lies_in(&flat(1e-3)), "the whole disc lies in the region");

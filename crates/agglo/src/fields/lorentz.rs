@@ -126,4 +126,18 @@ mod tests {
         assert_near_vector!(force, by_hand, 1e-20, "in N");
         assert_eq!(law.force(0.0, Vec3::AXES[0], Vec3::ZERO, 0.0), Vec3::ZERO);
     }
+
+    /// The slope of E is taken over what a grain spans, however heavy it is: E = sin(k x) with k = 2 π/1 cm has the slope k at 0,
+    /// and over a hundredth of R = 1 mm to both sides 1 - (k R/100)²/6 of it.
+    #[test]
+    fn pace_in_a_field_that_depends_on_place() {
+        let field = ["sin(2*pi*x/0.01)", "0 V/m", "0 V/m"].map(|text| Expression::new(text).unwrap());
+        let law = Lorentz { electric_field: Some(field), magnetic_flux_density: None };
+        let slope = std::f64::consts::TAU / 0.01;
+        let within = 1.0 - (slope * 1e-5).powi(2) / 6.0;
+        for mass in [1e-9, 2.0] {
+            let pace = law.pace(3e-6, mass, 1e-3, Vec3::ZERO, 0.0);
+            assert_close!(pace.square, 3e-6 * slope * within / mass, 1e-9, "in 1/s², a grain of {mass} kg");
+        }
+    }
 }

@@ -124,3 +124,7 @@ pub(super) fn of_files(plan: &mut Plan, scenario: &Scenario, tried: &Rehearsal, 
     plan.disk = Some(weights.so_far + more + kept + report);
     plan.seconds = plan.seconds.map(|seconds| seconds + tried.writing_s * (1.0 + more / weights.so_far));
 }
+
+#[cfg(test)]
+#[path = "cost_tests.rs"]
+mod tests;

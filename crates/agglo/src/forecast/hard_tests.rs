@@ -114,6 +114,32 @@ fn two_streams() {
     assert_near!(gas.free_time * 12.0 * std::f64::consts::PI * chi, 1.0, 1e-9);
 }
 
+/// Two sizes at two temperatures: grain a meets n_b π (R_a + R_b)² χ √(8 (s_a² + s_b²)/π) of kind b a second, each pair seen from
+/// both sides; 600 grains of 1 mm at 0.2 m/s and 150 of 3 mm at 0.1 m/s in a liter.
+#[test]
+fn two_sizes() {
+    let text = gas_of(MAXWELL, "1").replace("fill.count = 1000", "fill.count = 600").replace(
+        "[impact.restitution.constant]",
+        "[[grains]]\nmaterial = \"glass\"\nsize.constant.radius = \"3 mm\"\nplacement.fill.count = 150\n\
+         velocity_spread.maxwell.deviation = \"0.1 m/s\"\n[impact.restitution.constant]",
+    );
+    let gas = Gas::at_start(&Scenario::from_toml(&text).unwrap(), &[600, 150], None).unwrap();
+    let kinds = [(600.0, 1e-3, 0.2), (150.0, 3e-3, 0.1_f64)];
+    let phi: f64 =
+        kinds.iter().map(|(n, r, _)| n * 4.0 / 3.0 * std::f64::consts::PI * r * r * r / 1e-3).sum();
+    let chi = (1.0 - 0.5 * phi) / (1.0 - phi).powi(3);
+    let mut met = 0.0;
+    for (n, r, s) in kinds {
+        for (m, q, t) in kinds {
+            let section = std::f64::consts::PI * (r + q) * (r + q);
+            met += n * m / 1e-3 * section * chi * (8.0 * (s * s + t * t) / std::f64::consts::PI).sqrt();
+        }
+    }
+    assert_close!(gas.solid_fraction, phi, 1e-12);
+    assert_close!(gas.rate, 0.5 * met, 1e-12, "in 1/s");
+    assert_close!(gas.free_time, 750.0 / met, 1e-12, "in s");
+}
+
 /// At rest there are no impacts, and nothing is divided by them.
 #[test]
 fn a_gas_at_rest() {

@@ -1,6 +1,6 @@
 use super::*;
 
-use crate::run::rehearse;
+use crate::run::{rehearse, run};
 use crate::scenario::TEMPLATES;
 
 /// The plan of grains that are placed and pushed, with a single step tried.
@@ -121,6 +121,31 @@ fn the_overlap_of_an_impact() {
     assert_close!(stored, 0.25 * mass * push.meeting_speed.powi(2), 1e-9, "in J");
 }
 
+/// The same balance for the other laws: k δ²/2, and π R K δ^(p+2)/((p+2) (2R)^p) with p = 2 and K at 300 K.
+#[test]
+fn the_overlap_of_an_impact_of_other_laws() {
+    let hertz = template("acoustic-sound");
+    let start = hertz.find("[contact.normal.hertz]").unwrap();
+    let end = hertz[start..].find("\n[").unwrap() + start;
+    let [published, hooke] = [
+        template("acoustic").to_owned(),
+        format!("{}[contact.normal.hooke]\nstiffness = \"1e7 N/m\"\n{}", &hertz[..start], &hertz[end..]),
+    ];
+    let mass = 6000.0 * 4.0 / 3.0 * std::f64::consts::PI * 0.05_f64.powi(3);
+    let area = std::f64::consts::PI * 0.05 * 0.4_f64.exp() * 1e7;
+    for (text, is_published) in [(published, true), (hooke, false)] {
+        let scenario = Scenario::from_toml(&text).unwrap();
+        let push = &push::all(&scenario, &crate::packing::place(&scenario, Path::new("")).unwrap())[0];
+        let overlap = push.strain.unwrap() * 0.1;
+        let stored = if is_published {
+            area * overlap.powi(4) / (4.0 * 0.1_f64.powi(2))
+        } else {
+            0.5e7 * overlap * overlap
+        };
+        assert_close!(stored, 0.25 * mass * push.meeting_speed.powi(2), 1e-9, "in J");
+    }
+}
+
 #[test]
 fn low_frequencies_are_noted() {
     let audible = template("microscale").replace("250 MHz", "20 kHz");
@@ -218,6 +243,12 @@ fn what_is_tried_is_carried_on_to_the_end() {
     let (steps, seconds) = (tried.quiet.all.steps, tried.start_s + tried.quiet.all.wall_s);
     assert_true!(tried.is_finished, "the run has come to its end");
     assert_above!(steps, 10.0);
+    // A frame is one file, and its line in the list of all.
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("run");
+    run(&scenario, Path::new(""), &out, &mut |_| ControlFlow::Continue(())).unwrap();
+    let file = std::fs::metadata(out.join("frames/grains_000000.vtp")).unwrap().len() as f64;
+    assert_between!(tried.weights.unwrap().frame.unwrap(), file..=file + 200.0, "in B");
     let mut plan = Plan::default();
     cost::of_soft(&mut plan, &scenario, &tried, &[]);
     assert_eq!((plan.steps, plan.seconds), (Some(steps), Some(seconds)));

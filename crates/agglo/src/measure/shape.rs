@@ -259,7 +259,7 @@ mod tests {
     fn the_summary_of_a_row_and_a_grain() {
         let mut positions = grid(10, |at| at.y == 0.0 && at.z == 0.0);
         positions.push(Vec3::new(0.0, 50.0, 0.0));
-        let (radii, masses) = (vec![0.5; 22], vec![1.0; 22]);
+        let (radii, masses) = (vec![0.5; 22], vec![3.0; 22]);
         let mut edges = Vec::new();
         crate::measure::close_pairs(&positions, &radii, 0.01, &mut |i, j| edges.push((i, j)));
         let clusters = Clusters::new(&masses, edges);

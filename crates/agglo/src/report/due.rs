@@ -170,8 +170,12 @@ mod tests {
         assert!(notes()[0].contains("grains.pvd"), "{:?}", notes());
         let summary = fs::read_to_string(folder.join("summary.json")).unwrap();
         fs::write(folder.join("summary.json"), &summary[..40]).unwrap();
-        let story = Report::of_run(&folder).unwrap().story;
+        let report = Report::of_run(&folder).unwrap();
+        let story = report.story;
         assert!(story.contains("100 %") && story.contains("Warnings are unknown"), "{story}");
+        assert_false!(report.laws_are_unknown, "the laws stand in the scenario");
+        fs::remove_file(folder.join("scenario.toml")).unwrap();
+        assert_true!(Report::of_run(&folder).unwrap().laws_are_unknown, "the scenario is gone");
     }
 
     #[test]

@@ -29,6 +29,8 @@ pub use hard::{Growth, HardSummary};
 pub(crate) use origin::Origin;
 pub use quiet::quiet;
 pub(crate) use rehearsal::{Rehearsal, Stretches, rehearse};
+#[cfg(test)]
+pub(crate) use rehearsal::{Stretch, Weights};
 pub use soft::{Clusters, EnergyFigures, PulseFigures, SoftSummary};
 pub use summary::Summary;
 

@@ -62,7 +62,8 @@ impl Stretches {
         self.before.plus(self.now)
     }
 
-    fn add(&mut self, step: Stretch) {
+    /// Adds the next step.
+    pub fn add(&mut self, step: Stretch) {
         self.all = self.all.plus(step);
         self.now = self.now.plus(step);
         if 2.0 * self.now.steps > self.all.steps {

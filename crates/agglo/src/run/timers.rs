@@ -315,4 +315,22 @@ mod tests {
             assert!(!forged.stand(&output, &at(4.0)), "{number}");
         }
     }
+
+    /// Turns that were passed and not taken are told, however short or long the interval.
+    #[test]
+    fn timers_that_lag_are_told() {
+        for interval in [1e-9, 1e-3, 1e6] {
+            let output = Output {
+                series: Some(every(interval)),
+                frames: None,
+                checkpoints: None,
+                ..Output::default()
+            };
+            let (mut timers, now) = (Timers::new(&output), at(3.5 * interval));
+            assert_false!(timers.stand(&output, &now), "nobody took the rows every {interval} s");
+            // Four turns at once, of which three have no row of their own.
+            assert_eq!(timers.rows.take(&now), Some(3));
+            assert_true!(timers.stand(&output, &now), "the rows every {interval} s are taken");
+        }
+    }
 }

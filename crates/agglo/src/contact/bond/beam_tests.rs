@@ -56,6 +56,22 @@ fn stiffness_of_the_four_modes() {
     assert_close!(law.energy(&after, 2.5e-3), 0.5 * twist * 1e-6, 1e-9, "in J");
 }
 
+/// The least rotation between two normals far apart, against Rodrigues' formula about their common perpendicular, then 0.7
+/// about the new normal: to round-off, over 1 + cos where normals are nearly opposite.
+#[test]
+fn memory_turns_with_the_bond() {
+    for tilt in [1e-9_f64, 0.3, 1.4, 3.0] {
+        let after = N * tilt.cos() + SIDE * tilt.sin();
+        let (turn, round_off) = (Turn::new(N, after, 0.7), 1e-15 / (1.0 + tilt.cos()));
+        let across = N.cross(SIDE);
+        // The shear across the plane of the tilt stays; that within it tilts along.
+        let [tilted, stays] = [N * -tilt.sin() + SIDE * tilt.cos(), across];
+        let spun = |v: Vec3| v * 0.7_f64.cos() + after.cross(v) * 0.7_f64.sin();
+        assert_near_vector!(turn.of(SIDE), spun(tilted), round_off, "tilt {tilt}");
+        assert_near_vector!(turn.of(across), spun(stays), round_off, "tilt {tilt}");
+    }
+}
+
 /// Tension and bending: F/A + M r/I; shear and twist: S/A + M r/J; compression takes away from the first.
 #[test]
 fn strength() {

@@ -235,3 +235,25 @@ fn cells_fly_with_a_wind() {
         assert!(flown[axis] >= -1e-12 && flown[axis] < grid.edges[axis], "{flown:?}");
     }
 }
+
+/// Whichever edge has the narrowest cells: with spheres of 1 two of 1.05 on an edge of 2.1, and seven of 1.14 on one of 8.
+#[test]
+fn the_narrowest_cell_of_any_axis() {
+    for edges in [[2.1, 8.0, 8.0], [8.0, 2.1, 8.0], [8.0, 8.0, 2.1]] {
+        let volume =
+            Volume { lower: [Quantity(0.0); 3], upper: edges.map(Quantity), boundary: Boundary::Reflecting };
+        let grid = Grid::new(&volume, 1.0, 200);
+        let finest = grid.levels().last().unwrap();
+        let widths = [0, 1, 2].map(|axis| edges[axis] / f64::from(finest.counts[axis]));
+        assert_close!(
+            grid.narrowest_cell(),
+            widths.into_iter().fold(f64::MAX, f64::min),
+            1e-15,
+            "in m, {edges:?}"
+        );
+        assert!(
+            widths.iter().any(|width| *width > 1.01 * grid.narrowest_cell()),
+            "cells are cubes: {widths:?}"
+        );
+    }
+}

@@ -228,3 +228,7 @@ impl Surroundings for Near {
 fn shift_of(image: [i32; 3], edges: Vec3) -> Vec3 {
     Vec3::new(f64::from(image[0]) * edges.x, f64::from(image[1]) * edges.y, f64::from(image[2]) * edges.z)
 }
+
+#[cfg(test)]
+#[path = "near_tests.rs"]
+mod tests;

@@ -86,4 +86,15 @@ fn what_is_rounding() {
     assert_true!(is_rounding(x, x * -1e-13, speeds), "such an overlap is only round-off");
     assert_false!(is_rounding(x, x * -1e-11, speeds), "such an overlap is only round-off");
     assert_false!(is_rounding(x, x * -1e-13, [x * 1e-13, Vec3::ZERO]), "such an overlap is only round-off");
+    // Speeds alone decide: grains of micrometers as of kilometers.
+    for size in [1e-6, 1e3] {
+        assert_true!(
+            is_rounding(x * size, x * -1e-13, speeds),
+            "such an overlap is only round-off, {size} m"
+        );
+        assert_false!(
+            is_rounding(x * size, x * -1e-11, speeds),
+            "such an overlap is only round-off, {size} m"
+        );
+    }
 }

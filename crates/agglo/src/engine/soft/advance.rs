@@ -189,3 +189,7 @@ impl Change {
         }
     }
 }
+
+#[cfg(test)]
+#[path = "advance_tests.rs"]
+mod tests;

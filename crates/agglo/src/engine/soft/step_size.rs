@@ -35,7 +35,7 @@ const DEEPEST: f64 = 0.5;
 /// The first step [s] of a scenario.
 pub fn first(scenario: &Scenario, system: &System) -> f64 {
     match &scenario.engine {
-        Engine::Staggered(scheme) => scheme.initial_step.si().min(scheme.largest_step.si()),
+        Engine::Staggered(scheme) => scheme.initial_step.si(),
         Engine::Verlet(scheme) => match scheme.step {
             Some(step) => step.si(),
             None => (scheme.safety * critical(scenario, system)).min(longest(scenario)),

@@ -97,4 +97,21 @@ mod tests {
         assert_eq!(tempo.shorter(0.5, 1.5), Some(0.1875));
         assert_eq!(tempo.shorter(1.0, 1e-9), Some(0.1));
     }
+
+    /// Each of its figures alone makes it one that no run can have come to.
+    #[test]
+    fn forged_steps_are_told() {
+        let whole = Tempo { safety: 0.125, longest: 1.0, shortest: [0.5, f64::INFINITY] };
+        assert_eq!(whole.sound(), Ok(()));
+        let forged = [
+            Tempo { safety: 0.0, ..whole },
+            Tempo { safety: f64::INFINITY, ..whole },
+            Tempo { longest: -1.0, ..whole },
+            Tempo { longest: f64::NAN, ..whole },
+            Tempo { shortest: [0.0, 1.0], ..whole },
+            Tempo { shortest: [1.0, -1.0], ..whole },
+            Tempo { shortest: [1.0, f64::NAN], ..whole },
+        ];
+        assert_all!(forged, |tempo| tempo.sound().is_err());
+    }
 }

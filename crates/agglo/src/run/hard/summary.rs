@@ -342,7 +342,7 @@ mod tests {
     use super::*;
 
     fn summary(guarded: u64, kept: f64) -> HardSummary {
-        let energy = Balance { normal: 0.75, tangential: 0.25, ..Balance::default() };
+        let energy = Balance { normal: 0.9, tangential: 0.1, ..Balance::default() };
         HardSummary { impacts: 1000, impacts_guarded: guarded, energy, ..HardSummary::default() }
             .with_guard(kept)
     }
@@ -356,7 +356,10 @@ mod tests {
         assert_eq!(row(&summary(0, 0.0)), None);
         let few = summary(9, 0.5e-3);
         let figures = row(&few).unwrap();
-        assert!(figures.contains("9 bounces") && figures.contains("0.90 %"), "{figures}");
+        assert!(
+            figures.contains("9 bounces") && figures.contains("0.90 %") && figures.contains("5.0e-2 % of"),
+            "{figures}"
+        );
         assert_empty!(few.warnings);
         assert_eq!(summary(11, 0.5e-3).warnings[GUARD_MATTERS], 11);
         assert_eq!(summary(9, 1.1e-3).warnings[GUARD_MATTERS], 9);

@@ -7,7 +7,7 @@ const DIGITS: f64 = 2e-14;
 
 /// N. Hansen (2016), table 1 with α_cov = 2: n, λ, then μ_eff, c_σ, d_σ, c_c, c_1, c_μ, and of the weights the sum of the
 /// negative ones, the first and the last.
-const TABLE: [(usize, usize, [f64; 9]); 7] = [
+const TABLE: [(usize, usize, [f64; 9]); 8] = [
     (
         1,
         4,
@@ -21,6 +21,22 @@ const TABLE: [(usize, usize, [f64; 9]); 7] = [
             -1.967_893_879_149_34,
             0.804_162_859_932_73,
             -1.417_877_593_820_79,
+        ],
+    ),
+    // So many points that c_1 + c_μ is held to 1, which leaves nothing for negative weights.
+    (
+        1,
+        100,
+        [
+            26.966_655_064_651,
+            0.878_665_275_802_001,
+            7.085_142_232_630_64,
+            0.525_452_498_709_286,
+            0.062_002_709_084_108_7,
+            0.937_997_290_915_891,
+            0.0,
+            0.082_358_236_564_673_2,
+            0.0,
         ],
     ),
     (

@@ -1,0 +1,84 @@
+//! What an update of the trial motion amounts to, for more grains than one thread takes at a time.
+
+use super::*;
+use crate::engine::soft::Simulation;
+use crate::particles::{Particles, Row};
+use crate::scenario::Scenario;
+
+const RADIUS: f64 = 1e-4;
+const DT: f64 = 1e-6;
+/// Two leaves and a half.
+const MANY: usize = 5 * LEAF / 2;
+
+/// A row of grains, far from one another, in water; each flies along x at its own speed, `fast` ten times as fast.
+fn row(count: usize, fast: usize) -> System {
+    let text = "version = 1\ntime.end = \"1 ms\"\nengine.verlet = {}\n\
+                medium = { density = \"1000 kg/m3\", viscosity = \"1 mPa s\" }\n[materials.stone]\n\
+                density = \"2500 kg/m3\"\n[[grains]]\nmaterial = \"stone\"\nsize.constant.radius = \"0.1 mm\"\n\
+                placement.list.positions = [[\"0 m\", \"0 m\", \"0 m\"]]\n[fields.drag]\nlaw = \"stokes\"\n";
+    let mut grains = Particles::default();
+    for at in 0..count {
+        let speed = if at == fast { 10.0 } else { 1.0 };
+        grains.push(Row {
+            id: at as u32,
+            position: Vec3::AXES[0] * (10.0 * RADIUS * at as f64),
+            velocity: Vec3::AXES[0] * speed,
+            radius: RADIUS,
+            mass: 1e-8,
+            ..Row::default()
+        });
+    }
+    Simulation::start(&Scenario::from_toml(text).unwrap(), grains).unwrap().system
+}
+
+/// The sums are those over all grains, and the farthest is found wherever it stands. Ways of 1 um are differences of places up
+/// to 2.6 m, which are rounded at 2e-16 m.
+#[test]
+fn a_change_is_that_of_all_grains() {
+    for fast in [3, LEAF - 1, LEAF + 7, MANY - 1] {
+        let mut system = row(MANY, fast);
+        let change = system.move_trial(0.0, DT, 0.5, Ahead::AsAtStart);
+        let ways: Vec<f64> =
+            (0..MANY).map(|at| (system.trial.position[at] - system.grains.position[at]).norm()).collect();
+        let all: f64 = ways.iter().sum();
+        assert_close!(change.since_start, all, 4e-10, "in m, {fast}");
+        assert_close!(change.since_last, all, 4e-10, "in m, {fast}");
+        assert_close!(change.farthest, ways[fast] / RADIUS, 4e-10, "in radii, {fast}");
+        assert_close!(change.wavering, ways[fast], 4e-10, "in m, {fast}");
+        assert_eq!([change.farthest_grain, change.wavering_grain], [fast as u32; 2]);
+        assert_none!(change.not_finite);
+        system.grains.velocity[fast].y = f64::NAN;
+        let broken = system.move_trial(0.0, DT, 0.5, Ahead::AsAtStart);
+        assert_eq!(broken.not_finite, Some(fast as u32));
+    }
+}
+
+/// What solving for velocities changes in drag is that of each grain, added up: alike grains have so many times that of one.
+#[test]
+fn corrections_are_those_of_all_grains() {
+    let corrected = |count: usize| {
+        let mut system = row(count, usize::MAX);
+        for velocity in &mut system.trial.velocity {
+            velocity.x += 0.1;
+        }
+        let before = system.rates.supplies.drag.force.x;
+        system.trial.rates = system.rates;
+        system.move_trial(0.0, DT, 0.5, Ahead::AsAtStart);
+        let moved = (system.trial.rates.supplies.drag.force.x - before, system.trial.rates.bend);
+        system.evaluate(DT, DT);
+        // A guess that is off, so that there is something to correct.
+        for velocity in &mut system.trial.velocity {
+            velocity.x += 0.1;
+        }
+        let before = system.trial.rates.supplies.drag.force.x;
+        system.correct_velocities(DT, DT);
+        let rates = &system.trial.rates;
+        [moved.0, moved.1, rates.supplies.drag.force.x - before, rates.bend]
+    };
+    let (one, all) = (corrected(1), corrected(MANY));
+    for (all, one) in all.into_iter().zip(one) {
+        assert!(one != 0.0, "nothing was corrected");
+        // A correction is the difference of sums of forces some hundred times as large.
+        assert_close!(all, MANY as f64 * one, 1e-10);
+    }
+}
