@@ -26,7 +26,7 @@ const OCCUPIED: [Case; 8] = [
 ];
 
 /// What is given instead of the folder of a run, and the words with which going on is refused.
-const NO_RUN: [Case; 7] = [
+const NO_RUN: [Case; 8] = [
     ("nothing", |_| (), &["there is no folder"]),
     ("an empty folder", |place| fs::create_dir(place).unwrap(), &["holds no run", "agglo run SCENARIO -o"]),
     ("texts of one's own", |place| put(place, "thesis.tex"), &["holds no run", "no folder checkpoints/"]),
@@ -53,6 +53,11 @@ const NO_RUN: [Case; 7] = [
             }
         },
         &["before its first checkpoint", "remove the folder and start again"],
+    ),
+    (
+        "a folder without any checkpoint",
+        |place| fs::create_dir_all(place.join("checkpoints")).unwrap(),
+        &["before its first checkpoint"],
     ),
 ];
 

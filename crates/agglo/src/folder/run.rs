@@ -34,11 +34,7 @@ impl RunFolder {
         if folder.checkpoints().exists() || folder.summary().exists() || folder.scenario().exists() {
             return Err(FolderError::InUse { dir: dir.to_owned() });
         }
-        for part in folder.parts() {
-            std::fs::create_dir_all(&part)
-                .map_err(RecordError::file("make the folder", &part))
-                .inspect_err(|_| folder.abandon())?;
-        }
+        folder.complete().inspect_err(|_| folder.abandon())?;
         folder.refuse_links()?;
         Ok(folder)
     }
@@ -130,10 +126,18 @@ impl RunFolder {
         let mut folder = Self::open(dir)?;
         folder.refuse_links()?;
         folder.lock = Some(Arc::new(Lock::take(dir)?));
-        for part in [folder.frames(), folder.series()] {
+        Ok(folder)
+    }
+
+    /// Makes what a run writes into, where it is gone.
+    ///
+    /// # Errors
+    /// [`FolderError::Record`].
+    pub fn complete(&self) -> Result<(), FolderError> {
+        for part in self.parts() {
             std::fs::create_dir_all(&part).map_err(RecordError::file("make the folder", &part))?;
         }
-        Ok(folder)
+        Ok(())
     }
 
     /// Copies the tables of placements into the folder; gives the scenario that names them there.

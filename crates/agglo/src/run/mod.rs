@@ -185,6 +185,8 @@ fn go_on(folder: &RunFolder, until: Option<Time>, observer: &mut Observer<'_>) -
     if let Some(until) = until {
         until::change(folder, &mut found.saved, until)?;
     }
+    // Only now that nothing refuses it: a folder that holds no run stays as it is.
+    folder.complete()?;
     let (folder, way) = (folder.clone(), Way { is_new_end: until.is_some(), refused: found.refused });
     match found.saved {
         AnySaved::Soft(saved) => {
