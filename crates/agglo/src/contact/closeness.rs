@@ -28,6 +28,7 @@ pub fn reach(a: f64, b: f64, part: f64) -> f64 {
 /// assert!(are_close(0.3 * 0.3, 0.1, 0.2, TOUCHING));
 /// assert!(are_close(0.300_09_f64.powi(2), 0.1, 0.2, TOUCHING));
 /// assert!(!are_close(0.300_11_f64.powi(2), 0.1, 0.2, TOUCHING));
+/// assert!(!are_close(0.300_11_f64.powi(2), 0.2, 0.1, TOUCHING));
 /// ```
 #[inline]
 pub fn are_close(distance_squared: f64, a: f64, b: f64, part: f64) -> bool {

@@ -196,6 +196,10 @@ mod tests {
         let displaced = 4.0 / 3.0 * PI * 1e-6;
         assert_near_vector!(force, Vec3::new(0.0, 1.5 * 3.0 * displaced, 0.0), 1e-14 * force.norm(), "in N");
         assert_close!(law.added_mass(&medium, radius), 0.5 * displaced, 1e-14, "in kg");
+        // It slips by nothing, and by 5 m/s at rest.
+        let medium_at = |velocity| Drag::reynolds(&medium, radius, velocity, &moving);
+        assert_eq!(medium_at(moving.velocity), 0.0);
+        assert_close!(medium_at(Vec3::new(1.0, -4.0, 0.0)), 2.0 * radius * 1000.0 * 5.0 / 1e-3, 1e-14);
         assert_eq!(Drag::moment(&medium, radius, Vec3::new(0.0, 0.0, 4.0), &flow), Vec3::ZERO);
         let moment = Drag::moment(&medium, radius, Vec3::ZERO, &flow);
         assert_close!(moment.z, 8.0 * PI * 1e-3 * 1e-9 * 4.0, 1e-14, "in N m");

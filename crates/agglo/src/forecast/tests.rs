@@ -1,5 +1,6 @@
 use super::*;
 
+use crate::folder::RunFolder;
 use crate::run::{rehearse, run};
 use crate::scenario::TEMPLATES;
 
@@ -248,7 +249,12 @@ fn what_is_tried_is_carried_on_to_the_end() {
     let out = folder.path().join("run");
     run(&scenario, Path::new(""), &out, &mut |_| ControlFlow::Continue(())).unwrap();
     let file = std::fs::metadata(out.join("frames/grains_000000.vtp")).unwrap().len() as f64;
-    assert_between!(tried.weights.unwrap().frame.unwrap(), file..=file + 200.0, "in B");
+    let weights = tried.weights.unwrap();
+    assert_between!(weights.frame.unwrap(), file..=file + 200.0, "in B");
+    // Two checkpoints stay, and differ by some bytes.
+    let newest = RunFolder::newest_state(&out);
+    let saved = std::fs::metadata(newest).unwrap().len() as f64;
+    assert_between!(weights.checkpoint, 0.9 * saved..=1.6 * saved, "in B");
     let mut plan = Plan::default();
     cost::of_soft(&mut plan, &scenario, &tried, &[]);
     assert_eq!((plan.steps, plan.seconds), (Some(steps), Some(seconds)));
@@ -343,4 +349,9 @@ fn rest_that_takes_long_is_left_out() {
     let no_patience = Effort { budget: Duration::ZERO, ..Effort::default() };
     let plan = Plan::with(&scenario, Path::new("tests/scenario/good"), no_patience).unwrap();
     assert!(plan.notes.iter().any(|note| note.contains("start.relax takes long")), "{plan}");
+}
+
+#[test]
+fn counts_in_words() {
+    assert_eq!([0.2, 1.0, 1640.0, 3.17e6].map(about), ["1", "1", "1600", "3.2e6"]);
 }

@@ -321,6 +321,24 @@ mod tests {
         }
     }
 
+    /// Each piece has its part of what the masses drawn add up to: of a million primaries to one, by rounding.
+    #[test]
+    fn shares_are_those_of_the_masses_drawn() {
+        let law = PowerLaw { exponent: 1.83 };
+        for (part, count) in [(0, 2), (1, 3), (2, 8), (3, 40)] {
+            let draws = Stream::new(3, Purpose::PieceSize, part);
+            let mut stream = draws.clone();
+            let mut masses: Vec<f64> = (0..count).map(|_| law.mass(1e6, stream.uniform())).collect();
+            masses.sort_by(|a, b| b.total_cmp(a));
+            let sum: f64 = masses.iter().sum();
+            let shares = Pieces::PowerLaw(law.clone()).share(1_000_000, count, &draws);
+            for (share, mass) in shares.into_iter().zip(masses) {
+                let by_hand = 1.0 + mass / sum * f64::from(1_000_000 - count);
+                assert_near!(f64::from(share), by_hand, 1.0, "primaries of one of {count} pieces");
+            }
+        }
+    }
+
     /// Mean of m^-a between 1 and M in closed form, five standard errors of 200,000 draws.
     #[test]
     fn masses_follow_the_power_law() {

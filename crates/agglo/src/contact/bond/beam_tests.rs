@@ -393,6 +393,22 @@ fn critical_step_of_a_pair() {
     }
 }
 
+/// Shear, with the levers of unequal ends, and bending by hand; stretch and twist are slower. The dashpots' rate goes with
+/// the levers.
+#[test]
+fn pace_of_an_unequal_pair() {
+    let [normal, shear, bending, twist] = by_hand();
+    let (masses, inertias, arms) = ([1e-5, 3e-5], [4e-12, 2e-11], [1.1e-3, 1.4e-3]);
+    let per_mass = 1.0 / 1e-5 + 1.0 / 3e-5;
+    let per_inertia = 1.0 / 4e-12 + 1.0 / 2e-11;
+    let levers = 1.21e-6 / 4e-12 + 1.96e-6 / 2e-11;
+    let square = shear * (per_mass + levers) + bending * per_inertia;
+    assert_above!(square, (normal * per_mass).max(twist * per_inertia));
+    let pace = beam(0.2).pace(&at_rest().0, masses, inertias, arms);
+    assert_close!(pace.square, square, 1e-12, "in 1/s²");
+    assert_close!(pace.rate, 0.4 * (1.0 + levers / per_mass).sqrt() * square.sqrt(), 1e-12, "in 1/s");
+}
+
 /// Where the end of a clamped row of bonds comes to rest under a force; found by damped motion.
 fn tip_under(force: Vec3, bonds: usize) -> Vec3 {
     let law = Beam { radius_ratio: 1.0, ..beam(0.0) };

@@ -72,12 +72,27 @@ impl Watch {
             (self.since, self.events) = (time, 0);
             return Ok(());
         }
-        let [a, b] = self.last;
-        let who = match b {
-            NONE => format!("grain {a} and a wall"),
-            _ => format!("grains {} and {}", a.min(b), a.max(b)),
-        };
+        let who = in_words(self.last);
         let help = if cloud.contact_duration > 0.0 { NO_ROOM } else { NO_GUARD };
         Err(SimError::Standstill { time, lasted, events, who, help })
+    }
+}
+
+/// Who met last, by the names of the grains.
+fn in_words([a, b]: [u32; 2]) -> String {
+    match b {
+        NONE => format!("grain {a} and a wall"),
+        _ => format!("grains {} and {}", a.min(b), a.max(b)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn who_met_is_told_in_the_order_of_names() {
+        let told = [[3, 7], [7, 3], [7, NONE]].map(in_words);
+        assert_eq!(told, ["grains 3 and 7", "grains 3 and 7", "grain 7 and a wall"]);
     }
 }

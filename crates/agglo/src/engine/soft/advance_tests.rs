@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::engine::soft::Simulation;
+use crate::engine::soft::skin::Skin;
 use crate::particles::{Particles, Row};
 use crate::scenario::Scenario;
 
@@ -15,7 +16,8 @@ fn row(count: usize, fast: usize) -> System {
     let text = "version = 1\ntime.end = \"1 ms\"\nengine.verlet = {}\n\
                 medium = { density = \"1000 kg/m3\", viscosity = \"1 mPa s\" }\n[materials.stone]\n\
                 density = \"2500 kg/m3\"\n[[grains]]\nmaterial = \"stone\"\nsize.constant.radius = \"0.1 mm\"\n\
-                placement.list.positions = [[\"0 m\", \"0 m\", \"0 m\"]]\n[fields.drag]\nlaw = \"stokes\"\n";
+                placement.list.positions = [[\"0 m\", \"0 m\", \"0 m\"]]\n[fields.drag]\nlaw = \"stokes\"\n\
+                [contact.normal.hooke]\nstiffness = \"10 N/m\"\n";
     let mut grains = Particles::default();
     for at in 0..count {
         let speed = if at == fast { 10.0 } else { 1.0 };
@@ -50,6 +52,25 @@ fn a_change_is_that_of_all_grains() {
         system.grains.velocity[fast].y = f64::NAN;
         let broken = system.move_trial(0.0, DT, 0.5, Ahead::AsAtStart);
         assert_eq!(broken.not_finite, Some(fast as u32));
+    }
+}
+
+/// The deepest contact is found wherever it stands, among others: overlaps of 0.1 and, once, 0.2 of the sum of radii.
+#[test]
+fn the_deepest_contact_is_that_of_all_grains() {
+    for deep in [3, LEAF - 1, LEAF + 7, MANY - 2] {
+        let mut system = row(MANY, usize::MAX);
+        for at in (0..MANY - 1).filter(|at| at % 500 == 3 || *at == deep) {
+            let part = if at == deep { 0.8 } else { 0.9 };
+            let place = system.grains.position[at] + Vec3::AXES[0] * (2.0 * RADIUS * part);
+            system.grains.position[at + 1] = place;
+            system.trial.position[at + 1] = place;
+        }
+        system.skin = Skin::new(&system.grains.radius);
+        system.evaluate(0.0, DT);
+        let found = system.trial.contact;
+        assert_close!(found.worst_strain, 0.2, 1e-9);
+        assert_eq!(found.worst_pair, [deep as u32, deep as u32 + 1]);
     }
 }
 

@@ -10,6 +10,7 @@ use super::conduct::Stop;
 use super::course::Course;
 use super::journal::{Journal, Past};
 use crate::search::Model;
+use crate::search::file::Confirm;
 use crate::search::pool::Pool;
 
 /// The budget of time of a campaign.
@@ -34,13 +35,12 @@ impl<'a> Clock<'a> {
     /// With what earlier sittings decided.
     pub fn new(course: &Course<'_>, journal: &'a Journal, past: &Past, wall_s: &'a dyn Fn() -> f64) -> Self {
         let confirm = course.confirm;
-        let again = if confirm.candidates > 1 { confirm.candidates + 1 } else { confirm.candidates };
         Self {
             journal,
             wall_s,
             budget_s: course.budget_s,
             threads: course.threads.max(1),
-            afterwards: f64::from(again) * f64::from(confirm.starts),
+            afterwards: starts_after_the_search(confirm),
             starts_at_least: f64::from(course.ensemble.least()),
             starts_before: past.starts.len() as u64,
             went_on: past.went_on,
@@ -85,5 +85,22 @@ impl<'a> Clock<'a> {
         // The run with frames is one start on one thread.
         let with_frames = self.threads as f64;
         per_start * (candidates as f64 * each + self.afterwards + with_frames)
+    }
+}
+
+/// Each of the best gets fresh starts, and where there are several the one that is chosen gets others once more.
+fn starts_after_the_search(confirm: Confirm) -> f64 {
+    let again = if confirm.candidates > 1 { confirm.candidates + 1 } else { confirm.candidates };
+    f64::from(again) * f64::from(confirm.starts)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn starts_of_the_confirmation() {
+        let starts = |candidates| starts_after_the_search(Confirm { candidates, starts: 10 });
+        assert_eq!([0, 1, 2, 6].map(starts), [0.0, 10.0, 30.0, 70.0]);
     }
 }
