@@ -248,4 +248,16 @@ mod tests {
         let turned = Vec3::AXES[0].rotated_about(Vec3::AXES[2], std::f64::consts::FRAC_PI_2);
         assert_near_vector!(turned, Vec3::AXES[1], 1e-15);
     }
+
+    #[test]
+    fn one_component_that_is_not_finite_is_enough() {
+        assert_true!(Vec3::new(1.0, -2.0, 3.0).is_finite(), "three numbers");
+        for axis in 0..3 {
+            for value in [f64::NAN, f64::INFINITY] {
+                let mut components = [1.0, -2.0, 3.0];
+                components[axis] = value;
+                assert_false!(Vec3::from(components).is_finite(), "{components:?}");
+            }
+        }
+    }
 }

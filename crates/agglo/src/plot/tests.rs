@@ -2,6 +2,8 @@
 
 use super::*;
 use crate::math::rng::{Purpose, Stream};
+use crate::plot::scale::Scale;
+use crate::record::frames::{FieldValues, Frame};
 
 /// Candidates with ten parameters about an optimum, as a search leaves them.
 fn candidates(count: usize) -> (Vec<Axis>, Vec<Vec<f64>>, Vec<f64>) {
@@ -217,6 +219,39 @@ fn dots_are_where_their_values_say() {
     let middle = svg.split("<circle ").nth(2).unwrap();
     // The panel reaches from 92 to 776 and from 66 to 426.
     assert!(middle.starts_with("cx=\"434\" cy=\"246\""), "{middle}");
+}
+
+/// A bar reaches from nothing to its value, and its interval from one end to the other.
+#[test]
+fn bars_are_as_long_as_their_values_say() {
+    let series = Series { name: String::new(), values: vec![0.5], intervals: vec![[0.25, 1.0]] };
+    let bars = Bars { names: vec![String::new()], series: vec![series], ..Bars::default() };
+    let scale = Scale::over([0.5, 0.25, 1.0], false).with(0.0);
+    // The panel reaches from 60 to 776.
+    let [zero, low, value, high] = [0.0, 0.25, 0.5, 1.0].map(|value| 60.0 + 716.0 * scale.part(value));
+    assert_near!((value - zero) / (high - low), 0.5 / 0.75, 1e-12);
+    let svg = bars.svg();
+    let number = |value: f64| format!("{}", (100.0 * value).round() / 100.0);
+    assert_contains!(svg, &format!("<rect x=\"{}\"", number(zero)));
+    assert_contains!(svg, &format!("width=\"{}\" height=\"14\"", number(value - zero)));
+    for [from, to] in [[low, high], [low, low], [high, high]] {
+        let [from, to] = [from, to].map(number);
+        let line = svg.split("<line ").find(|line| {
+            line.starts_with(&format!("x1=\"{from}\"")) && line.contains(&format!("x2=\"{to}\""))
+        });
+        assert!(line.is_some(), "no line from {from} to {to} in {svg}");
+    }
+}
+
+/// Numbers are as they stand, and a vector is as long as it is.
+#[test]
+fn quantities_of_vectors_are_their_lengths() {
+    let quantity = Quantity::ALL.into_iter().find(|quantity| quantity.field == "velocity_m_s").unwrap();
+    let vectors = vec![[2.0, 3.0, 6.0], [-1.0, 2.0, -2.0], [0.0, -4.0, 3.0]];
+    let fields = vec![("velocity_m_s".to_owned(), FieldValues::Vectors(vectors))];
+    let frame = Frame { fields, ..Frame::default() };
+    assert_eq!(quantity.of(&frame), Some(vec![7.0, 3.0, 5.0]));
+    assert_none!(quantity.of(&Frame::default()));
 }
 
 #[test]

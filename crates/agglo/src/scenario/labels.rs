@@ -119,6 +119,11 @@ mod tests {
 
     #[test]
     fn symbols_are_not_labels() {
+        // A word of a scenario may stand beside labels; what only begins or ends like one may not.
+        assert_eq!(labels_alone("[A] 7, `beam`"), Some(vec!["[A] 7".to_owned()]));
+        for text in ["[A] 7, `beam", "[A] 7, beam`", "[A] 7, beam", "[A] 7, ``"] {
+            assert_eq!(labels_alone(text), None, "{text}");
+        }
         for symbol in ["T0", "T - T0", "A", "n+1", "H0 exp(Q", "2n", "", "B5 and more", "70"] {
             assert!(labels_alone(symbol).is_none_or(|found| found.is_empty()), "{symbol}");
         }

@@ -118,4 +118,13 @@ mod tests {
             assert!((after.norm() / velocity.norm() - 1.0).abs() < 1e-14, "{h}");
         }
     }
+
+    /// c (Δv - Δu) · Δv + g Δw².
+    #[test]
+    fn bend_by_hand() {
+        let response = Response { drag: 3.0, turning: Vec3::AXES[0], spin: 4.0 };
+        let (velocity, spin) = (Vec3::new(2.0, -1.0, 0.0), Vec3::new(0.0, 0.5, 1.0));
+        // (2 - 0.5) 2 + (-1 - 1)(-1) = 5, and 0.25 + 1.
+        assert_close!(response.bend((velocity, spin), Vec3::new(0.5, 1.0, 7.0)), 15.0 + 5.0, 1e-15, "in W");
+    }
 }

@@ -209,6 +209,19 @@ mod tests {
         }
     }
 
+    /// ω² is the gradient over m* = 2 x 5/7 kg, whichever of the two is asked first; nothing beyond the cut-off.
+    #[test]
+    fn pace_of_unequal_grains() {
+        for law in every_law() {
+            let near = NearField { law: law.clone(), cutoff: Some(Quantity(0.08)), truncation: 0.05 };
+            for (a, b) in [(&A, &B), (&B, &A)] {
+                let by_hand = law.gradient(a, b, 0.01) * 7.0 / 10.0;
+                assert_close!(near.pace(a, b, 0.01).square, by_hand, 1e-14, "in 1/s², {law:?}");
+                assert_eq!(near.pace(a, b, 0.081), Pace::NONE);
+            }
+        }
+    }
+
     /// Against a central difference of the force; a bound where two terms of a power pair differ in sign.
     #[test]
     fn the_gradient_is_the_slope_of_the_force() {
