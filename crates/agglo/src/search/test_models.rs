@@ -24,6 +24,8 @@ pub struct Analytic {
     pub is_broken: bool,
     /// Values are whole numbers.
     pub is_whole: bool,
+    /// A second cost is the squared distance from this point.
+    pub second: Option<[f64; 2]>,
     /// How often it was run.
     pub runs: AtomicU64,
     pub columns: Vec<String>,
@@ -40,6 +42,7 @@ impl Default for Analytic {
             excluded_above: 2.0,
             is_broken: false,
             is_whole: false,
+            second: None,
             runs: AtomicU64::new(0),
             columns: vec!["value".to_owned(), "noise".to_owned()],
         }
@@ -87,14 +90,21 @@ impl Model for Analytic {
         Ok(vec![self.function.value(&candidate.values), noise])
     }
 
-    fn costs(&self, _: &Candidate, figures: &[f64]) -> Vec<f64> {
-        vec![figures[0] + figures[1]]
+    fn costs(&self, candidate: &Candidate, figures: &[f64]) -> Vec<f64> {
+        let away =
+            |from: [f64; 2]| candidate.values.iter().zip(from).map(|(x, from)| (x - from).powi(2)).sum();
+        std::iter::once(figures[0] + figures[1]).chain(self.second.map(away)).collect()
     }
 
     fn fitness(&self, candidate: &Candidate, starts: &[Vec<f64>]) -> Fitness {
-        let costs: Vec<f64> = starts.iter().map(|figures| self.costs(candidate, figures)[0]).collect();
-        let moments = Moments::of(&costs);
-        let error = if moments.count > 1 { moments.standard_error() } else { 0.0 };
-        Fitness { costs: vec![moments.mean], standard_errors: vec![error], violation: 0.0 }
+        let costs: Vec<Vec<f64>> = starts.iter().map(|figures| self.costs(candidate, figures)).collect();
+        let moments = |which: usize| Moments::of(&costs.iter().map(|costs| costs[which]).collect::<Vec<_>>());
+        let all: Vec<Moments> = (0..=usize::from(self.second.is_some())).map(moments).collect();
+        let error = |moments: &Moments| if moments.count > 1 { moments.standard_error() } else { 0.0 };
+        Fitness {
+            costs: all.iter().map(|moments| moments.mean).collect(),
+            standard_errors: all.iter().map(error).collect(),
+            violation: 0.0,
+        }
     }
 }

@@ -107,3 +107,44 @@ fn farthest(spheres: &Spheres, volume: &Volume) -> f64 {
     let (lower, upper) = places.fold((first, first), |(low, high), at| (low.min(at), high.max(at)));
     (upper - lower).norm()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::rng::{Purpose, Stream};
+    use crate::particles::{Particles, Row};
+    use crate::units::Quantity;
+
+    /// More spheres than are all near one another, and one far away from all others, whichever stands where in memory.
+    #[test]
+    fn the_nearest_of_a_loner_is_found() {
+        for (loner, way) in [(0, 900.0), (37, -900.0), (99, 900.0)] {
+            let (mut stream, mut grains) = (Stream::new(7, Purpose::Sampling, 0), Particles::default());
+            for id in 0..100 {
+                let mut position = stream.direction() * (20.0 * stream.uniform());
+                position.y += if id == loner { way } else { 0.0 };
+                grains.push(Row { id, position, radius: 0.1, mass: 1.0, polarity: 1.0, ..Row::default() });
+            }
+            let spheres = Spheres::new(&grains, |_| 1.0);
+            let volume =
+                Volume { lower: [Quantity(-20.0); 3], upper: [Quantity(20.0); 3], boundary: Boundary::Open };
+            let (mut near, mut nearest) = (Near::new(0.1), Nearest::default());
+            near.list(&spheres, &volume, 0.0);
+            nearest.find(&spheres, &near, &volume);
+            let position = |at: u32| spheres.motion[at as usize].position;
+            let by_hand = |at: u32| {
+                let others = (0..100).filter(|other| *other != at);
+                others.map(|other| (position(other) - position(at)).norm()).fold(f64::INFINITY, f64::min)
+            };
+            for at in 0..100 {
+                let of_it = nearest.contacts().iter().filter(|contact| contact.spheres.contains(&at));
+                let distance = |contact: &Contact| {
+                    let [a, b] = contact.spheres;
+                    (position(b) - position(a)).norm()
+                };
+                let found = of_it.map(distance).fold(f64::INFINITY, f64::min);
+                assert_close!(found, by_hand(at), 1e-14, "in m, from sphere {at}, {loner} far away");
+            }
+        }
+    }
+}

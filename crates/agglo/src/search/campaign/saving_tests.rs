@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use super::tests::{self, Setup, conducted_with, results, rows, whole};
 use super::*;
-use crate::search::optimiser::{Method, Random};
+use crate::search::optimiser::{Genetic, Method, Random};
 use crate::search::test_models::Analytic;
 
 /// Eleven by eleven whole numbers: of 200 points many come again, and are not run again.
@@ -83,4 +83,25 @@ fn a_budget_of_time_ends_the_search_and_is_kept_when_resumed() {
     assert_some!(best.confirm_cost);
     let said = summary.table().into_iter().find(|(what, _)| what == "evaluations").unwrap().1;
     assert!(said.contains(&format!("search {at} of 100000 (the time was up)")), "{said}");
+}
+
+/// The best of a search for two costs tells both, as its front does; that of one cost has no list.
+#[test]
+fn the_best_of_two_costs_tells_both() {
+    let folder = tempfile::tempdir().unwrap();
+    let method = Method::Genetic(Genetic { population: 8, generations: 2, ..Genetic::default() });
+    let model = Analytic { second: Some([2.0, -1.0]), ..Analytic::default() };
+    let setup = Setup { polishes: false, ..Setup::default() };
+    let go_on = &mut |_: &CampaignProgress| ControlFlow::Continue(());
+    let ended = conducted_with(&model, &folder.path().join("two"), (1, &method), &setup, go_on).unwrap();
+    let CampaignEnding::Finished(summary) = ended else { panic!("nobody asked it to stop") };
+    let best = summary.best.unwrap();
+    let [x, y] = [0, 1].map(|at| best.parameters.0[at].1.as_f64().unwrap());
+    assert_eq!(best.costs, [x * x + y * y, (x - 2.0).powi(2) + (y + 1.0).powi(2)]);
+    assert_eq!(best.cost, best.costs[0]);
+    assert_above!(summary.front.len(), 2);
+    assert_all!(summary.front.iter(), |point| point.costs.len() == 2);
+    let one =
+        whole(&Analytic::default(), &folder.path().join("one"), 1, &Method::Random(Random { points: 9 }));
+    assert_empty!(one.best.unwrap().costs);
 }

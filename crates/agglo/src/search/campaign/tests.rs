@@ -70,6 +70,7 @@ pub(super) fn conducted_with(
         unit: "m/s".to_owned(),
         scale: Scale::Linear([-5.12, 5.12]),
     };
+    let goals = 1 + usize::from(model.second.is_some());
     let polish: &Polish<'_> = &|_| Method::Random(Random { points: 5 }).start(2, 1, 12);
     let course = Course {
         title: "bowl",
@@ -77,9 +78,9 @@ pub(super) fn conducted_with(
         is_study: false,
         threads,
         parameters: ["x", "y"].map(axis).to_vec(),
-        objectives: vec![Goal { formula: "value".to_owned(), is_to_be_large: false }],
+        objectives: vec![Goal { formula: "value".to_owned(), is_to_be_large: false }; goals],
         ensemble: setup.ensemble.clone(),
-        optimiser: method.start(2, 1, setup.seed),
+        optimiser: method.start(2, goals, setup.seed),
         planned: vec![
             (Stage::Search, method.evaluations() as u64),
             (Stage::Polish, 5),
