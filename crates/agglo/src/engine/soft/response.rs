@@ -124,7 +124,7 @@ mod tests {
     fn bend_by_hand() {
         let response = Response { drag: 3.0, turning: Vec3::AXES[0], spin: 4.0 };
         let (velocity, spin) = (Vec3::new(2.0, -1.0, 0.0), Vec3::new(0.0, 0.5, 1.0));
-        // (2 - 0.5) 2 + (-1 - 1)(-1) = 5, and 0.25 + 1.
-        assert_close!(response.bend((velocity, spin), Vec3::new(0.5, 1.0, 7.0)), 15.0 + 5.0, 1e-15, "in W");
+        // (2 - 0.5) 2 + (-1 - 3)(-1) = 7, and 0.25 + 1.
+        assert_close!(response.bend((velocity, spin), Vec3::new(0.5, 3.0, 7.0)), 21.0 + 5.0, 1e-15, "in W");
     }
 }
