@@ -99,7 +99,7 @@ fn the_best_of_two_costs_tells_both() {
     let [x, y] = [0, 1].map(|at| best.parameters.0[at].1.as_f64().unwrap());
     assert_eq!(best.costs, [x * x + y * y, (x - 2.0).powi(2) + (y + 1.0).powi(2)]);
     assert_eq!(best.cost, best.costs[0]);
-    assert_above!(summary.front.len(), 2);
+    assert_at_least!(summary.front.len(), 2);
     assert_all!(summary.front.iter(), |point| point.costs.len() == 2);
     let one =
         whole(&Analytic::default(), &folder.path().join("one"), 1, &Method::Random(Random { points: 9 }));
