@@ -181,9 +181,9 @@ pub enum SimError {
         /// What is wrong with it.
         reason: String,
     },
-    /// A scenario of soft spheres was given to the engine of hard ones.
-    #[error("hard spheres need engine.event_driven or engine.time_stepped, [volume] and [impact]")]
-    NoImpact,
+    /// A scenario of the other kind of spheres was given to an engine.
+    #[error("{0}")]
+    OtherSpheres(&'static str),
     /// A hard sphere moves in a way that is not finite.
     #[error("t = {time:.6e} s: the motion of grain {grain} is not finite after an impact under {laws}")]
     ImpactNotFinite {
@@ -283,4 +283,11 @@ pub enum SimError {
         /// Shortest edge of the volume [m].
         edge: f64,
     },
+}
+
+/// Settings that are settings already are always right.
+impl From<std::convert::Infallible> for SimError {
+    fn from(never: std::convert::Infallible) -> Self {
+        match never {}
+    }
 }

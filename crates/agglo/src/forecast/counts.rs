@@ -8,7 +8,8 @@ use crate::domain::{Region, Volume};
 use crate::folder::RunFolder;
 use crate::packing::{Lattice, LatticeKind, Placement, SATURATION};
 use crate::record::door;
-use crate::scenario::{GrainGroup, Scenario};
+use crate::packing::GrainGroup;
+use crate::scenario::Scenario;
 use crate::units::Time;
 
 /// The program itself, with what writes its tables.

@@ -11,7 +11,8 @@ use std::ops::Range;
 use crate::math::Vec3;
 use crate::packing::VelocitySpread;
 use crate::particles::Particles;
-use crate::scenario::{GrainGroup, Scenario};
+use crate::packing::GrainGroup;
+use crate::scenario::Scenario;
 use crate::units::vector;
 
 /// A gas above this solid fraction is none.

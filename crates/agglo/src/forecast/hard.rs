@@ -15,7 +15,8 @@ use crate::impact::{Impact, Restitution, Sticking, softening};
 use crate::particles::Material;
 use crate::run::{Rehearsal, Summary};
 use crate::scenario::figures::{digits, readable};
-use crate::scenario::{GrainGroup, Measures, Scenario};
+use crate::packing::GrainGroup;
+use crate::scenario::{Measures, Scenario};
 
 /// Impacts whose number says something of those to come.
 const ENOUGH_IMPACTS: u64 = 30;

@@ -86,7 +86,7 @@ impl<'a> MeanField<'a> {
             return None;
         }
         Some(Self {
-            laws: ImpactLaws::new(scenario)?,
+            laws: ImpactLaws::new(scenario.impact.as_ref()?, &scenario.materials, &scenario.mixtures),
             gas,
             volume: scenario.volume.as_ref()?.volume(),
             start: grains,

@@ -12,7 +12,8 @@ use crate::fields::near_field::{NearFieldLaw, Scaling};
 use crate::math::Vec3;
 use crate::packing::Placement;
 use crate::scenario::figures::{digits, readable};
-use crate::scenario::{GrainGroup, Scenario};
+use crate::packing::GrainGroup;
+use crate::scenario::Scenario;
 use crate::units::vector;
 
 /// Below this wave number times radius, sound goes around grains instead of being reflected as rays.

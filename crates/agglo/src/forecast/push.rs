@@ -7,7 +7,7 @@ use std::time::Instant;
 use super::{Plan, counts};
 use crate::acoustics::{Beam, Strength};
 use crate::contact::Normal;
-use crate::engine::soft::FirstPulse;
+use crate::engine::soft::{FirstPulse, Settings};
 use crate::math::Vec3;
 use crate::particles::{Material, Particles};
 use crate::scenario::Scenario;
@@ -52,7 +52,8 @@ pub(super) struct Push {
 
 /// One push for each beam.
 pub(super) fn all(scenario: &Scenario, grains: &Particles) -> Vec<Push> {
-    let Some(acoustics) = &scenario.acoustics else { return Vec::new() };
+    let Ok(settings) = Settings::try_from(scenario) else { return Vec::new() };
+    let Some(acoustics) = &settings.acoustics else { return Vec::new() };
     // Each beam meets the same grains, which no pulse moves.
     let mut still = grains.clone();
     let of = |(beam, number): (&Beam, usize)| {
@@ -60,7 +61,7 @@ pub(super) fn all(scenario: &Scenario, grains: &Particles) -> Vec<Push> {
         let impedance = scenario.medium.density.si() * scenario.medium.sound_speed.si();
         let (power, pressure) = power_and_pressure(beam.strength, area, impedance);
         let began = Instant::now();
-        let (pulse, back) = FirstPulse::of(scenario, std::mem::take(&mut still), number, MOST_RAYS);
+        let (pulse, back) = FirstPulse::of(&settings, std::mem::take(&mut still), number, MOST_RAYS);
         still = back;
         let pulses = f64::from(counts::pulses_before(beam, scenario.time.end.si()));
         let wall_s = began.elapsed().as_secs_f64();

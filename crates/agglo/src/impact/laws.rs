@@ -1,5 +1,6 @@
 //! All laws of impact with the materials they are about.
 
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use super::contact_area::ContactArea;
@@ -15,10 +16,9 @@ use super::{Body, Impact, ImpactEnergy, Outcome, Sticking, softening};
 use crate::math::Vec3;
 use crate::math::rng::Stream;
 use crate::particles::{Material, Mixture};
-use crate::scenario::Scenario;
 use crate::units::Quantity;
 
-/// The laws of impact of one scenario.
+/// The laws of impact of some materials.
 #[derive(Clone, Debug)]
 pub struct ImpactLaws {
     impact: Impact,
@@ -60,22 +60,21 @@ pub(super) enum Rebound {
 }
 
 impl ImpactLaws {
-    /// Gathers what the scenario says; without `impact` there are none.
-    pub fn new(scenario: &Scenario) -> Option<Self> {
-        let impact = scenario.impact.clone()?;
-        let names: Vec<&String> = scenario.materials.keys().collect();
+    /// Gathers what holds for each material and each pair of them.
+    pub fn new(impact: &Impact, materials: &BTreeMap<String, Material>, mixtures: &[Mixture]) -> Self {
+        let names: Vec<&String> = materials.keys().collect();
         let mut pairs = Vec::with_capacity(names.len() * names.len());
         for a in &names {
             for b in &names {
-                pairs.push(pair_law(&impact, Mixture::of(&scenario.mixtures, a, b)));
+                pairs.push(pair_law(impact, Mixture::of(mixtures, a, b)));
             }
         }
         let hardness = match &impact.restitution {
             Restitution::Hardness(law) => Some(law.clone()),
             Restitution::Constant(_) => None,
         };
-        Some(Self {
-            materials: scenario.materials.values().map(|material| matter(&impact, material)).collect(),
+        Self {
+            materials: materials.values().map(|material| matter(impact, material)).collect(),
             pairs,
             area: hardness.as_ref().map_or_else(ContactArea::default, Hardness::area),
             hardness,
@@ -83,8 +82,8 @@ impl ImpactLaws {
             sticking: impact.sticking,
             heat: impact.heat.clone(),
             fragmentation: impact.fragmentation.clone(),
-            impact,
-        })
+            impact: impact.clone(),
+        }
     }
 
     #[inline]

@@ -2,6 +2,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::constants::GAS_CONSTANT;
+use crate::scenario::Scenario;
 
 /// Laws of two materials, "a" (number 0) and "b" (number 1), with more lines for the file and for materials.
 pub(super) fn laws(impact: &str, [a, b]: [&str; 2]) -> ImpactLaws {
@@ -9,7 +10,8 @@ pub(super) fn laws(impact: &str, [a, b]: [&str; 2]) -> ImpactLaws {
         "version = 1\ngrains = []\n[time]\nend = \"1 s\"\n[engine.event_driven]\n{impact}\n\
          [materials.a]\ndensity = \"2000 kg/m3\"\n{a}\n[materials.b]\ndensity = \"3000 kg/m3\"\n{b}\n"
     );
-    ImpactLaws::new(&toml::from_str(&text).unwrap()).unwrap()
+    let scenario: Scenario = toml::from_str(&text).unwrap();
+    ImpactLaws::new(&scenario.impact.unwrap(), &scenario.materials, &scenario.mixtures)
 }
 
 pub(super) const REACTIVE: &str =

@@ -10,7 +10,8 @@ use crate::engine::hard::EventDriven;
 use crate::math::Vec3;
 use crate::math::rng::{Purpose, Stream};
 use crate::particles::{Particles, Row};
-use crate::scenario::{GrainGroup, Scenario};
+use crate::packing::GrainGroup;
+use crate::scenario::Scenario;
 use crate::units::Quantity;
 
 const BOUNDARIES: [Boundary; 4] =

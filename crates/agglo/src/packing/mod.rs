@@ -1,6 +1,7 @@
 //! Where grains are, and how large, when the clock starts.
 
 mod error;
+mod group;
 mod lattice;
 mod occupied;
 mod overlap;
@@ -13,9 +14,9 @@ mod table;
 mod velocity;
 
 pub use error::{PackingError, SATURATION};
+pub use group::{GrainGroup, Groups, Spheres};
 pub use overlap::{Overlap, first_overlap};
-pub(crate) use place::make_ready;
-pub use place::{PlaceWatch, place, place_groups, place_groups_watched};
+pub use place::{PlaceWatch, make_ready, place, place_groups, place_groups_watched};
 pub use placement::{Fill, GrainList, Lattice, LatticeKind, Placement, RandomAddition, Table};
 pub use random::fill_with;
 pub use size::{ConstantSize, LengthRatio, LognormalSize, Size, SizeTable, UniformSize};

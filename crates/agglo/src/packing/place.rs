@@ -7,16 +7,14 @@ use super::error::PackingError;
 use super::overlap::{first_outside, first_overlap};
 use super::random::{self, Request};
 use super::room::Room;
-use super::{GrainList, Placement, lattice, table};
+use super::{GrainGroup, GrainList, Groups, Placement, Spheres, lattice, table};
 use crate::domain::{Boundary, Volume, resolution};
-use crate::engine::Engine;
 use crate::math::Vec3;
 use crate::math::rng::{Purpose, Stream};
 use crate::particles::{Material, Particles, Row};
-use crate::scenario::{GrainGroup, Scenario};
 use crate::units::vector;
 
-/// Places all groups in the order of the scenario; grains get the names 0, 1, 2 ... in the order in which they are
+/// Places all groups in their order; grains get the names 0, 1, 2 ... in the order in which they are
 /// placed, and a material's number is its place in the map of materials. Random grains keep clear of the grains of
 /// earlier groups; lattices, tables and lists are taken as they are. Tables are looked for below `base`.
 ///
@@ -25,8 +23,8 @@ use crate::units::vector;
 /// # Errors
 /// [`PackingError`] where there is no room, a table cannot be read, a value cannot be, two grains would be at exactly
 /// the same place or too far from the origin, or hard spheres could not start.
-pub fn place(scenario: &Scenario, base: &Path) -> Result<Particles, PackingError> {
-    place_groups(scenario, base).map(|(grains, _)| grains)
+pub fn place<'a>(groups: impl Into<Groups<'a>>, base: &Path) -> Result<Particles, PackingError> {
+    place_groups(groups, base).map(|(grains, _)| grains)
 }
 
 /// Asked now and then while grains are placed whether to go on.
@@ -36,26 +34,37 @@ pub type PlaceWatch<'a> = dyn FnMut() -> ControlFlow<()> + 'a;
 ///
 /// # Errors
 /// As for [`place`].
-pub fn place_groups(scenario: &Scenario, base: &Path) -> Result<(Particles, Vec<u64>), PackingError> {
-    place_groups_watched(scenario, base, &mut || ControlFlow::Continue(()))
+pub fn place_groups<'a>(
+    groups: impl Into<Groups<'a>>,
+    base: &Path,
+) -> Result<(Particles, Vec<u64>), PackingError> {
+    place_groups_watched(groups, base, &mut || ControlFlow::Continue(()))
 }
 
 /// As [`place_groups`]; `watch` may stop it.
 ///
 /// # Errors
 /// As for [`place`], and [`PackingError::Stopped`].
-pub fn place_groups_watched(
-    scenario: &Scenario,
+pub fn place_groups_watched<'a>(
+    groups: impl Into<Groups<'a>>,
+    base: &Path,
+    watch: &mut PlaceWatch<'_>,
+) -> Result<(Particles, Vec<u64>), PackingError> {
+    place_all(&groups.into(), base, watch)
+}
+
+fn place_all(
+    asked: &Groups<'_>,
     base: &Path,
     watch: &mut PlaceWatch<'_>,
 ) -> Result<(Particles, Vec<u64>), PackingError> {
     let mut grains = Particles::default();
     let mut counts = Vec::new();
-    for (group, request) in scenario.grains.iter().enumerate() {
+    for (group, request) in asked.groups.iter().enumerate() {
         if watch().is_break() {
             return Err(PackingError::Stopped);
         }
-        let found = scenario.materials.iter().enumerate().find(|(_, (name, _))| **name == request.material);
+        let found = asked.materials.iter().enumerate().find(|(_, (name, _))| **name == request.material);
         let Some((material, (_, properties))) = found else {
             let reason = format!("there is no material `{}`", request.material);
             return Err(PackingError::Value { group, key: "material", reason });
@@ -63,17 +72,16 @@ pub fn place_groups_watched(
         if let Some(reason) = request.size.fault() {
             return Err(PackingError::Value { group, key: "size", reason });
         }
-        let volume = scenario.volume.as_ref();
-        let group_of = Group { request, seed: scenario.seed, number: group, base, volume };
+        let group_of = Group { request, seed: asked.seed, number: group, base, volume: asked.volume };
         let mut spots = group_of.spots(&grains, watch)?;
-        scatter(request, scenario.seed, group, &mut spots);
+        scatter(request, asked.seed, group, &mut spots);
         for spot in spots {
             let row = grain(request, properties, spot);
             grains.push(Row { id: grains.len() as u32, material: material as u32, ..row });
         }
         counts.push(grains.len() as u64 - counts.iter().sum::<u64>());
     }
-    make_ready(scenario, &mut grains, false)?;
+    make_ready(asked, &mut grains, false)?;
     Ok((grains, counts))
 }
 
@@ -82,17 +90,17 @@ pub fn place_groups_watched(
 ///
 /// # Errors
 /// [`PackingError`] where grains are too far out, at one place, overlap as hard spheres or are out of their volume.
-pub(crate) fn make_ready(
-    scenario: &Scenario,
+pub fn make_ready(
+    asked: &Groups<'_>,
     grains: &mut Particles,
     may_overlap: bool,
 ) -> Result<(), PackingError> {
     refuse_far(grains)?;
     refuse_coincident(grains)?;
-    if scenario.engine.is_hard() {
-        bring_inside(scenario, grains, may_overlap)?;
+    if let Spheres::Hard { may_leave } = asked.spheres {
+        bring_inside(asked.volume, grains, may_overlap && may_leave, may_overlap)?;
         if !may_overlap {
-            refuse_overlapping(grains, scenario.volume.as_ref())?;
+            refuse_overlapping(grains, asked.volume)?;
         }
     }
     Ok(())
@@ -194,10 +202,14 @@ fn scatter(request: &GrainGroup, seed: u64, group: usize, spots: &mut [Spot]) {
 }
 
 /// Hard spheres start within the faces; of the images of a grain, the one inside counts.
-fn bring_inside(scenario: &Scenario, grains: &mut Particles, may_reach_in: bool) -> Result<(), PackingError> {
-    let Some(volume) = &scenario.volume else { return Ok(()) };
-    let is_by_steps = matches!(scenario.engine, Engine::TimeStepped(_));
-    if may_reach_in && is_by_steps && volume.boundary == Boundary::Antipodal {
+fn bring_inside(
+    volume: Option<&Volume>,
+    grains: &mut Particles,
+    may_leave: bool,
+    may_reach_in: bool,
+) -> Result<(), PackingError> {
+    let Some(volume) = volume else { return Ok(()) };
+    if may_leave && volume.boundary == Boundary::Antipodal {
         // A step leaves grains outside, on their way in; from impact to impact none are.
         return Ok(());
     }

@@ -9,7 +9,8 @@ use super::*;
 use crate::domain::{Ball, Block, Cylinder, Region};
 use crate::math::Vec3;
 use crate::particles::{Material, Particles, Softening};
-use crate::scenario::{GrainGroup, Scenario};
+use crate::packing::GrainGroup;
+use crate::scenario::Scenario;
 use crate::units::Quantity;
 
 pub(super) fn scenario(grains: Vec<GrainGroup>) -> Scenario {

@@ -9,11 +9,11 @@ use super::soft::Soft;
 use crate::contact::{Bonds, Friction};
 use crate::engine::{SimError, Start};
 use crate::folder::RunFolder;
-use crate::packing::{ConstantSize, PackingError, PlaceWatch, Placement, Size, Table, UniformSize};
+use crate::packing::{ConstantSize, GrainGroup, Groups, PackingError, PlaceWatch, Placement, Size, Table, UniformSize};
 use crate::packing::{make_ready, place_groups_watched};
 use crate::particles::{Material, Particles};
 use crate::record::checkpoint;
-use crate::scenario::{GrainGroup, Scenario, fault_of_cutoff, readable};
+use crate::scenario::{Scenario, fault_of_cutoff, readable};
 use crate::units::Quantity;
 
 /// The grains of a run before its clock starts.
@@ -104,7 +104,7 @@ fn taken(scenario: &Scenario, path: &Path) -> Result<Origin, Trouble> {
     refuse_short_cutoff(&start.grains, scenario)?;
     // A run of hard spheres leaves grains that overlap or reach into a wall: after a step, or where two became a larger one.
     // They are about to part, and are dealt with as in the run itself.
-    make_ready(scenario, &mut start.grains, true).map_err(Trouble::Grains)?;
+    make_ready(&Groups::from(scenario), &mut start.grains, true).map_err(Trouble::Grains)?;
     let (groups, counts) = groups(&start.grains, scenario);
     let words = words(&start, &past, time);
     Ok(Origin { start, counts, earlier: Some(Earlier { checkpoint, groups, words }) })

@@ -4,6 +4,7 @@
 //! units against the schema that derives from the types), and the rules between keys.
 
 mod check;
+mod embedded;
 mod enums;
 mod explain;
 mod fault;
@@ -13,6 +14,7 @@ mod labels;
 mod parse;
 mod scalars;
 mod settings;
+mod spheres;
 mod templates;
 mod tree;
 mod types;
@@ -28,4 +30,4 @@ pub use labels::Engine as LawEngine;
 pub(crate) use parse::{Document, load, read};
 pub use parse::{LoadError, schema};
 pub use templates::{TEMPLATES, Template, nearest_template, scenario_templates, template};
-pub use types::{GrainGroup, Measures, Output, PulseOutput, Relaxation, Scenario, Start, TimeSpan};
+pub use types::{Measures, Output, PulseOutput, Scenario, Start, TimeSpan};

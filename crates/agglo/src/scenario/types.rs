@@ -11,12 +11,12 @@ use crate::contact::closeness::touching;
 use crate::contact::{Bonds, ContactLaws};
 use crate::domain::Volume;
 use crate::engine::Engine;
-use crate::engine::soft::Limits;
+use crate::engine::soft::{Limits, Relaxation};
 use crate::fields::Fields;
 use crate::impact::Impact;
-use crate::packing::{Placement, Size, VelocitySpread};
+use crate::packing::GrainGroup;
 use crate::particles::{Material, Mixture};
-use crate::units::{Charge, Frequency, Temperature, Time, Triple, Velocity};
+use crate::units::Time;
 
 /// A whole scenario.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -89,43 +89,6 @@ pub struct TimeSpan {
     pub end: Time,
 }
 
-/// Grains of one material, with their sizes and places.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct GrainGroup {
-    /// Name of their material.
-    pub material: String,
-    /// How large.
-    pub size: Size,
-    /// Where.
-    pub placement: Placement,
-    /// Velocity of all.
-    #[serde(default)]
-    pub velocity: Triple<Velocity>,
-    /// How velocities scatter about that; not at all if left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub velocity_spread: Option<VelocitySpread>,
-    /// Angular velocity of all.
-    #[serde(default)]
-    pub spin: Triple<Frequency>,
-    /// Temperature of all.
-    #[serde(default = "room_temperature")]
-    pub temperature: Temperature,
-    /// Electric charge of each.
-    #[serde(default)]
-    pub charge: Charge,
-    /// Sign c of the near field: 1 or -1.
-    #[serde(default = "positive")]
-    pub polarity: f64,
-}
-
-fn room_temperature() -> Temperature {
-    crate::units::Quantity(300.0)
-}
-fn positive() -> f64 {
-    1.0
-}
-
 /// What happens before the clock starts.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -137,18 +100,6 @@ pub struct Start {
     /// Lets the grains come to rest first; not if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub relax: Option<Relaxation>,
-}
-
-/// Rest before the clock starts: without rays and drag, with velocities damped away.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Relaxation {
-    /// At rest when no grain is faster.
-    pub speed: Velocity,
-    /// An error if it takes longer (simulated time).
-    pub longest: Time,
-    /// Time in which free motion dies away.
-    pub damping_time: Time,
 }
 
 /// What is measured besides the state.

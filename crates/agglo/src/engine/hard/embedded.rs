@@ -33,7 +33,7 @@
 //!     size.constant.radius = "0.5 mm"
 //!     placement.fill.count = 1
 //! "#)?;
-//! let microscale = Microscale::new(&scenario)?;
+//! let microscale = Microscale::try_from(&scenario)?;
 //! let mut state = microscale.state(&MicroGrains {
 //!     radii: vec![5e-4; 2],
 //!     velocities: vec![Vec3::new(1.0, 0.0, 0.0), Vec3::ZERO],
@@ -55,26 +55,22 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use super::Settings;
 use super::homogenised::{Homogenised, homogenise};
 use super::simulation::{Grown, Simulation};
 use crate::domain::Volume;
 use crate::engine::SimError;
 use crate::math::Vec3;
 use crate::math::rng::{Purpose, Stream};
-use crate::packing::{ConstantSize, Fill, PackingError, Placement, Size, fill_with, first_overlap};
+use crate::packing::{PackingError, fill_with, first_overlap};
 use crate::particles::{ColumnValues, Material, Particles, Row};
-use crate::scenario::{Faults, GrainGroup, Scenario};
-use crate::units::Quantity;
-
-/// Radius of a grain that stands for all, over the shortest edge of the volume, while a scenario is held to its rules.
-const SAMPLE: f64 = 1e-3;
 
 /// Why grains of a macroscale code cannot be taken, or a step cannot be made.
 #[derive(Debug, Error)]
 pub enum EmbeddedError {
     /// The scenario is not one of hard spheres, or breaks a rule.
     #[error("the scenario cannot be embedded: {0}")]
-    Scenario(#[from] Faults),
+    Scenario(#[source] Box<dyn std::error::Error + Send + Sync>),
     /// A column has not one value for each grain.
     #[error("`{column}` has {found} values for {grains} grains")]
     Length {
@@ -152,29 +148,16 @@ pub struct MicroState {
 /// Laws and control volume of grains that are embedded in a flow.
 #[derive(Clone, Debug)]
 pub struct Microscale {
-    scenario: Scenario,
-    volume: Volume,
+    settings: Settings,
     materials: Vec<Material>,
 }
 
 impl Microscale {
-    /// Takes engine, laws, materials, volume and seed of a scenario. Its grains, its length and its output have no
-    /// meaning here; there need be no grains.
-    ///
-    /// # Errors
-    /// [`EmbeddedError::Scenario`] where it breaks the rules of hard spheres, all materials taken to be used;
-    /// [`EmbeddedError::Run`] where it is one of soft spheres.
-    pub fn new(scenario: &Scenario) -> Result<Self, EmbeddedError> {
-        let volume = scenario.volume.clone().filter(|_| scenario.engine.is_hard());
-        let volume = volume.filter(|_| scenario.impact.is_some()).ok_or(SimError::NoImpact)?;
-        let edges = volume.edges().to_array();
-        let radius = SAMPLE * edges.into_iter().fold(f64::INFINITY, f64::min);
-        let groups = scenario.materials.keys().map(|name| sample(name, radius)).collect();
-        let mut scenario = Scenario { grains: groups, ..scenario.clone() };
-        scenario.check()?;
-        scenario.grains.clear();
-        let materials = scenario.materials.values().cloned().collect();
-        Ok(Self { scenario, volume, materials })
+    /// Takes driver, laws, materials, volume and seed; the end has no meaning here. Settings out of a scenario are held to
+    /// its rules first: `Microscale::try_from(&scenario)`.
+    pub fn new(settings: Settings) -> Self {
+        let materials = settings.materials.values().cloned().collect();
+        Self { settings, materials }
     }
 
     /// Makes a first state of grains. With periodic or antipodal faces, positions are brought into the volume.
@@ -199,9 +182,9 @@ impl Microscale {
         check(&state, self.materials.len())?;
         if grains.positions.is_empty() {
             state.grains.position =
-                fill_with(&grains.radii, &self.volume, self.scenario.seed).map_err(EmbeddedError::NoRoom)?;
+                fill_with(&grains.radii, &self.settings.volume, self.settings.seed).map_err(EmbeddedError::NoRoom)?;
         }
-        check_places(&state.grains, &self.volume)?;
+        check_places(&state.grains, &self.settings.volume)?;
         Ok(state)
     }
 
@@ -210,10 +193,10 @@ impl Microscale {
         let mut grains = Particles::default();
         for (at, &radius) in given.radii.iter().enumerate() {
             let material = given.materials.get(at).copied().unwrap_or(0);
-            let position = given.positions.get(at).copied().unwrap_or(self.volume.lower());
+            let position = given.positions.get(at).copied().unwrap_or(self.settings.volume.lower());
             grains.push(Row {
                 id: at as u32,
-                position: self.volume.wrap(position),
+                position: self.settings.volume.wrap(position),
                 velocity: given.velocities[at],
                 radius,
                 // A number that no material has is found by the check.
@@ -248,11 +231,11 @@ impl Microscale {
             return Err(EmbeddedError::Duration(duration));
         }
         check(state, self.materials.len())?;
-        let mut scenario = self.scenario.clone();
-        scenario.time.end = Quantity(duration);
-        let mut stream = Stream::new(self.scenario.seed, Purpose::Fragment, state.step);
-        scenario.seed = (stream.uniform() * (1_u64 << 53) as f64) as u64;
-        let mut simulation = Simulation::start_grown(&scenario, &state.grains, &state.grown)?;
+        let mut settings = self.settings.clone();
+        settings.end = duration;
+        let mut stream = Stream::new(self.settings.seed, Purpose::Fragment, state.step);
+        settings.seed = (stream.uniform() * (1_u64 << 53) as f64) as u64;
+        let mut simulation = Simulation::start_grown(settings, &state.grains, &state.grown)?;
         simulation.cloud_mut().keeps_events = false;
         while !simulation.is_finished() {
             simulation.advance(duration)?;
@@ -325,21 +308,6 @@ fn check_places(grains: &Particles, volume: &Volume) -> Result<(), EmbeddedError
     match first_overlap(grains, Some(volume)) {
         Some(found) => Err(EmbeddedError::Overlap { grains: found.ids, overlap: found.overlap }),
         None => Ok(()),
-    }
-}
-
-/// One grain of a material, so that the rules look at what it needs.
-fn sample(material: &str, radius: f64) -> GrainGroup {
-    GrainGroup {
-        material: material.to_owned(),
-        size: Size::Constant(ConstantSize { radius: Quantity(radius) }),
-        placement: Placement::Fill(Fill { count: Some(1), solid_fraction: None, gap: Quantity(0.0) }),
-        velocity: [Quantity(0.0); 3],
-        velocity_spread: None,
-        spin: [Quantity(0.0); 3],
-        temperature: Quantity(300.0),
-        charge: Quantity(0.0),
-        polarity: 1.0,
     }
 }
 

@@ -3,8 +3,13 @@
 use std::f64::consts::PI;
 
 use super::*;
+use crate::scenario::Scenario;
 
 fn microscale(law: &str, engine: &str) -> Microscale {
+    Microscale::try_from(&scenario(law, engine)).unwrap()
+}
+
+fn scenario(law: &str, engine: &str) -> Scenario {
     let text = format!(
         r#"
         version = 1
@@ -26,7 +31,7 @@ fn microscale(law: &str, engine: &str) -> Microscale {
         placement.fill.count = 1
         "#
     );
-    Microscale::new(&Scenario::from_toml(&text).unwrap()).unwrap()
+    Scenario::from_toml(&text).unwrap()
 }
 
 const STICKY: &str = "[impact.restitution.constant]\nrestitution = 0.0";
@@ -222,12 +227,15 @@ fn bad_input_is_refused_in_words() {
 /// All materials are held to what the laws need, used by a group or not.
 #[test]
 fn a_scenario_that_lacks_something_is_refused() {
-    let mut scenario = microscale(ELASTIC, "event_driven").scenario;
+    let mut scenario = scenario(ELASTIC, "event_driven");
     scenario.impact = None;
-    assert_matches!(Microscale::new(&scenario), Err(EmbeddedError::Run(SimError::NoImpact)));
+    assert_matches!(
+        Microscale::try_from(&scenario),
+        Err(EmbeddedError::Run(SimError::OtherSpheres(_)))
+    );
     let law = r#"{"restitution": {"hardness": {}}}"#;
     scenario.impact = serde_json::from_str(law).unwrap();
-    let message = Microscale::new(&scenario).unwrap_err().to_string();
+    let message = Microscale::try_from(&scenario).unwrap_err().to_string();
     assert!(message.contains("materials.lead") && message.contains("materials.clay"), "{message}");
 }
 

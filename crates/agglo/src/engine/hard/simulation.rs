@@ -7,17 +7,17 @@ use serde::{Deserialize, Serialize};
 use crate::domain::Boundary;
 use crate::engine::soft::Limits;
 use crate::engine::sound::{Fault, MOST_COUNTED, ensure, finite};
-use crate::engine::{Engine, SimError, Start, Warnings};
+use crate::engine::{SimError, Start, Warnings};
 use crate::impact::ImpactLaws;
 use crate::math::Vec3;
 use crate::measure::SizeRates;
 use crate::particles::{Material, Particles};
-use crate::scenario::Scenario;
 
 use super::books::{self, Balance, Books, Counts};
 use super::cloud::{Cloud, CloudState};
 use super::collapse::Collapse;
 use super::event_driven::{Events, EventsState};
+use super::settings::{self, Settings};
 use super::spheres::Spheres;
 use super::time_stepped::Steps;
 
@@ -63,11 +63,11 @@ pub struct SimulationState<'a> {
 }
 
 impl SimulationState<'_> {
-    /// Whether a run of the scenario can have come to it, but for its driver.
+    /// Whether a run under these settings can have come to it, but for its driver.
     ///
     /// # Errors
     /// What is wrong with it.
-    fn sound(&self, scenario: &Scenario) -> Result<(), Fault> {
+    fn sound(&self, settings: &Settings) -> Result<(), Fault> {
         let (clock, cloud) = (&self.clock, &*self.cloud);
         finite("clock", clock)?;
         let times = [clock.time, clock.last_step, self.contact_duration];
@@ -75,7 +75,7 @@ impl SimulationState<'_> {
             "clock: a time is below 0".to_owned()
         })?;
         ensure(clock.step < MOST_COUNTED, || "clock: too many steps".to_owned())?;
-        cloud.spheres.sound(scenario.materials.len(), clock.time)?;
+        cloud.spheres.sound(settings.materials.len(), clock.time)?;
         let living = cloud.spheres.bulk.iter().filter(|bulk| bulk.lives()).map(|bulk| bulk.primaries);
         let primaries: u64 = living.clone().map(u64::from).sum();
         ensure(primaries == self.primaries_at_start && self.grains_at_start <= primaries, || {
@@ -124,13 +124,17 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// Starts with grains as placed. Without `volume` and `impact` in the scenario there is no such simulation.
+    /// Starts with grains as placed.
     ///
     /// # Errors
-    /// [`SimError::NoImpact`] where the scenario says nothing of the volume or of impacts;
-    /// [`SimError::OutOfDigits`] where a grain is too far out for its size.
-    pub fn start(scenario: &Scenario, grains: &Particles) -> Result<Self, SimError> {
-        Self::start_grown(scenario, grains, &[])
+    /// [`SimError::OtherSpheres`] where the settings come from a scenario of soft spheres; [`SimError::OutOfDigits`] where a
+    /// grain is too far out for its size.
+    pub fn start<S>(settings: S, grains: &Particles) -> Result<Self, SimError>
+    where
+        S: TryInto<Settings>,
+        SimError: From<S::Error>,
+    {
+        Self::begin(settings.try_into()?, grains, &[])
     }
 
     /// The same with grains that have grown already: `grown` [n] belongs to the grains; those that it leaves out are
@@ -138,14 +142,22 @@ impl Simulation {
     ///
     /// # Errors
     /// As [`Simulation::start`].
-    pub fn start_grown(scenario: &Scenario, grains: &Particles, grown: &[Grown]) -> Result<Self, SimError> {
-        let heat_capacities: Vec<f64> = scenario.materials.values().map(Material::specific_heat).collect();
+    pub fn start_grown<S>(settings: S, grains: &Particles, grown: &[Grown]) -> Result<Self, SimError>
+    where
+        S: TryInto<Settings>,
+        SimError: From<S::Error>,
+    {
+        Self::begin(settings.try_into()?, grains, grown)
+    }
+
+    fn begin(settings: Settings, grains: &Particles, grown: &[Grown]) -> Result<Self, SimError> {
+        let heat_capacities: Vec<f64> = settings.materials.values().map(Material::specific_heat).collect();
         let mut spheres = Spheres::new(grains, |material| heat_capacities[material as usize]);
         for (bulk, grown) in spheres.bulk.iter_mut().zip(grown) {
             bulk.primaries = grown.primaries;
             bulk.heat_capacity = grown.heat_capacity;
         }
-        let volume = scenario.volume.as_ref().ok_or(SimError::NoImpact)?.volume();
+        let volume = settings.volume.volume();
         let state = CloudState {
             books: Books::open(&spheres),
             counts: Counts::default(),
@@ -156,57 +168,67 @@ impl Simulation {
         };
         let grains_at_start = state.spheres.len() as u64;
         let primaries_at_start = state.spheres.bulk.iter().map(|bulk| u64::from(bulk.primaries)).sum();
-        let mut cloud = Self::cloud_of(scenario, state)?;
+        let (clock, end) = (Clock::default(), settings.end);
+        let options = settings.driver.clone();
+        let mut cloud = Self::cloud_of(settings, state);
         for warning in cloud.laws.standing_warnings() {
             cloud.state.warnings.add(warning);
         }
-        let driver = match &scenario.engine {
-            Engine::EventDriven(options) => {
+        let driver = match &options {
+            settings::Driver::EventDriven(options) => {
                 cloud.contact_duration = options.duration(&cloud.state.spheres, cloud.volume.boundary);
                 Driver::Events(Box::new(Events::start(&mut cloud)?))
             }
-            Engine::TimeStepped(options) => Driver::Steps(Box::new(Steps::new(options))),
-            Engine::Staggered(_) | Engine::Verlet(_) => return Err(SimError::NoImpact),
+            settings::Driver::TimeStepped(options) => Driver::Steps(Box::new(Steps::new(options))),
         };
-        let (clock, end) = (Clock::default(), scenario.time.end.si());
         Ok(Self { cloud, driver, clock, grains_at_start, primaries_at_start, end })
     }
 
     /// Goes on from a saved state.
     ///
     /// # Errors
-    /// [`SimError::NoImpact`] where the scenario is not one of hard spheres.
-    pub fn resume(scenario: &Scenario, state: SimulationState<'_>) -> Result<Self, SimError> {
+    /// [`SimError::Forged`] where the state is none that a run under these settings can have come to; others as
+    /// [`Simulation::start`].
+    pub fn resume<S>(settings: S, state: SimulationState<'_>) -> Result<Self, SimError>
+    where
+        S: TryInto<Settings>,
+        SimError: From<S::Error>,
+    {
+        Self::restored(settings.try_into()?, state)
+    }
+
+    fn restored(settings: Settings, state: SimulationState<'_>) -> Result<Self, SimError> {
         let forged = |reason| SimError::Forged { reason };
-        state.sound(scenario).map_err(forged)?;
-        let mut cloud = Self::cloud_of(scenario, state.cloud.into_owned())?;
+        state.sound(&settings).map_err(forged)?;
+        let (end, options) = (settings.end, settings.driver.clone());
+        let mut cloud = Self::cloud_of(settings, state.cloud.into_owned());
         cloud.contact_duration = state.contact_duration;
-        let driver = match (&scenario.engine, state.driver) {
-            (Engine::EventDriven(_), DriverState::Events(saved)) => {
+        let driver = match (&options, state.driver) {
+            (settings::Driver::EventDriven(_), DriverState::Events(saved)) => {
                 saved.sound(&cloud, state.clock.time).map_err(forged)?;
                 Driver::Events(Box::new(Events::resume(&cloud, saved)))
             }
-            (Engine::TimeStepped(options), DriverState::Steps) => {
+            (settings::Driver::TimeStepped(options), DriverState::Steps) => {
                 Driver::Steps(Box::new(Steps::new(options)))
             }
-            _ => return Err(SimError::NoImpact),
+            _ => return Err(forged("it is of the other driver of hard spheres".to_owned())),
         };
         let SimulationState { clock, grains_at_start, primaries_at_start, .. } = state;
-        Ok(Self { cloud, driver, clock, grains_at_start, primaries_at_start, end: scenario.time.end.si() })
+        Ok(Self { cloud, driver, clock, grains_at_start, primaries_at_start, end })
     }
 
-    fn cloud_of(scenario: &Scenario, state: CloudState) -> Result<Cloud, SimError> {
-        Ok(Cloud {
+    fn cloud_of(settings: Settings, state: CloudState) -> Cloud {
+        Cloud {
             state,
-            laws: ImpactLaws::new(scenario).ok_or(SimError::NoImpact)?,
-            volume: scenario.volume.clone().ok_or(SimError::NoImpact)?,
+            laws: ImpactLaws::new(&settings.impact, &settings.materials, &settings.mixtures),
+            volume: settings.volume,
             events: Vec::new(),
             descents: Vec::new(),
             keeps_events: true,
             contact_duration: 0.0,
-            seed: scenario.seed,
+            seed: settings.seed,
             pieces: Vec::new(),
-        })
+        }
     }
 
     /// All that is needed to go on with the same bits.

@@ -6,9 +6,9 @@ use crate::domain::extent;
 use crate::engine::{Moment, Warnings};
 use crate::math::Vec3;
 use crate::particles::Particles;
-use crate::scenario::Scenario;
 use crate::units::Quantity;
 
+use super::settings::Settings;
 use super::simulation::Simulation;
 
 /// Parts of the widest way through the grains in which the rays are followed.
@@ -30,13 +30,13 @@ pub struct FirstPulse {
 }
 
 impl FirstPulse {
-    /// The first pulse of beam number `beam` of a checked scenario of soft spheres, with no more rays than
+    /// The first pulse of beam number `beam` with no more rays than
     /// `most_rays`: fewer rays of the same beam carry more power each. The grains come back in another order.
-    pub fn of(scenario: &Scenario, grains: Particles, beam: usize, most_rays: u32) -> (Self, Particles) {
+    pub fn of(settings: &Settings, grains: Particles, beam: usize, most_rays: u32) -> (Self, Particles) {
         let names = grains.len();
-        let mut simulation = Simulation::with(&alone(scenario, beam, most_rays), grains.into());
+        let mut simulation = Simulation::with(&alone(settings, beam, most_rays), grains.into());
         let part = widest_way(&simulation.system.grains) / PARTS_OF_THE_WAY;
-        let dt = part / scenario.medium.sound_speed.si();
+        let dt = part / settings.medium.sound_speed.si();
         let Simulation { system, pulses, .. } = &mut simulation;
         let (moment, mut warnings) = (Moment { step: 1, time: 0.0, dt }, Warnings::default());
         // What is wrong with a launch the run says itself; rays that start in a grain are left out here.
@@ -62,9 +62,9 @@ impl FirstPulse {
     }
 }
 
-/// The scenario with one pulse of one beam at once, and nothing but rays.
-fn alone(scenario: &Scenario, beam: usize, most_rays: u32) -> Scenario {
-    let mut alone = scenario.clone();
+/// The same with one pulse of one beam at once, and nothing but rays.
+fn alone(settings: &Settings, beam: usize, most_rays: u32) -> Settings {
+    let mut alone = settings.clone();
     (alone.contact, alone.bonds, alone.fields.near_field) = (None, None, None);
     if let Some(acoustics) = &mut alone.acoustics {
         let mut beam = acoustics.beams.swap_remove(beam);

@@ -6,10 +6,10 @@ use crate::fields::near_field::{NearField, Source};
 use crate::fields::{Drag, Fields, Flow, FlowAt, Lorentz, spin_coefficient};
 use crate::math::Vec3;
 use crate::particles::{Material, Motion, PairTable, Particles};
-use crate::scenario::Scenario;
 
 use super::loads::{Supplies, Supply};
 use super::response::Response;
+use super::settings::Settings;
 
 /// The laws of a scenario.
 #[derive(Clone, Debug)]
@@ -40,16 +40,16 @@ pub struct SingleLoad {
 }
 
 impl Laws {
-    /// The laws of a checked scenario for these grains.
-    pub fn new(scenario: &Scenario, grains: &Particles) -> Self {
+    /// The laws for these grains.
+    pub fn new(settings: &Settings, grains: &Particles) -> Self {
         Self {
-            contact: scenario.contact.clone(),
-            bonds: scenario.bonds.clone(),
-            fields: scenario.fields.clone(),
-            medium: scenario.medium.clone(),
-            pairs: PairTable::new(&scenario.materials, &scenario.mixtures),
-            materials: scenario.materials.values().cloned().collect(),
-            flow: flow_of(scenario, grains),
+            contact: settings.contact.clone(),
+            bonds: settings.bonds.clone(),
+            fields: settings.fields.clone(),
+            medium: settings.medium.clone(),
+            pairs: PairTable::new(&settings.materials, &settings.mixtures),
+            materials: settings.materials.values().cloned().collect(),
+            flow: flow_of(settings, grains),
         }
     }
 
@@ -191,13 +191,10 @@ impl Laws {
     }
 }
 
-fn flow_of(scenario: &Scenario, grains: &Particles) -> Option<Flow> {
-    let field = scenario.fields.drag.as_ref()?.medium_velocity.as_ref()?;
-    let asked = scenario.grains.iter().map(|group| group.size.smallest());
-    // Those of an earlier run are of no group.
-    let found = grains.radius.iter().copied().filter(|_| scenario.grains.is_empty());
-    let smallest = asked.chain(found).fold(f64::INFINITY, f64::min);
-    Some(Flow::new(field, smallest, scenario.time.end.si()))
+fn flow_of(settings: &Settings, grains: &Particles) -> Option<Flow> {
+    let field = settings.fields.drag.as_ref()?.medium_velocity.as_ref()?;
+    let found = || grains.radius.iter().copied().fold(f64::INFINITY, f64::min);
+    Some(Flow::new(field, settings.smallest_radius.unwrap_or_else(found), settings.end))
 }
 
 /// What the near field sees of a grain.

@@ -13,10 +13,10 @@ use crate::engine::sound::{Fault, ensure, length};
 use crate::engine::{Moment, SimError, Warnings};
 use crate::math::Vec3;
 use crate::particles::Particles;
-use crate::scenario::Scenario;
 use crate::units::Velocity;
 
 use super::loads::Supply;
+use super::settings::Settings;
 use super::sound::sound_flight;
 use super::system::System;
 
@@ -67,25 +67,25 @@ impl PulseState {
     ///
     /// # Errors
     /// What is wrong with it.
-    pub(super) fn sound(&self, scenario: &Scenario, n: usize) -> Result<(), Fault> {
+    pub(super) fn sound(&self, settings: &Settings, n: usize) -> Result<(), Fault> {
         let times = [self.ray_time, self.mean_radius];
         ensure(times.iter().all(|value| value.is_finite() && *value >= 0.0), || {
             "pulses: not finite".to_owned()
         })?;
         let pulses = self.flight.pulses().len();
         length("pulses that have started", self.launched, pulses)?;
-        sound_flight(&self.flight, scenario, n)?;
-        let due = schedule(scenario).len();
+        sound_flight(&self.flight, settings, n)?;
+        let due = schedule(settings).len();
         ensure(self.launched <= due, || format!("{} pulses have started of {due}", self.launched))
     }
 }
 
 impl Setup {
-    fn new(scenario: &Scenario, radius: f64) -> Option<Self> {
-        let acoustics = scenario.acoustics.clone()?;
-        let medium = scenario.medium.clone();
+    fn new(settings: &Settings, radius: f64) -> Option<Self> {
+        let acoustics = settings.acoustics.clone()?;
+        let medium = settings.medium.clone();
         let materials = || {
-            scenario.materials.values().map(|material| {
+            settings.materials.values().map(|material| {
                 let speed = |speed: Option<Velocity>| speed.map_or(0.0, Velocity::si);
                 let speeds = [speed(material.sound_speed), speed(material.shear_sound_speed)];
                 (material.density.si(), speeds)
@@ -98,7 +98,7 @@ impl Setup {
         Some(Self {
             tracer: Tracer::new(acoustics.ends(), interfaces.collect()),
             impedances: impedances.collect(),
-            seed: scenario.seed,
+            seed: settings.seed,
             duration: acoustics.force.duration(radius, &medium),
             acoustics,
             medium,
@@ -107,11 +107,11 @@ impl Setup {
 }
 
 /// All launches before the end of the run, in the order of time.
-fn schedule(scenario: &Scenario) -> Vec<Launch> {
+fn schedule(settings: &Settings) -> Vec<Launch> {
     let mut schedule: Vec<Launch> = Vec::new();
-    for (acoustics, beam) in scenario.acoustics.iter().flat_map(|a| a.beams.iter()).zip(0..) {
+    for (acoustics, beam) in settings.acoustics.iter().flat_map(|a| a.beams.iter()).zip(0..) {
         // Those after the end never fly, however many there are.
-        let end = scenario.time.end.si();
+        let end = settings.end;
         let starts = acoustics.pulses.start_times().take_while(|start| *start < end);
         schedule.extend(starts.zip(0..).map(|(time, pulse)| Launch { time, beam, pulse }));
     }
@@ -132,17 +132,17 @@ fn targets<'a>(grains: &'a Particles, medium: &Medium) -> Targets<'a> {
 
 impl Pulses {
     /// The pulses of a scenario, none started.
-    pub fn new(scenario: &Scenario, grains: &Particles) -> Self {
+    pub fn new(settings: &Settings, grains: &Particles) -> Self {
         let mean_radius = grains.radius.iter().sum::<f64>() / grains.len().max(1) as f64;
-        Self::resume(scenario, PulseState { mean_radius, ..PulseState::default() })
+        Self::resume(settings, PulseState { mean_radius, ..PulseState::default() })
     }
 
     /// The pulses of a scenario as they were saved.
     ///
     /// The state has been held to the scenario before.
-    pub fn resume(scenario: &Scenario, state: PulseState) -> Self {
-        let schedule = schedule(scenario);
-        let setup = Setup::new(scenario, state.mean_radius);
+    pub fn resume(settings: &Settings, state: PulseState) -> Self {
+        let schedule = schedule(settings);
+        let setup = Setup::new(settings, state.mean_radius);
         Self { setup, state, schedule, hit_grains: Vec::new() }
     }
 

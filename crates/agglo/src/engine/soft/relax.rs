@@ -4,8 +4,8 @@ use std::ops::ControlFlow;
 
 use crate::engine::{SimError, Start};
 use crate::math::Vec3;
-use crate::scenario::{Relaxation, Scenario};
 
+use super::settings::{Relaxation, Settings};
 use super::simulation::Simulation;
 
 /// Where grains stand on their way to rest.
@@ -24,21 +24,21 @@ pub struct Resting {
 /// Someone who is told how grains come to rest and may ask to stop.
 pub type RestWatch<'a> = dyn FnMut(&Resting) -> ControlFlow<()> + 'a;
 
-/// A simulation whose grains came to rest under the scenario's laws, without rays and drag, and then got the
-/// velocities that the scenario gives them. Contacts and bonds keep what they remember of the way there.
+/// A simulation whose grains came to rest under their laws, without rays and drag, and then got the
+/// velocities that they were given. Contacts and bonds keep what they remember of the way there.
 ///
 /// # Errors
 /// [`SimError::NoRest`] where it takes longer than allowed; others as for any step.
 pub fn rested(
-    scenario: &Scenario,
+    settings: &Settings,
     relaxation: &Relaxation,
     mut start: Start,
     watch: &mut RestWatch<'_>,
 ) -> Result<Simulation, SimError> {
-    let mut quiet = scenario.clone();
+    let mut quiet = settings.clone();
     quiet.acoustics = None;
     quiet.fields.drag = None;
-    quiet.time.end = relaxation.longest;
+    quiet.end = relaxation.longest.si();
     // What is damped away is in no ledger.
     (quiet.limits.drift_warning, quiet.limits.drift_error) = (f64::INFINITY, f64::INFINITY);
     let still = &mut start.grains;
@@ -55,7 +55,7 @@ pub fn rested(
     for at in 0..grains.len() {
         (grains.velocity[at], grains.spin[at]) = motions[grains.id[at] as usize];
     }
-    Ok(simulation.restarted(scenario))
+    Ok(simulation.restarted(settings))
 }
 
 fn settle(

@@ -5,21 +5,20 @@ use std::ops::ControlFlow;
 
 use serde::{Deserialize, Serialize};
 
-use crate::contact::network::{BondEvent, Network};
+use crate::contact::network::{Bond, BondEvent, Network};
 use crate::contact::pass::Remembered;
-use crate::contact::{Bonds, network::Bond};
 use crate::domain::resolution;
-use crate::engine::{Engine, Moment, SimError, Start, Warnings};
+use crate::engine::{Moment, SimError, Start, Warnings};
 use crate::math::rounding_of_sum;
 use crate::measure::Ledger;
 use crate::particles::Particles;
-use crate::scenario::Scenario;
 
 use super::advance::Change;
 use super::laws::Laws;
 use super::loads::{Loads, Rates};
 use super::pulses::{PulseState, Pulses};
 use super::relax::RestWatch;
+use super::settings::Settings;
 use super::step_size::{self, Fast, Paces};
 use super::system::System;
 use super::tempo::Tempo;
@@ -107,9 +106,14 @@ impl Simulation {
     /// Starts with grains as placed, or with what came out of another simulation.
     ///
     /// # Errors
-    /// [`SimError::NoRest`] where the scenario asks for rest and the grains do not come to it.
-    pub fn start(scenario: &Scenario, start: impl Into<Start>) -> Result<Self, SimError> {
-        Self::start_watched(scenario, start, &mut |_| ControlFlow::Continue(()))
+    /// [`SimError::NoRest`] where grains are to come to rest first and do not; [`SimError::OtherSpheres`] where the settings
+    /// come from a scenario of hard spheres.
+    pub fn start<S>(settings: S, start: impl Into<Start>) -> Result<Self, SimError>
+    where
+        S: TryInto<Settings>,
+        SimError: From<S::Error>,
+    {
+        Self::begin(&settings.try_into()?, start.into(), &mut |_| ControlFlow::Continue(()))
     }
 
     /// The same; `watch` is told how grains come to rest, if they are to, and may ask to stop.
@@ -117,17 +121,24 @@ impl Simulation {
     /// # Errors
     /// As [`Simulation::start`], [`SimError::Truncated`] where a cut-off leaves out too much, and
     /// [`SimError::StoppedAtRest`].
-    pub fn start_watched(
-        scenario: &Scenario,
+    pub fn start_watched<S>(
+        settings: S,
         start: impl Into<Start>,
         watch: &mut RestWatch<'_>,
-    ) -> Result<Self, SimError> {
-        let mut start = start.into();
-        let truncation = truncation::hold(scenario.fields.near_field.as_ref(), &start.grains)?;
+    ) -> Result<Self, SimError>
+    where
+        S: TryInto<Settings>,
+        SimError: From<S::Error>,
+    {
+        Self::begin(&settings.try_into()?, start.into(), watch)
+    }
+
+    fn begin(settings: &Settings, mut start: Start, watch: &mut RestWatch<'_>) -> Result<Self, SimError> {
+        let truncation = truncation::hold(settings.fields.near_field.as_ref(), &start.grains)?;
         let warnings = std::mem::take(&mut start.warnings);
-        let mut simulation = match &scenario.start.relax {
-            Some(relaxation) => super::relax::rested(scenario, relaxation, start, watch)?,
-            None => Self::with(scenario, start),
+        let mut simulation = match &settings.relax {
+            Some(relaxation) => super::relax::rested(settings, relaxation, start, watch)?,
+            None => Self::with(settings, start),
         };
         simulation.truncation = truncation;
         simulation.open_books();
@@ -137,30 +148,30 @@ impl Simulation {
         Ok(simulation)
     }
 
-    /// Grains under the scenario's laws, at time zero.
-    pub(super) fn with(scenario: &Scenario, start: Start) -> Self {
-        let network = Network::start(beam_of(scenario), start.bonds, &start.grains);
-        let laws = Laws::new(scenario, &start.grains);
+    /// Grains under their laws, at time zero.
+    pub(super) fn with(settings: &Settings, start: Start) -> Self {
+        let network = Network::start(settings.beam(), start.bonds, &start.grains);
+        let laws = Laws::new(settings, &start.grains);
         let mut system = System::new(start.grains, laws, network);
         if !start.contacts.is_empty() {
             system.remember(&start.contacts);
         }
         system.sort_in_space();
-        Self::at_zero(scenario, system)
+        Self::at_zero(settings, system)
     }
 
-    /// The same grains, contacts and bonds, at time zero of another scenario.
-    pub(super) fn restarted(self, scenario: &Scenario) -> Self {
+    /// The same grains, contacts and bonds, at time zero under other laws.
+    pub(super) fn restarted(self, settings: &Settings) -> Self {
         let mut system = self.system;
-        system.change_laws(Laws::new(scenario, &system.grains));
-        Self::at_zero(scenario, system)
+        system.change_laws(Laws::new(settings, &system.grains));
+        Self::at_zero(settings, system)
     }
 
-    fn at_zero(scenario: &Scenario, mut system: System) -> Self {
-        let pulses = Pulses::new(scenario, &system.grains);
+    fn at_zero(settings: &Settings, mut system: System) -> Self {
+        let pulses = Pulses::new(settings, &system.grains);
         system.rays_are_impulses = pulses.are_impulses();
         system.list_neighbors();
-        let first = step_size::first(scenario, &system);
+        let first = step_size::first(settings, &system);
         let clock = Clock {
             time: 0.0,
             lag: 0.0,
@@ -172,40 +183,49 @@ impl Simulation {
         };
         system.evaluate_start(first);
         Self {
-            tempo: tempo_of(scenario),
+            tempo: settings.tempo(),
             truncation: None,
-            paces: Paces::new(&system, Some(scenario.limits.strain), 0.0),
+            paces: Paces::new(&system, Some(settings.limits.strain), 0.0),
             system,
             pulses,
             ledger: Ledger::default(),
             warnings: Warnings::default(),
             events: Vec::new(),
             clock,
-            scheme: scheme_of(scenario),
-            limits: scenario.limits.clone(),
+            scheme: settings.scheme.clone(),
+            limits: settings.limits.clone(),
             sort_every: SORT_EVERY,
-            end: scenario.time.end.si(),
+            end: settings.end,
         }
     }
 
     /// Goes on from a saved state.
     ///
     /// # Errors
-    /// [`SimError::Forged`] where the state is none that a run of this scenario can have come to.
-    pub fn resume(scenario: &Scenario, state: SimulationState<'_>) -> Result<Self, SimError> {
-        state.sound(scenario).map_err(|reason| SimError::Forged { reason })?;
+    /// [`SimError::Forged`] where the state is none that a run under these settings can have come to; others as
+    /// [`Simulation::start`].
+    pub fn resume<S>(settings: S, state: SimulationState<'_>) -> Result<Self, SimError>
+    where
+        S: TryInto<Settings>,
+        SimError: From<S::Error>,
+    {
+        Self::restored(&settings.try_into()?, state)
+    }
+
+    fn restored(settings: &Settings, state: SimulationState<'_>) -> Result<Self, SimError> {
+        state.sound(settings).map_err(|reason| SimError::Forged { reason })?;
         let n = state.grains.len();
-        let network = Network::restored(beam_of(scenario), state.bonds, state.bonds_made_at_start, n);
-        let pulses = Pulses::resume(scenario, state.pulses);
+        let network = Network::restored(settings.beam(), state.bonds, state.bonds_made_at_start, n);
+        let pulses = Pulses::resume(settings, state.pulses);
         let grains = state.grains.into_owned();
-        let laws = Laws::new(scenario, &grains);
+        let laws = Laws::new(settings, &grains);
         let mut system = System::new(grains, laws, network);
         system.rays_are_impulses = pulses.are_impulses();
         system.loads = state.loads.into_owned();
         system.rates = state.rates;
         system.remember(&state.contacts);
         Ok(Self {
-            tempo: state.tempo.map(|tempo| tempo.up_to(step_size::longest(scenario))),
+            tempo: state.tempo.map(|tempo| tempo.up_to(step_size::longest(settings))),
             truncation: state.truncation,
             paces: state.paces,
             system,
@@ -214,10 +234,10 @@ impl Simulation {
             warnings: state.warnings,
             events: Vec::new(),
             clock: state.clock,
-            scheme: scheme_of(scenario),
-            limits: scenario.limits.clone(),
+            scheme: settings.scheme.clone(),
+            limits: settings.limits.clone(),
             sort_every: SORT_EVERY,
-            end: scenario.time.end.si(),
+            end: settings.end,
         })
     }
 
@@ -473,25 +493,4 @@ struct Step {
     next: f64,
     change: Change,
     phi: f64,
-}
-
-fn beam_of(scenario: &Scenario) -> Option<&crate::contact::bond::Beam> {
-    match &scenario.bonds {
-        Some(Bonds::Beam(law)) => Some(law),
-        _ => None,
-    }
-}
-
-fn tempo_of(scenario: &Scenario) -> Option<Tempo> {
-    match &scenario.engine {
-        Engine::Verlet(scheme) if scheme.step.is_none() => {
-            Some(Tempo::new(scheme.safety, step_size::longest(scenario)))
-        }
-        _ => None,
-    }
-}
-
-/// The scheme of a scenario; the verbs `run` and `resume` bring those of soft spheres only.
-fn scheme_of(scenario: &Scenario) -> Scheme {
-    Scheme::of(&scenario.engine).expect("an engine of soft spheres")
 }

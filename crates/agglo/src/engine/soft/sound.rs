@@ -1,17 +1,17 @@
 //! Whether a saved state is one that a run of soft spheres can have come to.
 
+use super::settings::Settings;
 use super::simulation::SimulationState;
 use crate::acoustics::Flight;
 use crate::contact::network::Bond;
 use crate::engine::sound::{Fault, MOST_COUNTED, ensure, finite, finite_vectors, length};
 use crate::neighbors::ray_grid::NO_SPHERE;
 use crate::particles::Particles;
-use crate::scenario::Scenario;
 
 impl SimulationState<'_> {
     /// # Errors
     /// What is wrong with it.
-    pub(super) fn sound(&self, scenario: &Scenario) -> Result<(), Fault> {
+    pub(super) fn sound(&self, settings: &Settings) -> Result<(), Fault> {
         let clock = &self.clock;
         finite("clock", clock)?;
         let steps = [clock.step, clock.iterations, clock.rejected];
@@ -20,7 +20,7 @@ impl SimulationState<'_> {
         ensure(times.iter().all(|time| *time >= 0.0), || "clock: a time is below 0".to_owned())?;
         let grains = &*self.grains;
         let n = grains.len();
-        sound_grains(grains, scenario)?;
+        sound_grains(grains, settings)?;
         for (what, loads) in [("forces", &self.loads.force), ("moments", &self.loads.moment)] {
             length(what, loads.len(), n)?;
             finite_vectors(what, loads)?;
@@ -41,11 +41,11 @@ impl SimulationState<'_> {
         }
         sound_bonds(&self.bonds, grains)?;
         ensure(self.bonds_made_at_start < MOST_COUNTED as usize, || "too many bonds".to_owned())?;
-        self.pulses.sound(scenario, n)
+        self.pulses.sound(settings, n)
     }
 }
 
-fn sound_grains(grains: &Particles, scenario: &Scenario) -> Result<(), Fault> {
+fn sound_grains(grains: &Particles, settings: &Settings) -> Result<(), Fault> {
     let n = grains.len();
     ensure(n > 0, || "there are no grains".to_owned())?;
     grains.sound()?;
@@ -54,7 +54,7 @@ fn sound_grains(grains: &Particles, scenario: &Scenario) -> Result<(), Fault> {
     ensure(names.iter().zip(0_u32..).all(|(name, due)| *name == due), || {
         "grains: names are not 0, 1, 2 ...".to_owned()
     })?;
-    let materials = scenario.materials.len();
+    let materials = settings.materials.len();
     let holds = grains.material.iter().all(|number| (*number as usize) < materials);
     ensure(holds, || format!("grains: there are {materials} materials"))
 }
@@ -75,8 +75,8 @@ fn sound_bonds(bonds: &[Bond], grains: &Particles) -> Result<(), Fault> {
 }
 
 /// Rays in flight with their pulses, among `n` grains.
-pub(super) fn sound_flight(flight: &Flight, scenario: &Scenario, n: usize) -> Result<(), Fault> {
-    let beams = scenario.acoustics.as_ref().map_or(0, |acoustics| acoustics.beams.len());
+pub(super) fn sound_flight(flight: &Flight, settings: &Settings, n: usize) -> Result<(), Fault> {
+    let beams = settings.acoustics.as_ref().map_or(0, |acoustics| acoustics.beams.len());
     for pulse in flight.pulses() {
         finite("pulse", pulse)?;
         let counts = [pulse.reflections, pulse.segments].iter().all(|count| *count < MOST_COUNTED);

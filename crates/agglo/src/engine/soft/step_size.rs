@@ -22,37 +22,35 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::pass::contact_pace;
 use crate::contact::{Bonds, ContactLaws, Damping, Friction, Normal, Touch, normal::Hertz};
-use crate::engine::Engine;
 use crate::math::{Pace, parallel};
-use crate::scenario::Scenario;
 
 use super::laws::source;
+use super::settings::Settings;
 use super::system::{LEAF, System};
+use super::types::Scheme;
 
 /// Deepest overlap strain that is reckoned with, whatever the limits allow.
 const DEEPEST: f64 = 0.5;
 
-/// The first step [s] of a scenario.
-pub fn first(scenario: &Scenario, system: &System) -> f64 {
-    match &scenario.engine {
-        Engine::Staggered(scheme) => scheme.initial_step.si(),
-        Engine::Verlet(scheme) => match scheme.step {
+/// The first step [s].
+pub fn first(settings: &Settings, system: &System) -> f64 {
+    match &settings.scheme {
+        Scheme::Staggered(scheme) => scheme.initial_step.si(),
+        Scheme::Verlet(scheme) => match scheme.step {
             Some(step) => step.si(),
-            None => (scheme.safety * critical(scenario, system)).min(longest(scenario)),
+            None => (scheme.safety * critical(settings, system)).min(longest(settings)),
         },
-        // Hard spheres have no forces that bound a step.
-        Engine::EventDriven(_) | Engine::TimeStepped(_) => scenario.time.end.si(),
     }
 }
 
 /// Longest automatic step [s]: a hundredth of the run.
-pub fn longest(scenario: &Scenario) -> f64 {
-    scenario.time.end.si() / 100.0
+pub fn longest(settings: &Settings) -> f64 {
+    settings.end / 100.0
 }
 
 /// The critical step [s] of explicit integration from the start on; infinite where nothing is fast.
-pub fn critical(scenario: &Scenario, system: &System) -> f64 {
-    let allowed = Some(scenario.limits.strain);
+pub fn critical(settings: &Settings, system: &System) -> f64 {
+    let allowed = Some(settings.limits.strain);
     Paces::new(system, allowed, 0.0).total().critical_step()
 }
 

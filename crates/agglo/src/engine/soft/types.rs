@@ -3,25 +3,15 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::engine::Engine;
 use crate::units::Time;
 
 /// The schemes of soft spheres.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Scheme {
+pub enum Scheme {
+    /// The staggered implicit scheme of [A] 31-34 with adaptive steps.
     Staggered(Staggered),
+    /// Explicit velocity Verlet.
     Verlet(Verlet),
-}
-
-impl Scheme {
-    /// The scheme of an engine of soft spheres.
-    pub fn of(engine: &Engine) -> Option<Self> {
-        match engine {
-            Engine::Staggered(scheme) => Some(Self::Staggered(scheme.clone())),
-            Engine::Verlet(scheme) => Some(Self::Verlet(scheme.clone())),
-            Engine::EventDriven(_) | Engine::TimeStepped(_) => None,
-        }
-    }
 }
 
 /// The staggered implicit scheme.

@@ -65,6 +65,7 @@ pub fn of_rays(beams: &[Beam], medium: &Medium, grains: &Particles) -> Vec<Strin
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::engine::soft::Settings;
     use crate::scenario::Scenario;
     use crate::units::Frequency;
 
@@ -80,7 +81,7 @@ mod tests {
         );
         let scenario = Scenario::from_toml(&text).unwrap();
         let grains = crate::packing::place(&scenario, std::path::Path::new("")).unwrap();
-        of_drag(&Laws::new(&scenario, &grains), &grains, 0.0)
+        of_drag(&Laws::new(&Settings::try_from(&scenario).unwrap(), &grains), &grains, 0.0)
     }
 
     /// Half a per cent below and above the bounds.

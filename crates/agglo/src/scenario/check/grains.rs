@@ -10,7 +10,8 @@ use crate::folder::RunFolder;
 use crate::packing::{GrainList, LengthRatio, Placement, Size, VelocitySpread};
 use crate::record::door;
 use crate::scenario::figures::{readable, told_apart};
-use crate::scenario::types::{GrainGroup, Scenario};
+use crate::packing::GrainGroup;
+use crate::scenario::types::Scenario;
 use crate::units::Length;
 
 /// Moments of a lognormal distribution go with the square of the logarithm of this.

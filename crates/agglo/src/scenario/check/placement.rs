@@ -4,7 +4,8 @@ use super::{Check, shown};
 use crate::domain::{Region, Volume};
 use crate::packing::{Fill, Lattice, Placement, RandomAddition, SATURATION, Size};
 use crate::scenario::figures::{digits, told_apart};
-use crate::scenario::types::{GrainGroup, Scenario};
+use crate::packing::GrainGroup;
+use crate::scenario::types::Scenario;
 use crate::units::Length;
 
 pub(super) fn check(check: &mut Check, key: &str, group: &GrainGroup, scenario: &Scenario) {

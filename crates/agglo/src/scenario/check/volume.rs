@@ -5,7 +5,8 @@ use crate::domain::{Boundary, Region, Volume, resolution};
 use crate::math::Vec3;
 use crate::packing::{GrainList, Placement};
 use crate::scenario::figures::readable;
-use crate::scenario::types::{GrainGroup, Scenario};
+use crate::packing::GrainGroup;
+use crate::scenario::types::Scenario;
 use crate::units::{Length, Triple, vector};
 
 /// Lists with more positions than this are held to overlaps when they are placed, where cells make that cheap.

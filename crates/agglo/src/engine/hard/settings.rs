@@ -1,0 +1,37 @@
+//! What a simulation of hard spheres is told besides its grains: the driver, the control volume, the laws of impact.
+
+use std::collections::BTreeMap;
+
+use crate::domain::Volume;
+use crate::impact::Impact;
+use crate::particles::{Material, Mixture};
+
+use super::types::{EventDriven, TimeStepped};
+
+/// All that a simulation of hard spheres follows from, but for its grains.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// Seed of all random numbers.
+    pub seed: u64,
+    /// Simulated time at the end [s].
+    pub end: f64,
+    /// What drives time.
+    pub driver: Driver,
+    /// The control volume.
+    pub volume: Volume,
+    /// Materials by name; a grain's number of its material is the place in this map.
+    pub materials: BTreeMap<String, Material>,
+    /// What pairs of materials have in common, where it differs from the laws.
+    pub mixtures: Vec<Mixture>,
+    /// Laws of impact.
+    pub impact: Impact,
+}
+
+/// What drives time.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Driver {
+    /// From impact to impact, each at its exact time.
+    EventDriven(EventDriven),
+    /// Steps that are as long as gaps allow, [B] 6.14.
+    TimeStepped(TimeStepped),
+}

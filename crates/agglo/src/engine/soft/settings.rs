@@ -1,0 +1,81 @@
+//! What a simulation of soft spheres is told besides its grains: laws, medium, beams, bounds and scheme.
+
+use std::collections::BTreeMap;
+
+use crate::acoustics::{Acoustics, Medium};
+use crate::contact::bond::Beam;
+use crate::contact::{Bonds, ContactLaws};
+use crate::fields::Fields;
+use crate::particles::{Material, Mixture};
+use crate::units::{Time, Velocity};
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::step_size;
+use super::tempo::Tempo;
+use super::types::{Limits, Scheme};
+
+/// All that a simulation of soft spheres follows from, but for its grains.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// Seed of all random numbers.
+    pub seed: u64,
+    /// Simulated time at the end [s].
+    pub end: f64,
+    /// How time is stepped.
+    pub scheme: Scheme,
+    /// Bounds on motion and overlap.
+    pub limits: Limits,
+    /// The fluid around the grains.
+    pub medium: Medium,
+    /// Materials by name; a grain's number of its material is the place in this map.
+    pub materials: BTreeMap<String, Material>,
+    /// What pairs of materials have in common, where it differs from the laws.
+    pub mixtures: Vec<Mixture>,
+    /// Radius of the smallest grain that there can be [m], which the flow of the medium is resolved for; that of the grains
+    /// which are there if left out.
+    pub smallest_radius: Option<f64>,
+    /// Lets the grains come to rest first; not if left out.
+    pub relax: Option<Relaxation>,
+    /// Laws of contact; grains pass through one another without them.
+    pub contact: Option<ContactLaws>,
+    /// What holds grains together.
+    pub bonds: Option<Bonds>,
+    /// Fields.
+    pub fields: Fields,
+    /// Acoustic beams.
+    pub acoustics: Option<Acoustics>,
+}
+
+impl Settings {
+    /// The law of bonds between grains, where that is the one that bonds them.
+    pub(super) fn beam(&self) -> Option<&Beam> {
+        match &self.bonds {
+            Some(Bonds::Beam(law)) => Some(law),
+            _ => None,
+        }
+    }
+
+    /// The automatic step, where none is given.
+    pub(super) fn tempo(&self) -> Option<Tempo> {
+        match &self.scheme {
+            Scheme::Verlet(scheme) if scheme.step.is_none() => {
+                Some(Tempo::new(scheme.safety, step_size::longest(self)))
+            }
+            _ => None,
+        }
+    }
+}
+
+/// Rest before the clock starts: without rays and drag, with velocities damped away.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Relaxation {
+    /// At rest when no grain is faster.
+    pub speed: Velocity,
+    /// An error if it takes longer (simulated time).
+    pub longest: Time,
+    /// Time in which free motion dies away.
+    pub damping_time: Time,
+}
