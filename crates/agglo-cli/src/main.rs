@@ -25,9 +25,9 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use agglo::forecast::Plan;
-use agglo::record::visible;
 use agglo::scenario::{TEMPLATES, nearest_template, schema, template};
 use agglo::search::campaign_schema;
+use agglo::text::visible;
 use clap::Parser;
 
 use arguments::{Arguments, Verb};

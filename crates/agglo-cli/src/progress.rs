@@ -4,11 +4,11 @@ use std::collections::BTreeSet;
 use std::io::{self, IsTerminal, Write};
 use std::time::{Duration, Instant};
 
-use agglo::record::visible;
 use agglo::render::FilmProgress;
 use agglo::run::Progress;
-use agglo::scenario::readable;
 use agglo::search::campaign::CampaignProgress;
+use agglo::text::readable;
+use agglo::text::visible;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 const BETWEEN_LINES: Duration = Duration::from_secs(10);

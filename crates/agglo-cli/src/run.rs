@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use agglo::run::{Ending, Observer, Progress, RunError, Summary};
-use agglo::scenario::readable;
+use agglo::text::readable;
 use agglo::units::{Quantity, Time, parse_quantity};
 
 use crate::arguments::{Orders, ResumeOrders, RunOrders};

@@ -7,6 +7,7 @@
 extern crate agglo_testing;
 
 pub mod constants;
+pub mod text;
 pub mod units;
 
 pub mod math;

@@ -1,7 +1,7 @@
 //! How the dashboard looks.
 
-use agglo::record::visible;
-use agglo::scenario::readable;
+use agglo::text::readable;
+use agglo::text::visible;
 use agglo::watch::{Curve, Sight};
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};

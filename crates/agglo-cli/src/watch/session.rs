@@ -8,8 +8,8 @@ use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use agglo::record::visible;
 use agglo::run::{Progress, Summary};
+use agglo::text::visible;
 use agglo::watch::{Follower, Sight, WatchError};
 use ratatui::DefaultTerminal;
 use ratatui::crossterm::event::{self, Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers};

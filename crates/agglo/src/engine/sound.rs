@@ -7,7 +7,7 @@
 use serde::Serialize;
 
 use crate::math::Vec3;
-use crate::record::not_finite;
+use crate::text::not_finite;
 
 /// Why a state is refused.
 pub type Fault = String;

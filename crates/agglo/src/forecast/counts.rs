@@ -6,9 +6,9 @@ use std::path::Path;
 use super::Plan;
 use crate::domain::{Region, Volume};
 use crate::folder::RunFolder;
+use crate::packing::GrainGroup;
 use crate::packing::{Lattice, LatticeKind, Placement, SATURATION};
 use crate::record::door;
-use crate::packing::GrainGroup;
 use crate::scenario::Scenario;
 use crate::units::Time;
 

@@ -9,9 +9,9 @@ use std::f64::consts::PI;
 use std::ops::Range;
 
 use crate::math::Vec3;
+use crate::packing::GrainGroup;
 use crate::packing::VelocitySpread;
 use crate::particles::Particles;
-use crate::packing::GrainGroup;
 use crate::scenario::Scenario;
 use crate::units::vector;
 

@@ -12,11 +12,11 @@ use crate::impact::heat::Balance;
 use crate::impact::restitution::hardness::{ForceTime, Hardness, Solver};
 use crate::impact::tangential::SlipLimit;
 use crate::impact::{Impact, Restitution, Sticking, softening};
+use crate::packing::GrainGroup;
 use crate::particles::Material;
 use crate::run::{Rehearsal, Summary};
-use crate::scenario::figures::{digits, readable};
-use crate::packing::GrainGroup;
 use crate::scenario::{Measures, Scenario};
+use crate::text::{digits, readable};
 
 /// Impacts whose number says something of those to come.
 const ENOUGH_IMPACTS: u64 = 30;

@@ -24,7 +24,7 @@ use crate::packing::PackingError;
 use crate::particles::Particles;
 use crate::run::{Origin, Rehearsal, RunError, rehearse};
 use crate::scenario::Scenario;
-use crate::scenario::figures::{digits, readable, two_digits};
+use crate::text::{digits, readable, two_digits};
 use gas::Gas;
 pub use room::{Demand, Room};
 pub(crate) use room::{refuse_quiet, refuse_run};

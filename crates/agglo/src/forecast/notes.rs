@@ -10,10 +10,10 @@ use crate::contact::{Bonds, Friction, Normal};
 use crate::fields::DragLaw;
 use crate::fields::near_field::{NearFieldLaw, Scaling};
 use crate::math::Vec3;
-use crate::packing::Placement;
-use crate::scenario::figures::{digits, readable};
 use crate::packing::GrainGroup;
+use crate::packing::Placement;
 use crate::scenario::Scenario;
+use crate::text::{digits, readable};
 use crate::units::vector;
 
 /// Below this wave number times radius, sound goes around grains instead of being reflected as rays.

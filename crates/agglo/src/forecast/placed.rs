@@ -6,7 +6,7 @@ use crate::engine::Start;
 use crate::engine::soft::{truncation, warning_of_bonds};
 use crate::particles::Particles;
 use crate::scenario::Scenario;
-use crate::scenario::figures::digits;
+use crate::text::digits;
 
 pub(super) fn notes(notes: &mut Vec<String>, scenario: &Scenario, start: &Start) {
     let grains = &start.grains;

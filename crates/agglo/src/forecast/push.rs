@@ -11,7 +11,7 @@ use crate::engine::soft::{FirstPulse, Settings};
 use crate::math::Vec3;
 use crate::particles::{Material, Particles};
 use crate::scenario::Scenario;
-use crate::scenario::figures::{digits, readable};
+use crate::text::{digits, readable};
 use crate::units::Quantity;
 
 /// More rays than this are not followed: as many carry the power of all.

@@ -10,7 +10,7 @@ use crate::engine::Engine;
 use crate::packing::PackingError;
 use crate::record::door;
 use crate::scenario::Scenario;
-use crate::scenario::figures::{digits, readable, two_digits};
+use crate::text::{digits, readable, two_digits};
 
 /// A pulse that is due, and its books once it has flown.
 const BYTES_PER_PULSE: f64 = 160.0;

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use crate::scenario::figures::two_digits;
-use crate::scenario::{readable, told_apart};
+use crate::text::two_digits;
+use crate::text::{readable, told_apart};
 
 /// Solid fraction at which random sequential addition of equal spheres comes to its end.
 pub const SATURATION: f64 = 0.382;

@@ -9,8 +9,8 @@ use crate::engine::Engine;
 use crate::engine::hard::EventDriven;
 use crate::math::Vec3;
 use crate::math::rng::{Purpose, Stream};
-use crate::particles::{Particles, Row};
 use crate::packing::GrainGroup;
+use crate::particles::{Particles, Row};
 use crate::scenario::Scenario;
 use crate::units::Quantity;
 

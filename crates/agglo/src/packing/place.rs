@@ -90,11 +90,7 @@ fn place_all(
 ///
 /// # Errors
 /// [`PackingError`] where grains are too far out, at one place, overlap as hard spheres or are out of their volume.
-pub fn make_ready(
-    asked: &Groups<'_>,
-    grains: &mut Particles,
-    may_overlap: bool,
-) -> Result<(), PackingError> {
+pub fn make_ready(asked: &Groups<'_>, grains: &mut Particles, may_overlap: bool) -> Result<(), PackingError> {
     refuse_far(grains)?;
     refuse_coincident(grains)?;
     if let Spheres::Hard { may_leave } = asked.spheres {

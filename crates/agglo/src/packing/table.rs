@@ -7,7 +7,8 @@ use std::path::Path;
 
 use super::error::PackingError;
 use crate::math::Vec3;
-use crate::record::{cell, door};
+use crate::record::door;
+use crate::text::cell;
 use crate::units::{Dimension, Length, Temperature, Velocity, kind_of};
 
 /// A row of a table: what it does not say is `None`.

@@ -8,8 +8,8 @@ use std::path::Path;
 use super::*;
 use crate::domain::{Ball, Block, Cylinder, Region};
 use crate::math::Vec3;
-use crate::particles::{Material, Particles, Softening};
 use crate::packing::GrainGroup;
+use crate::particles::{Material, Particles, Softening};
 use crate::scenario::Scenario;
 use crate::units::Quantity;
 

@@ -1,7 +1,7 @@
 //! What an axis stands for.
 
 use super::scale::Scale;
-use crate::record::number;
+use crate::text::number;
 
 /// What an axis stands for: a quantity with its unit, or a choice from a list.
 #[derive(Clone, Debug, Default, PartialEq)]

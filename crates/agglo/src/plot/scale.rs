@@ -160,7 +160,7 @@ fn superscript(power: i32) -> String {
 
 /// A number and its error, to two digits of the error.
 pub(super) fn with_error(value: f64, error: f64) -> String {
-    let text = crate::scenario::with_error(value, error);
+    let text = crate::text::with_error(value, error);
     text.split(" +- ").map(typeset).collect::<Vec<_>>().join(" ± ")
 }
 

@@ -25,8 +25,9 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use super::atomic::{self, Durability};
-use super::{RecordError, cell, door};
+use super::{RecordError, door};
 use crate::folder::files;
+use crate::text::cell;
 
 const MAGIC: &[u8; 8] = b"AGGLO\r\n\x8a";
 const FORMAT: u32 = 3;

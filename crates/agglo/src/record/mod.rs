@@ -7,13 +7,9 @@ pub mod checkpoint;
 pub mod door;
 mod error;
 pub mod frames;
-mod number;
+mod json;
 mod series;
-mod visible;
 
 pub use error::RecordError;
-#[cfg(test)]
-pub(crate) use number::AWKWARD;
-pub use number::{Number, fractional, json, not_finite, number};
+pub use json::json;
 pub use series::{Cell, Opened, Series};
-pub use visible::{cell, visible};

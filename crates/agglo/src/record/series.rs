@@ -5,8 +5,9 @@ use std::fs::{File, OpenOptions};
 use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use super::{Number, RecordError, atomic};
+use super::{RecordError, atomic};
 use crate::folder::{Mark, Marking, files};
+use crate::text::Number;
 
 /// An entry of a row that mixes numbers and words.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -181,7 +182,7 @@ impl Opened {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::record::AWKWARD;
+    use crate::text::AWKWARD;
 
     fn read(path: &Path) -> Vec<Vec<f64>> {
         let text = std::fs::read_to_string(path).unwrap();

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::table::Table;
-use crate::scenario::readable;
+use crate::text::readable;
 
 /// Rows of a table that a chart shows at the most.
 const MOST_ROWS: usize = 2_000;

@@ -3,7 +3,7 @@
 use super::folder::Folder;
 use crate::engine::soft::Limits;
 use crate::run::{HardSummary, SoftSummary, Summary};
-use crate::scenario::readable;
+use crate::text::readable;
 
 /// A few sentences on what a run came to.
 pub fn story(summary: &Summary) -> String {

@@ -8,7 +8,8 @@ use crate::engine::SimError;
 use crate::folder::FolderError;
 use crate::packing::PackingError;
 use crate::record::RecordError;
-use crate::scenario::{Faults, readable};
+use crate::scenario::Faults;
+use crate::text::readable;
 
 /// Why a run ended early.
 #[derive(Debug, Error)]

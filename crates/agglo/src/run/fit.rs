@@ -8,8 +8,9 @@ use super::RunError;
 use super::job::AnySaved;
 use crate::folder::{RunFolder, files};
 use crate::record::checkpoint::{self, Refused};
-use crate::record::{Opened, RecordError, cell, door};
+use crate::record::{Opened, RecordError, door};
 use crate::scenario::Scenario;
+use crate::text::cell;
 
 /// Keys that a message names at the most.
 const MOST_KEYS: usize = 6;

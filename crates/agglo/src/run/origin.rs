@@ -9,11 +9,14 @@ use super::soft::Soft;
 use crate::contact::{Bonds, Friction};
 use crate::engine::{SimError, Start};
 use crate::folder::RunFolder;
-use crate::packing::{ConstantSize, GrainGroup, Groups, PackingError, PlaceWatch, Placement, Size, Table, UniformSize};
+use crate::packing::{
+    ConstantSize, GrainGroup, Groups, PackingError, PlaceWatch, Placement, Size, Table, UniformSize,
+};
 use crate::packing::{make_ready, place_groups_watched};
 use crate::particles::{Material, Particles};
 use crate::record::checkpoint;
-use crate::scenario::{Scenario, fault_of_cutoff, readable};
+use crate::scenario::{Scenario, fault_of_cutoff};
+use crate::text::readable;
 use crate::units::Quantity;
 
 /// The grains of a run before its clock starts.

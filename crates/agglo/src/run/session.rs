@@ -10,7 +10,8 @@ use crate::engine::soft::Resting;
 use crate::folder::RunFolder;
 use crate::record::checkpoint::{self, Refused};
 use crate::record::{Opened, atomic};
-use crate::scenario::{Scenario, readable};
+use crate::scenario::Scenario;
+use crate::text::readable;
 
 use super::job::{Job, Saved};
 use super::recorder::Recorder;

@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::engine::SimError;
-use crate::record::{json, not_finite};
-use crate::scenario::readable;
+use crate::record::json;
+use crate::text::not_finite;
+use crate::text::readable;
 
 use super::hard::HardSummary;
 use super::soft::SoftSummary;

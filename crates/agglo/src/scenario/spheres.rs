@@ -50,7 +50,8 @@ impl TryFrom<&Scenario> for hard::Settings {
             Engine::Staggered(_) | Engine::Verlet(_) => None,
         };
         let (Some(driver), Some(volume), Some(impact)) = (driver, &scenario.volume, &scenario.impact) else {
-            let needed = "hard spheres need engine.event_driven or engine.time_stepped, [volume] and [impact]";
+            let needed =
+                "hard spheres need engine.event_driven or engine.time_stepped, [volume] and [impact]";
             return Err(SimError::OtherSpheres(needed));
         };
         Ok(Self {

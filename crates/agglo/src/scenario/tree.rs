@@ -5,7 +5,7 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::record::{Number, cell};
+use crate::text::{Number, cell};
 
 /// Where a value stands: source 0 is the file, source k the k-th setting.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

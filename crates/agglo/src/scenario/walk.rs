@@ -9,7 +9,7 @@ use super::enums::walk_enum;
 use super::fault::{Fault, nearest};
 use super::scalars::{walk_integer, walk_number, walk_scalar, walk_text};
 use super::tree::{Entry, Node, Place, Value};
-use crate::record::cell;
+use crate::text::cell;
 
 /// Nearest words are looked for so often: the rest of a file of unknown keys is not understood either.
 const MOST_LOOKED: usize = 200;

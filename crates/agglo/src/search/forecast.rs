@@ -11,7 +11,7 @@ use super::model::Model;
 use super::optimiser::{Method, Point, Sobol};
 use super::problem::Problem;
 use crate::forecast::{Effort, Plan, duration};
-use crate::scenario::readable;
+use crate::text::readable;
 
 /// Candidates whose forecasts stand for all.
 const SAMPLED: usize = 8;

@@ -2,8 +2,8 @@
 
 use serde_json::{Map, Number, Value as Json};
 
-use crate::record::{fractional, number as text};
 use crate::scenario::KeyKind;
+use crate::text::{fractional, number as text};
 
 /// A key of a scenario and what it can be set to.
 #[derive(Clone, Debug)]

@@ -18,7 +18,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Error, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use crate::record::Number;
+use crate::text::Number;
 
 /// A value in SI units whose dimension kg^KG m^M s^S K^K A^A is part of its type.
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]

@@ -9,7 +9,7 @@
 use thiserror::Error;
 
 use super::{Dimension, Kind, kind_of};
-use crate::record::cell;
+use crate::text::cell;
 
 /// Why a text is not the quantity that was asked for.
 #[derive(Clone, Debug, Error, PartialEq)]

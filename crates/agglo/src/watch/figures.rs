@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::tail::Tail;
 use crate::record::RecordError;
-use crate::scenario::readable;
+use crate::text::readable;
 
 /// A figure of the newest row.
 #[derive(Clone, Debug, PartialEq)]

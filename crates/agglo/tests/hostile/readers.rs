@@ -11,12 +11,12 @@ use std::time::Duration;
 use agglo::forecast::{Effort, Plan};
 use agglo::packing;
 use agglo::record::frames::{Collection, Frame};
-use agglo::record::visible;
 use agglo::render::{Options, Reel, Studio};
 use agglo::report::Report;
 use agglo::run;
 use agglo::scenario::{Faults, Scenario};
 use agglo::search::{self, Campaign};
+use agglo::text::visible;
 use agglo::watch::{Figure, Follower};
 
 use crate::seeds;

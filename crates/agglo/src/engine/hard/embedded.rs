@@ -181,8 +181,8 @@ impl Microscale {
         let mut state = self.rows(grains);
         check(&state, self.materials.len())?;
         if grains.positions.is_empty() {
-            state.grains.position =
-                fill_with(&grains.radii, &self.settings.volume, self.settings.seed).map_err(EmbeddedError::NoRoom)?;
+            state.grains.position = fill_with(&grains.radii, &self.settings.volume, self.settings.seed)
+                .map_err(EmbeddedError::NoRoom)?;
         }
         check_places(&state.grains, &self.settings.volume)?;
         Ok(state)

@@ -6,7 +6,8 @@ use std::path::{Component, Path};
 use serde::{Deserialize, Serialize};
 
 use super::polydata::escaped;
-use crate::record::{Number, RecordError, atomic, cell, door};
+use crate::record::{RecordError, atomic, door};
+use crate::text::{Number, cell};
 
 /// The frames written so far. It belongs into checkpoints, so that a resumed run goes on with the same list.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -89,7 +90,7 @@ fn fault_of_name(file: &str) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::record::AWKWARD;
+    use crate::text::AWKWARD;
 
     #[test]
     fn awkward_times_come_back() {

@@ -7,8 +7,9 @@ use std::path::Path;
 use crate::folder::Mark;
 use crate::math::Vec3;
 use crate::particles::ColumnValues;
+use crate::record::RecordError;
 use crate::record::atomic::{self, Durability};
-use crate::record::{Number, RecordError};
+use crate::text::Number;
 
 /// A named quantity, one value per point or per line.
 #[derive(Clone, Debug)]

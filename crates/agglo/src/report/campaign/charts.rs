@@ -3,8 +3,8 @@
 use super::folder::Folder;
 use crate::report::chart::{Axis, Chart, Dimension, Kind, Series};
 use crate::report::sheet::Sheet;
-use crate::scenario::{column, readable};
 use crate::search::optimiser::Method;
+use crate::text::{column, readable};
 
 /// How many of the best make a mean, where the method does not say how many parents it has.
 const BEST: usize = 6;

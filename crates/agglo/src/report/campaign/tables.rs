@@ -4,7 +4,7 @@ use super::folder::Folder;
 use crate::folder::CampaignFolder;
 use crate::report::Figures;
 use crate::report::sheet::Sheet;
-use crate::scenario::column;
+use crate::text::column;
 
 /// Rows of failures at the most.
 const MOST_FAILURES: usize = 50;

@@ -13,7 +13,7 @@ use serde::Serialize;
 use super::columns::{Column, SIZES, known};
 use super::html::deflated;
 use crate::record::frames::Frame;
-use crate::scenario::readable;
+use crate::text::readable;
 use block::{Block, FramePlan};
 use scene::Scene;
 use thinning::{Choice, MOST_BYTES};

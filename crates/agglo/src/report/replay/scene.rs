@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::record::RecordError;
 use crate::record::frames::{FieldValues, Frame};
-use crate::record::{RecordError, cell};
 use crate::report::columns::NAMES;
+use crate::text::cell;
 
 /// No number of a frame is as large in SI units.
 const LARGEST: f64 = 1e30;

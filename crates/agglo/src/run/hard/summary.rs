@@ -8,7 +8,8 @@ use crate::engine::hard::Simulation;
 use crate::engine::hard::books::{Balance, Counts};
 use crate::engine::soft::Limits;
 use crate::run::summary::{time_row, wall_row, warnings_row};
-use crate::scenario::{Scenario, readable};
+use crate::scenario::Scenario;
+use crate::text::readable;
 
 use super::growth::Growth;
 use super::scales::Scales;

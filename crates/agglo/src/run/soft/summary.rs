@@ -8,7 +8,7 @@ use crate::acoustics::{BeamPower, PulseCount};
 use crate::engine::soft::{Pulses, Simulation};
 use crate::measure::Balance;
 use crate::run::summary::{time_row, wall_row, warnings_row};
-use crate::scenario::readable;
+use crate::text::readable;
 
 use super::together::dispersion_since;
 

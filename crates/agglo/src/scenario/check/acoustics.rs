@@ -5,8 +5,8 @@ use super::contact::needs;
 use crate::acoustics::{Acoustics, Beam, Profile, RayForce, Strength};
 use crate::math::Vec3;
 use crate::packing::{Placement, Size};
-use crate::scenario::figures::told_apart;
 use crate::scenario::types::Scenario;
+use crate::text::told_apart;
 use crate::units::vector;
 
 pub(super) fn check(check: &mut Check, scenario: &Scenario) {

@@ -3,8 +3,8 @@
 use super::{Check, HIGHEST_EXPONENT};
 use crate::fields::near_field::NearFieldLaw;
 use crate::fields::{Drag, NearField};
-use crate::scenario::figures::told_apart;
 use crate::scenario::types::Scenario;
+use crate::text::told_apart;
 
 pub(super) fn check(check: &mut Check, scenario: &Scenario) {
     let fields = &scenario.fields;

@@ -7,11 +7,11 @@ use super::materials::named;
 use super::{Check, placement};
 use crate::domain::Volume;
 use crate::folder::RunFolder;
+use crate::packing::GrainGroup;
 use crate::packing::{GrainList, LengthRatio, Placement, Size, VelocitySpread};
 use crate::record::door;
-use crate::scenario::figures::{readable, told_apart};
-use crate::packing::GrainGroup;
 use crate::scenario::types::Scenario;
+use crate::text::{readable, told_apart};
 use crate::units::Length;
 
 /// Moments of a lognormal distribution go with the square of the logarithm of this.

@@ -4,8 +4,8 @@ use super::Check;
 use crate::contact::{Damping, Friction};
 use crate::particles::{Material, Mixture};
 use crate::scenario::fault::nearest;
-use crate::scenario::figures::told_apart;
 use crate::scenario::types::Scenario;
+use crate::text::told_apart;
 use crate::units::{Kind, Stiffness, kind_of};
 
 pub(super) fn check(check: &mut Check, scenario: &Scenario) {

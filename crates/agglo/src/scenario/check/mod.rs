@@ -16,10 +16,10 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::fault::Fault;
-use super::figures::{readable, told_apart};
 use super::types::Scenario;
 use crate::domain::Region;
 use crate::math::Vec3;
+use crate::text::{readable, told_apart};
 use crate::units::{Dimension, KINDS, Kind, Length, Quantity, Triple, kind_of};
 
 /// Everything that is wrong with a scenario whose form is right; the keys are paths in it.

@@ -2,10 +2,10 @@
 
 use super::{Check, shown};
 use crate::domain::{Region, Volume};
-use crate::packing::{Fill, Lattice, Placement, RandomAddition, SATURATION, Size};
-use crate::scenario::figures::{digits, told_apart};
 use crate::packing::GrainGroup;
+use crate::packing::{Fill, Lattice, Placement, RandomAddition, SATURATION, Size};
 use crate::scenario::types::Scenario;
+use crate::text::{digits, told_apart};
 use crate::units::Length;
 
 pub(super) fn check(check: &mut Check, key: &str, group: &GrainGroup, scenario: &Scenario) {

@@ -3,8 +3,8 @@
 use super::Check;
 use crate::engine::Engine;
 use crate::engine::hard::TimeStepped;
-use crate::scenario::figures::told_apart;
 use crate::scenario::types::Scenario;
+use crate::text::told_apart;
 
 pub(super) fn check(check: &mut Check, scenario: &Scenario) {
     if scenario.version != 1 {

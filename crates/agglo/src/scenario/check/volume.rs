@@ -3,10 +3,10 @@
 use super::{Check, shown};
 use crate::domain::{Boundary, Region, Volume, resolution};
 use crate::math::Vec3;
-use crate::packing::{GrainList, Placement};
-use crate::scenario::figures::readable;
 use crate::packing::GrainGroup;
+use crate::packing::{GrainList, Placement};
 use crate::scenario::types::Scenario;
+use crate::text::readable;
 use crate::units::{Length, Triple, vector};
 
 /// Lists with more positions than this are held to overlaps when they are placed, where cells make that cheap.

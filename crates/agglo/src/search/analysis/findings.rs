@@ -3,8 +3,8 @@
 use super::evaluations::Target;
 use super::refinement::{Difference, LEVEL, Starts, Verdict, differences, settled};
 use super::{Evaluations, elementary_effects, variance_shares, varies};
-use crate::scenario::readable;
 use crate::search::plan::Plan;
+use crate::text::readable;
 
 /// Names of parameters that a sentence lists at the most.
 const NAMED: usize = 6;

@@ -2,8 +2,8 @@
 
 use super::refinement::{Convergence, Difference, differences, observed_order, settled};
 use super::{Axis, Evaluations, elementary_effects, variance_shares};
-use crate::record::number;
 use crate::search::plan::Plan;
+use crate::text::number;
 
 /// Mean, standard error, standard deviation and number of starts of each measure, one line for each candidate; columns
 /// `<measure>`, `<measure>_standard_error`, `<measure>_standard_deviation`.

@@ -4,8 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use super::*;
 use crate::math::rng::{Purpose, Stream};
-use crate::record::AWKWARD;
 use crate::search::plan::{Morris, Plan, Refinement, SobolIndices};
+use crate::text::AWKWARD;
 
 /// Sobol' indices and elementary effects of a constant, of one with round-off on it, and of one with true differences.
 #[test]

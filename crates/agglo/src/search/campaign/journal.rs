@@ -18,8 +18,9 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use crate::folder::files;
-use crate::record::{Number, RecordError, atomic, cell, door};
+use crate::record::{RecordError, atomic, door};
 use crate::search::pool::Finished;
+use crate::text::{Number, cell};
 
 /// What a start came to in an earlier sitting.
 #[derive(Clone, Debug, PartialEq)]
@@ -229,7 +230,7 @@ mod tests {
 
     fn written(path: &Path) -> BTreeMap<(u64, u32), Entry> {
         let mut figures = vec![0.1 + 0.2, -0.0, f64::INFINITY, 1e-300];
-        figures.extend(crate::record::AWKWARD);
+        figures.extend(crate::text::AWKWARD);
         let (journal, past) = open(path);
         assert_eq!(past, Past::default());
         let outcomes: [Result<&[f64], &str>; 4] =

@@ -7,7 +7,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::Value as Json;
 
 use crate::record::json;
-use crate::scenario::{readable, with_error};
+use crate::text::{readable, with_error};
 
 /// What a campaign came to; `summary.json` holds the same.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

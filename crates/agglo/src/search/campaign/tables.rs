@@ -7,7 +7,8 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use crate::folder::files;
-use crate::record::{Number, RecordError};
+use crate::record::RecordError;
+use crate::text::Number;
 
 /// A CSV table whose cells may be words.
 #[derive(Debug)]
@@ -98,7 +99,7 @@ fn quoted(word: &str) -> Cow<'_, str> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::record::AWKWARD;
+    use crate::text::AWKWARD;
 
     #[test]
     fn awkward_numbers_come_back() {

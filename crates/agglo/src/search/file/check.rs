@@ -4,9 +4,10 @@ use std::path::Path;
 
 use super::{Campaign, Constraint, Limit};
 use crate::math::formula;
-use crate::scenario::{Fault, readable};
+use crate::scenario::Fault;
 use crate::search::optimiser::Method;
 use crate::search::{Axis, Model, Problem, Until, columns};
+use crate::text::readable;
 
 /// Everything that is wrong with a campaign whose form is right; files are relative to `folder`.
 pub(super) fn faults(campaign: &Campaign, folder: &Path) -> Vec<Fault> {

@@ -6,7 +6,7 @@ use std::fmt;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 
-use crate::record::Number;
+use crate::text::Number;
 
 /// A value as a file writes it: a number, true or false, or a text, which may be a quantity with its unit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

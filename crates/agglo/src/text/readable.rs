@@ -1,5 +1,5 @@
 //! Numbers as people read them: few digits, with the prefix that fits. The one home of that; files that programs read
-//! have [`crate::record::number`].
+//! have [`super::number`].
 
 /// Significant digits of a number that stands alone.
 const DIGITS: usize = 4;
