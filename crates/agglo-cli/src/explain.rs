@@ -1,6 +1,7 @@
 //! Pages of laws.
 
-use agglo::scenario::{PAGES, explain as page_of, nearest_law};
+use agglo::pages::{PAGES, explain as page_of};
+use agglo::scenario::nearest_law;
 
 use crate::{Failure, print};
 

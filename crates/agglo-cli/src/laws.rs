@@ -1,6 +1,6 @@
 //! The list of all laws. It is read off the laws' pages, so that there is no second one to keep.
 
-use agglo::scenario::{PAGES, Page};
+use agglo::pages::{PAGES, Page};
 
 use crate::arguments::ListForm;
 use crate::{Failure, print};

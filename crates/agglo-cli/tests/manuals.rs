@@ -10,7 +10,7 @@ use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
-use agglo::scenario::PAGES;
+use agglo::pages::PAGES;
 
 /// The verbs that `agglo --help` shows, without `help`.
 fn verbs() -> Vec<String> {

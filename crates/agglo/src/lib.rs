@@ -1,31 +1,18 @@
 //! agglo: how particulate agglomerates grow, break up and disperse.
 //!
-//! The modules stand in the order in which data flows.
+//! The modules stand in the order in which data flows. Those of the physics are of the crate `agglo-core`.
 
 #[cfg(test)]
 #[macro_use]
 extern crate agglo_testing;
 
-pub mod constants;
-pub mod text;
-pub mod units;
+pub use agglo_core::{
+    acoustics, constants, contact, domain, engine, fields, impact, math, measure, neighbors, pages,
+    particles, text, units,
+};
 
-pub mod math;
-pub mod particles;
-
-pub mod domain;
-pub mod neighbors;
 pub mod packing;
 
-pub mod contact;
-pub mod fields;
-pub mod impact;
-
-pub mod acoustics;
-
-pub mod engine;
-
-pub mod measure;
 pub mod record;
 
 pub mod folder;

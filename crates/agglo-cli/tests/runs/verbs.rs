@@ -3,7 +3,8 @@
 use std::fs;
 use std::path::Path;
 
-use agglo::scenario::{PAGES, TEMPLATES};
+use agglo::pages::PAGES;
+use agglo::scenario::TEMPLATES;
 use agglo::search::Campaign;
 
 use crate::common::{agglo, complained, ended, said};

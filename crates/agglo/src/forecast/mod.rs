@@ -20,7 +20,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use crate::engine::{SimError, Start};
-use crate::packing::PackingError;
+use crate::packing::StartError;
 use crate::particles::Particles;
 use crate::run::{Origin, Rehearsal, RunError, rehearse};
 use crate::scenario::Scenario;
@@ -79,16 +79,16 @@ impl Plan {
     /// Works out the plan; `base` is the folder that the scenario's tables are relative to.
     ///
     /// # Errors
-    /// [`PackingError`] where a run could not place its grains.
-    pub fn new(scenario: &Scenario, base: &Path) -> Result<Self, PackingError> {
+    /// [`StartError`] where a run could not place its grains.
+    pub fn new(scenario: &Scenario, base: &Path) -> Result<Self, StartError> {
         Self::with(scenario, base, Effort::default())
     }
 
     /// As [`Plan::new`], with no more effort than this.
     ///
     /// # Errors
-    /// [`PackingError`] where grains are placed and a run could not place them, or where the machine cannot hold the run.
-    pub fn with(scenario: &Scenario, base: &Path, effort: Effort) -> Result<Self, PackingError> {
+    /// [`StartError`] where grains are placed and a run could not place them, or where the machine cannot hold the run.
+    pub fn with(scenario: &Scenario, base: &Path, effort: Effort) -> Result<Self, StartError> {
         let room = Room::at(Path::new(""));
         let demand = Demand::of(scenario, base);
         demand.refuse_memory(&room, 1)?;

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use super::counts;
 use crate::engine::Engine;
-use crate::packing::PackingError;
+use crate::packing::StartError;
 use crate::record::door;
 use crate::scenario::Scenario;
 use crate::text::{digits, readable, two_digits};
@@ -85,8 +85,8 @@ impl Demand {
     /// Refuses `runs` of this at a time where they need more memory than there is.
     ///
     /// # Errors
-    /// [`PackingError::NoRoom`].
-    pub fn refuse_memory(&self, room: &Room, runs: usize) -> Result<(), PackingError> {
+    /// [`StartError::NoRoom`].
+    pub fn refuse_memory(&self, room: &Room, runs: usize) -> Result<(), StartError> {
         let needed = self.memory() * runs as f64;
         let rays = format!(", {} rays, {} pulses", digits(self.rays), digits(self.pulses));
         let times = format!(", {runs} times at once");
@@ -102,8 +102,8 @@ impl Demand {
     /// Refuses rows and frames that the disk cannot hold.
     ///
     /// # Errors
-    /// [`PackingError::NoRoom`].
-    pub fn refuse_disk(&self, room: &Room) -> Result<(), PackingError> {
+    /// [`StartError::NoRoom`].
+    pub fn refuse_disk(&self, room: &Room) -> Result<(), StartError> {
         let who = format!("{} rows and {} frames", digits(self.rows), digits(self.frames));
         refuse("disk", self.disk(), room.disk, who, LONGER)
     }
@@ -128,10 +128,10 @@ fn refuse(
     there: Option<f64>,
     who: String,
     help: &'static str,
-) -> Result<(), PackingError> {
+) -> Result<(), StartError> {
     match there {
         Some(there) if needed.is_nan() || needed > there => {
-            Err(PackingError::NoRoom { what, needed, there, who, help })
+            Err(StartError::NoRoom { what, needed, there, who, help })
         }
         _ => Ok(()),
     }
@@ -140,8 +140,8 @@ fn refuse(
 /// Refuses a run into a folder that the machine cannot hold.
 ///
 /// # Errors
-/// [`PackingError::NoRoom`].
-pub fn refuse_run(scenario: &Scenario, base: &Path, folder: &Path) -> Result<(), PackingError> {
+/// [`StartError::NoRoom`].
+pub fn refuse_run(scenario: &Scenario, base: &Path, folder: &Path) -> Result<(), StartError> {
     let (demand, room) = (Demand::of(scenario, base), Room::at(folder));
     demand.refuse_memory(&room, 1)?;
     demand.refuse_disk(&room)
@@ -150,16 +150,16 @@ pub fn refuse_run(scenario: &Scenario, base: &Path, folder: &Path) -> Result<(),
 /// Refuses so many simulations at a time, without folders, that the memory cannot hold.
 ///
 /// # Errors
-/// [`PackingError::NoRoom`].
-pub fn refuse_quiet(scenario: &Scenario, base: &Path, runs: usize) -> Result<(), PackingError> {
+/// [`StartError::NoRoom`].
+pub fn refuse_quiet(scenario: &Scenario, base: &Path, runs: usize) -> Result<(), StartError> {
     Demand::of(scenario, base).refuse_memory(&Room { memory: memory(), disk: None }, runs)
 }
 
 /// What to keep in mind of sizes [B] that a plan foresees, and a refusal of what does not fit.
 ///
 /// # Errors
-/// [`PackingError::NoRoom`].
-pub fn judge(room: &Room, memory: f64, disk: Option<f64>) -> Result<Vec<String>, PackingError> {
+/// [`StartError::NoRoom`].
+pub fn judge(room: &Room, memory: f64, disk: Option<f64>) -> Result<Vec<String>, StartError> {
     let mut notes = Vec::new();
     let of_memory = ("memory", Some(memory), room.memory, "take fewer grains, rays or pulses");
     let of_disk = ("disk", disk, room.disk, LONGER);
@@ -307,10 +307,10 @@ mod tests {
         let words = Demand::of(&scenario, Path::new("")).refuse_memory(&ROOM, 1).unwrap_err().to_string();
         assert!(words.contains("1e36 grains"), "{words}");
         let found = super::super::Plan::new(&scenario, Path::new(""));
-        assert!(matches!(found, Err(PackingError::NoRoom { .. })), "{found:?}");
+        assert!(matches!(found, Err(StartError::NoRoom { .. })), "{found:?}");
         let (_place, stop) = (Path::new(""), std::sync::atomic::AtomicBool::new(false));
         let found = crate::run::quiet(&scenario, Path::new(""), &stop);
-        assert_matches!(found, Err(crate::run::RunError::Placement(PackingError::NoRoom { .. })));
+        assert_matches!(found, Err(crate::run::RunError::Placement(StartError::NoRoom { .. })));
     }
 
     #[test]

@@ -1,28 +1,11 @@
-//! Where grains are, and how large, when the clock starts.
+//! Where grains are, and how large, when the clock starts: packing with the tables of grains that a scenario names.
 
 mod error;
-mod group;
-mod lattice;
-mod occupied;
-mod overlap;
 mod place;
-mod placement;
-mod random;
-mod room;
-mod size;
 mod table;
-mod velocity;
 
-pub use error::{PackingError, SATURATION};
-pub use group::{GrainGroup, Groups, Spheres};
-pub use overlap::{Overlap, first_overlap};
-pub use place::{PlaceWatch, make_ready, place, place_groups, place_groups_watched};
-pub use placement::{Fill, GrainList, Lattice, LatticeKind, Placement, RandomAddition, Table};
-pub use random::fill_with;
-pub use size::{ConstantSize, LengthRatio, LognormalSize, Size, SizeTable, UniformSize};
-pub use velocity::{Maxwell, UniformSpread, VelocitySpread};
+pub use agglo_core::packing::*;
 
-#[cfg(test)]
-mod hard_tests;
-#[cfg(test)]
-mod tests;
+pub use error::StartError;
+pub use place::{place, place_groups, place_groups_watched};
+pub use table::TableError;

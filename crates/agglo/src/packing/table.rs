@@ -3,26 +3,15 @@
 //! The first line names the columns: `x_m`, `y_m`, `z_m`, and optionally `radius_m`, `temperature_K` and the three
 //! `vx_m_s`, `vy_m_s`, `vz_m_s`, in any order. Lines that begin with `#` are passed over.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use super::error::PackingError;
+use thiserror::Error;
+
+use super::TableGrain;
 use crate::math::Vec3;
 use crate::record::door;
 use crate::text::cell;
 use crate::units::{Dimension, Length, Temperature, Velocity, kind_of};
-
-/// A row of a table: what it does not say is `None`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct TableGrain {
-    /// Centre [m].
-    pub position: Vec3,
-    /// Radius [m].
-    pub radius: Option<f64>,
-    /// Velocity [m/s].
-    pub velocity: Option<Vec3>,
-    /// Temperature [K].
-    pub temperature: Option<f64>,
-}
 
 const COLUMNS: [&str; 8] = ["x_m", "y_m", "z_m", "radius_m", "vx_m_s", "vy_m_s", "vz_m_s", "temperature_K"];
 /// What the columns are, each with the range of its kind.
@@ -37,22 +26,46 @@ const RADIUS: usize = 3;
 const VELOCITY: std::ops::Range<usize> = 4..7;
 const TEMPERATURE: usize = 7;
 
+/// Why a table gives no grains.
+#[derive(Debug, Error)]
+pub enum TableError {
+    /// A table that cannot be opened or read.
+    #[error("cannot read the table {file}: {source}", file = .file.display())]
+    Unreadable {
+        /// The table.
+        file: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// A table with a bad header or entry.
+    #[error("{file}, line {line}, column {column}: {reason}", file = .file.display())]
+    Table {
+        /// The table.
+        file: PathBuf,
+        /// Line, from 1.
+        line: u64,
+        /// Name of the column, or its number from 1 where it has no good name.
+        column: String,
+        /// What is wrong.
+        reason: String,
+    },
+}
+
 /// Reads the table.
 ///
 /// # Errors
-/// [`PackingError::Unreadable`] or [`PackingError::Table`] with line and column.
-pub(super) fn read(file: &Path) -> Result<Vec<TableGrain>, PackingError> {
-    let unreadable = |source| PackingError::Unreadable { file: file.to_owned(), source };
+/// [`TableError::Unreadable`] or [`TableError::Table`] with line and column.
+pub fn read(file: &Path) -> Result<Vec<TableGrain>, TableError> {
+    let unreadable = |source| TableError::Unreadable { file: file.to_owned(), source };
     parse(&door::read_text(file, door::MOST_OF_A_TABLE).map_err(unreadable)?, file)
 }
 
 /// Reads a table; `file` is for messages.
 ///
 /// Numbers need none of the finer points of CSV, and messages need exact lines, so lines are split here.
-fn parse(text: &str, file: &Path) -> Result<Vec<TableGrain>, PackingError> {
-    let fault = |line, column: String, reason| {
-        Err(PackingError::Table { file: file.to_owned(), line, column, reason })
-    };
+fn parse(text: &str, file: &Path) -> Result<Vec<TableGrain>, TableError> {
+    let fault =
+        |line, column: String, reason| Err(TableError::Table { file: file.to_owned(), line, column, reason });
     let lines = text.trim_start_matches('\u{feff}').lines().zip(1_u64..);
     let mut lines = lines.filter(|(line, _)| !line.trim().is_empty() && !line.starts_with('#'));
     let Some((header, line)) = lines.next() else {
@@ -80,9 +93,9 @@ fn entries(line: &str) -> Vec<&str> {
 }
 
 /// Where each known column stands in the table.
-fn columns(header: &[&str], file: &Path, line: u64) -> Result<[Option<usize>; COLUMNS.len()], PackingError> {
+fn columns(header: &[&str], file: &Path, line: u64) -> Result<[Option<usize>; COLUMNS.len()], TableError> {
     let fault = |column: String, reason: String| {
-        Err(PackingError::Table { file: file.to_owned(), line, column, reason })
+        Err(TableError::Table { file: file.to_owned(), line, column, reason })
     };
     let mut places = [None; COLUMNS.len()];
     for (at, name) in header.iter().enumerate() {
@@ -114,8 +127,8 @@ struct Entries<'a> {
 }
 
 impl Entries<'_> {
-    fn grain(&self) -> Result<TableGrain, PackingError> {
-        let vector = |first: usize| -> Result<Option<Vec3>, PackingError> {
+    fn grain(&self) -> Result<TableGrain, TableError> {
+        let vector = |first: usize| -> Result<Option<Vec3>, TableError> {
             let [x, y, z] = [self.number(first)?, self.number(first + 1)?, self.number(first + 2)?];
             Ok(x.zip(y).zip(z).map(|((x, y), z)| Vec3::new(x, y, z)))
         };
@@ -136,7 +149,7 @@ impl Entries<'_> {
         })
     }
 
-    fn number(&self, column: usize) -> Result<Option<f64>, PackingError> {
+    fn number(&self, column: usize) -> Result<Option<f64>, TableError> {
         let Some(text) = self.places[column].and_then(|at| self.row.get(at)) else { return Ok(None) };
         match text.parse::<f64>() {
             // Adding zero takes the sign off a negative zero.
@@ -152,9 +165,9 @@ impl Entries<'_> {
         }
     }
 
-    fn fault(&self, column: usize, reason: String) -> PackingError {
+    fn fault(&self, column: usize, reason: String) -> TableError {
         let column = COLUMNS[column].to_owned();
-        PackingError::Table { file: self.file.to_owned(), line: self.line, column, reason }
+        TableError::Table { file: self.file.to_owned(), line: self.line, column, reason }
     }
 }
 

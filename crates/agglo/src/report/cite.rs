@@ -3,7 +3,8 @@
 use toml::Value;
 
 use crate::impact::heat::Balance;
-use crate::scenario::{PAGES, Page, Scenario};
+use crate::pages::{PAGES, Page};
+use crate::scenario::Scenario;
 use crate::search::optimiser::Method;
 use crate::search::{Campaign, Plan};
 

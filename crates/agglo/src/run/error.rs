@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use crate::engine::SimError;
 use crate::folder::FolderError;
-use crate::packing::PackingError;
+use crate::packing::StartError;
 use crate::record::RecordError;
 use crate::scenario::Faults;
 use crate::text::readable;
@@ -16,7 +16,7 @@ use crate::text::readable;
 pub enum RunError {
     /// The grains cannot be placed as the scenario asks.
     #[error(transparent)]
-    Placement(#[from] PackingError),
+    Placement(#[from] StartError),
     /// A step failed.
     #[error("{error}\nThe last good checkpoint is kept in {}.", checkpoints.display())]
     Step {

@@ -36,7 +36,7 @@ pub use summary::Summary;
 
 use crate::engine::Start;
 use crate::folder::RunFolder;
-use crate::packing::PackingError;
+use crate::packing::{PackingError, StartError};
 use crate::record::{RecordError, door};
 use crate::scenario::Scenario;
 use crate::units::Time;
@@ -122,7 +122,7 @@ fn placed(scenario: &Scenario, base: &Path, observer: &mut Observer<'_>) -> Resu
         before_the_start("placing grains", scenario.time.end.si(), observer)
     };
     match Origin::of(scenario, base, &mut watch) {
-        Err(PackingError::Stopped) => {
+        Err(StartError::Placement(PackingError::Stopped)) => {
             Err(RunError::StoppedBefore("before the run began; nothing was written"))
         }
         placed => Ok(placed?),

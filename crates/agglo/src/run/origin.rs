@@ -10,7 +10,8 @@ use crate::contact::{Bonds, Friction};
 use crate::engine::{SimError, Start};
 use crate::folder::RunFolder;
 use crate::packing::{
-    ConstantSize, GrainGroup, Groups, PackingError, PlaceWatch, Placement, Size, Table, UniformSize,
+    ConstantSize, GrainGroup, Groups, PackingError, PlaceWatch, Placement, Size, StartError, Table,
+    UniformSize,
 };
 use crate::packing::{make_ready, place_groups_watched};
 use crate::particles::{Material, Particles};
@@ -44,13 +45,13 @@ impl Origin {
     /// relative to. `watch` may stop it.
     ///
     /// # Errors
-    /// [`PackingError`].
-    pub fn of(scenario: &Scenario, base: &Path, watch: &mut PlaceWatch<'_>) -> Result<Self, PackingError> {
+    /// [`StartError`].
+    pub fn of(scenario: &Scenario, base: &Path, watch: &mut PlaceWatch<'_>) -> Result<Self, StartError> {
         if let Some(from) = &scenario.start.from {
             let path = base.join(from);
             return taken(scenario, &path).map_err(|error| match error {
-                Trouble::Reason(reason) => PackingError::Earlier { path, reason },
-                Trouble::Grains(error) => error,
+                Trouble::Reason(reason) => StartError::Earlier { path, reason },
+                Trouble::Grains(error) => error.into(),
             });
         }
         let (grains, counts) = place_groups_watched(scenario, base, watch)?;

@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use crate::engine::soft::Resting;
 use crate::engine::{SimError, Start};
-use crate::packing::PackingError;
+use crate::packing::{PackingError, StartError};
 use crate::scenario::Scenario;
 
 use super::hard::Hard;
@@ -31,7 +31,7 @@ pub fn quiet(scenario: &Scenario, base: &Path, stop: &AtomicBool) -> Result<Endi
     let scenario = scenario.resolved();
     crate::forecast::refuse_quiet(&scenario, base, 1)?;
     let start = match Origin::of(&scenario, base, &mut || asked(stop)) {
-        Err(PackingError::Stopped) => return Ok(Ending::Interrupted(0.0)),
+        Err(StartError::Placement(PackingError::Stopped)) => return Ok(Ending::Interrupted(0.0)),
         placed => placed?.start,
     };
     let go = if scenario.engine.is_hard() { sit::<Hard> } else { sit::<Soft> };

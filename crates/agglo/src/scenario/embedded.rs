@@ -43,3 +43,42 @@ fn sample(material: &str, radius: f64) -> GrainGroup {
         polarity: 1.0,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::SimError;
+
+    /// All materials are held to what the laws need, used by a group or not.
+    #[test]
+    fn a_scenario_that_lacks_something_is_refused() {
+        let text = r#"
+            version = 1
+            time.end = "1 s"
+            [engine.event_driven]
+            [volume]
+            lower = ["-5 mm", "-5 mm", "-5 mm"]
+            upper = ["5 mm", "5 mm", "5 mm"]
+            [materials]
+            clay = { density = "2000 kg/m3" }
+            lead = { density = "11000 kg/m3" }
+            [impact.restitution.constant]
+            restitution = 1.0
+            [[grains]]
+            material = "clay"
+            size.constant.radius = "0.5 mm"
+            placement.fill.count = 1
+        "#;
+        let mut scenario = Scenario::from_toml(text).unwrap();
+        scenario.impact = None;
+        assert_matches!(
+            Microscale::try_from(&scenario),
+            Err(EmbeddedError::Run(SimError::OtherSpheres(_)))
+        );
+        let law = r#"{"restitution": {"hardness": {}}}"#;
+        scenario.impact = serde_json::from_str(law).unwrap();
+        let message = Microscale::try_from(&scenario).unwrap_err().to_string();
+        assert_contains!(message, "materials.lead");
+        assert_contains!(message, "materials.clay");
+    }
+}

@@ -193,7 +193,7 @@ pub fn campaign(_: &Bench, bytes: &[u8]) -> Verdict {
 pub fn table(bench: &Bench, bytes: &[u8]) -> Verdict {
     let dir = bench.with("table", Path::new("table/grains.csv"), bytes);
     let scenario = Scenario::load(&dir.join("scenario.toml")).expect("it is sound");
-    let placed = Plan::with(&scenario, &dir, LITTLE).and_then(|_| packing::place(&scenario, &dir));
+    let placed = Plan::with(&scenario, &dir, LITTLE).and_then(|_| Ok(packing::place(&scenario, &dir)?));
     match placed {
         Ok(grains) => {
             let numbers = grains.position.iter().flat_map(|place| [place.x, place.y, place.z]);

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use crate::folder::FolderError;
-use crate::packing::PackingError;
+use crate::packing::StartError;
 use crate::record::RecordError;
 use crate::run::RunError;
 use crate::scenario::Faults;
@@ -60,7 +60,7 @@ pub enum CampaignError {
     Faulty(#[from] Faults),
     /// The machine cannot hold the simulations.
     #[error("{0}")]
-    TooLarge(PackingError),
+    TooLarge(StartError),
     /// The run of the best candidate failed.
     #[error("the run of the best candidate failed: {0}")]
     BestRun(#[from] RunError),

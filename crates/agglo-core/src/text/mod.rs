@@ -6,8 +6,6 @@ mod readable;
 mod visible;
 
 pub use not_finite::not_finite;
-#[cfg(test)]
-pub(crate) use number::AWKWARD;
-pub use number::{Number, fractional, number};
+pub use number::{AWKWARD, Number, fractional, number};
 pub use readable::{column, digits, readable, told_apart, two_digits, with_error};
 pub use visible::{cell, visible};

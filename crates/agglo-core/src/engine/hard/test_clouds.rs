@@ -4,7 +4,7 @@ use super::Simulation;
 use crate::math::Vec3;
 use crate::math::rng::{Purpose, Stream};
 use crate::particles::{Particles, Row};
-use crate::scenario::Scenario;
+use crate::testing::Scenario;
 
 /// Density of all grains [kg/m³].
 pub const DENSITY: f64 = 1000.0;

@@ -43,8 +43,7 @@ pub fn fractional(value: f64) -> String {
 }
 
 /// Numbers that writers of numbers get wrong, for tests of every table.
-#[cfg(test)]
-pub(crate) const AWKWARD: [f64; 18] = [
+pub const AWKWARD: [f64; 18] = [
     0.1,
     1.0 / 3.0,
     1e-28,

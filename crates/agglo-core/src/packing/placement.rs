@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::domain::Region;
+use crate::math::Vec3;
 use crate::units::{Length, Triple, Velocity};
 
 /// The closed set of ways to place grains.
@@ -105,4 +106,17 @@ pub struct GrainList {
     /// Velocities, one per position; the group's if left out.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub velocities: Vec<Triple<Velocity>>,
+}
+
+/// A row of a table: what it does not say is `None`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TableGrain {
+    /// Centre [m].
+    pub position: Vec3,
+    /// Radius [m].
+    pub radius: Option<f64>,
+    /// Velocity [m/s].
+    pub velocity: Option<Vec3>,
+    /// Temperature [K].
+    pub temperature: Option<f64>,
 }

@@ -66,7 +66,7 @@ pub fn of_rays(beams: &[Beam], medium: &Medium, grains: &Particles) -> Vec<Strin
 mod tests {
     use super::*;
     use crate::engine::soft::Settings;
-    use crate::scenario::Scenario;
+    use crate::testing::Scenario;
     use crate::units::Frequency;
 
     /// One grain of 1 mm radius in water (ρ = 1000 kg/m³, η = 1 mPa s) at a speed [m/s]: Re = 2000 v.
@@ -80,7 +80,7 @@ mod tests {
              velocities = [[\"0 m/s\", \"{speed} m/s\", \"0 m/s\"]] }}\n"
         );
         let scenario = Scenario::from_toml(&text).unwrap();
-        let grains = crate::packing::place(&scenario, std::path::Path::new("")).unwrap();
+        let grains = crate::testing::place(&scenario).unwrap();
         of_drag(&Laws::new(&Settings::try_from(&scenario).unwrap(), &grains), &grains, 0.0)
     }
 
@@ -96,8 +96,8 @@ mod tests {
     /// k a = 2 π f R/c = 10 at 2.387 MHz for 1 mm in water at 1500 m/s; the larger grain does not count.
     #[test]
     fn rays_warn_below_their_frequency() {
-        let template = crate::scenario::template("acoustic").unwrap();
-        let beam = Scenario::from_toml(template.text).unwrap().acoustics.unwrap().beams.remove(0);
+        let text = include_str!("../../../../../scenarios/acoustic-dispersal.toml");
+        let beam = Scenario::from_toml(text).unwrap().acoustics.unwrap().beams.remove(0);
         let bound = 10.0 * 1500.0 / (std::f64::consts::TAU * 1e-3);
         let hertz = |number: f64| serde_json::from_str::<Frequency>(&format!("\"{number} Hz\"")).unwrap();
         let with = |frequency: Option<f64>| Beam { frequency: frequency.map(hertz), ..beam.clone() };

@@ -3,10 +3,10 @@
 use std::f64::consts::PI;
 
 use super::*;
-use crate::scenario::Scenario;
+use crate::testing::Scenario;
 
 fn microscale(law: &str, engine: &str) -> Microscale {
-    Microscale::try_from(&scenario(law, engine)).unwrap()
+    Microscale::new(Settings::try_from(&scenario(law, engine)).unwrap())
 }
 
 fn scenario(law: &str, engine: &str) -> Scenario {
@@ -222,21 +222,6 @@ fn bad_input_is_refused_in_words() {
     let mut spoiled = state;
     spoiled.grains.temperature[0] = f64::NAN;
     assert_contains!(microscale.step(&spoiled, 1.0).unwrap_err().to_string(), "`temperatures` of grain 0");
-}
-
-/// All materials are held to what the laws need, used by a group or not.
-#[test]
-fn a_scenario_that_lacks_something_is_refused() {
-    let mut scenario = scenario(ELASTIC, "event_driven");
-    scenario.impact = None;
-    assert_matches!(
-        Microscale::try_from(&scenario),
-        Err(EmbeddedError::Run(SimError::OtherSpheres(_)))
-    );
-    let law = r#"{"restitution": {"hardness": {}}}"#;
-    scenario.impact = serde_json::from_str(law).unwrap();
-    let message = Microscale::try_from(&scenario).unwrap_err().to_string();
-    assert!(message.contains("materials.lead") && message.contains("materials.clay"), "{message}");
 }
 
 /// An agglomerate of eight is hit and breaks: where its pieces go is drawn anew in each step of the macroscale code, and a step

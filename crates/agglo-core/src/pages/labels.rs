@@ -1,6 +1,6 @@
 //! What the list of laws says of a law, read off its page: labels of its equations, its source, its engine.
 
-use super::explain::Page;
+use super::Page;
 
 /// The kind of grains that a law is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -99,7 +99,7 @@ fn is_own_label(text: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::explain::{PAGES, explain};
+    use super::super::{PAGES, explain};
     use super::*;
 
     fn labels(word: &str) -> Vec<String> {

@@ -1,13 +1,11 @@
 //! The pace of each law against numbers worked out by hand: two grains that touch, R = 10 um, 2500 kg/m3.
 
 use std::f64::consts::PI;
-use std::path::Path;
 
 use super::Simulation;
 use super::step_size::Paces;
 use crate::math::Pace;
-use crate::packing::place;
-use crate::scenario::Scenario;
+use crate::testing::{Scenario, place};
 
 const RADIUS: f64 = 10e-6;
 const MASS: f64 = 2500.0 * 4.0 / 3.0 * PI * RADIUS * RADIUS * RADIUS;
@@ -30,7 +28,7 @@ fn paces_at(distance: &str, strain: f64, laws: &str) -> Paces {
          placement.list.positions = [[\"0 m\", \"0 m\", \"0 m\"], [\"{distance}\", \"0 m\", \"0 m\"]]\n{laws}"
     );
     let scenario = Scenario::from_toml(&text).unwrap();
-    let grains = place(&scenario, Path::new("")).unwrap();
+    let grains = place(&scenario).unwrap();
     let simulation = Simulation::start(&scenario, grains).unwrap();
     Paces::new(&simulation.system, Some(strain), 0.0)
 }

@@ -2,7 +2,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::constants::GAS_CONSTANT;
-use crate::scenario::Scenario;
+use crate::testing::Scenario;
 
 /// Laws of two materials, "a" (number 0) and "b" (number 1), with more lines for the file and for materials.
 pub(super) fn laws(impact: &str, [a, b]: [&str; 2]) -> ImpactLaws {

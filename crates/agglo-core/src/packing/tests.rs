@@ -3,14 +3,13 @@
 use std::ops::ControlFlow;
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use super::*;
 use crate::domain::{Ball, Block, Cylinder, Region};
 use crate::math::Vec3;
 use crate::packing::GrainGroup;
 use crate::particles::{Material, Particles, Softening};
-use crate::scenario::Scenario;
+use crate::testing::{Scenario, place};
 use crate::units::Quantity;
 
 pub(super) fn scenario(grains: Vec<GrainGroup>) -> Scenario {
@@ -66,7 +65,7 @@ pub(super) fn lattice(kind: LatticeKind, spacing: f64, region: Region, count: Op
 }
 
 fn placed(groups: Vec<GrainGroup>) -> Result<Particles, PackingError> {
-    place(&scenario(groups), Path::new("."))
+    place(&scenario(groups))
 }
 
 /// Smallest gap between any two surfaces, by comparing all pairs.
@@ -157,7 +156,7 @@ fn the_seed_decides() {
     assert_eq!(once, placed(groups(300)).unwrap());
     let mut other = scenario(groups(300));
     other.seed += 1;
-    assert_ne!(once, place(&other, Path::new(".")).unwrap());
+    assert_ne!(once, place(&other).unwrap());
 }
 
 /// Far from walls, equal spheres end at 0.3841 (Zhang and Torquato 2013); about 10,000 grains and the fluctuation of
@@ -253,10 +252,20 @@ fn lattice_faults_are_named() {
 
 #[test]
 fn tables_override_size_and_velocity() {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("a.csv"), "x_m,y_m,z_m,radius_m\n0,0,0,0.5\n1,0,0,0.25\n").unwrap();
     let request = vec![group("ink", radius(0.1), Placement::Table(Table { file: "a.csv".into() }))];
-    let grains = place(&scenario(request), folder.path()).unwrap();
+    let row = |x: f64, radius: f64| TableGrain {
+        position: Vec3::new(x, 0.0, 0.0),
+        radius: Some(radius),
+        velocity: None,
+        temperature: None,
+    };
+    let mut asked = Vec::new();
+    let mut read = |table: &Table| {
+        asked.push(table.file.clone());
+        Ok(vec![row(0.0, 0.5), row(1.0, 0.25)])
+    };
+    let grains = super::place(&scenario(request), &mut read).unwrap();
+    assert_eq!(asked, [std::path::Path::new("a.csv")]);
     assert_eq!(grains.radius, [0.5, 0.25]);
     assert_eq!(grains.velocity[1], Vec3::new(1.0, 2.0, 3.0));
     assert_near!(grains.mass[0] / grains.mass[1], 8.0, 1e-14);

@@ -1,7 +1,7 @@
 use super::*;
 use crate::engine::hard::test_clouds::{self, BOUNDARIES, Grain, particles, start};
 use crate::engine::hard::{Contact, Distance, Simulation, SimulationState};
-use crate::scenario::Scenario;
+use crate::testing::Scenario;
 use crate::units::Quantity;
 
 const SOUND: &str = "shortest_step = \"10 ns\"";

@@ -1,7 +1,5 @@
 //! Tests of the start of hard spheres: the control volume filled, velocities that scatter, overlaps found.
 
-use std::path::Path;
-
 use super::tests::{cube, group, lattice, radius, random, scenario};
 use super::*;
 use crate::domain::{Block, Boundary, Region, Volume};
@@ -11,7 +9,7 @@ use crate::math::Vec3;
 use crate::math::rng::{Purpose, Stream};
 use crate::packing::GrainGroup;
 use crate::particles::{Particles, Row};
-use crate::scenario::Scenario;
+use crate::testing::{Scenario, place};
 use crate::units::Quantity;
 
 const BOUNDARIES: [Boundary; 4] =
@@ -28,7 +26,7 @@ fn hard(volume: Option<Volume>, grains: Vec<GrainGroup>) -> Scenario {
 }
 
 fn started(volume: &Volume, grains: Vec<GrainGroup>) -> Result<Particles, PackingError> {
-    place(&hard(Some(volume.clone()), grains), Path::new("."))
+    place(&hard(Some(volume.clone()), grains))
 }
 
 fn fill(count: Option<u32>, solid_fraction: Option<f64>, gap: f64) -> Placement {
@@ -166,7 +164,7 @@ fn later_groups_keep_clear_of_images() {
 #[test]
 fn what_cannot_be_filled_is_refused() {
     let request = || vec![group("ink", radius(0.1), fill(Some(1), None, 0.0))];
-    let message = place(&hard(None, request()), Path::new(".")).unwrap_err().to_string();
+    let message = place(&hard(None, request())).unwrap_err().to_string();
     assert!(message.contains("grains[0].placement: `fill` needs the control volume [volume]"), "{message}");
     let unit = volume([1.0; 3], Boundary::Periodic);
     for (count, fraction, gap) in
@@ -224,10 +222,24 @@ fn velocities_do_not_depend_on_other_groups() {
 
 #[test]
 fn rows_with_velocities_and_temperatures_of_their_own_keep_them() {
-    let folder = tempfile::tempdir().unwrap();
-    let text = "x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,temperature_K\n0,0,0,7,0,0,450\n1,0,0,0,8,0,700\n";
-    std::fs::write(folder.path().join("own.csv"), text).unwrap();
-    std::fs::write(folder.path().join("bare.csv"), "x_m,y_m,z_m\n3,0,0\n4,0,0\n").unwrap();
+    let bare = |x: f64| TableGrain {
+        position: Vec3::new(x, 0.0, 0.0),
+        radius: None,
+        velocity: None,
+        temperature: None,
+    };
+    let own = |x: f64, velocity: Vec3, temperature: f64| TableGrain {
+        velocity: Some(velocity),
+        temperature: Some(temperature),
+        ..bare(x)
+    };
+    let mut read = |table: &Table| {
+        Ok(if table.file.ends_with("own.csv") {
+            vec![own(0.0, Vec3::new(7.0, 0.0, 0.0), 450.0), own(1.0, Vec3::new(0.0, 8.0, 0.0), 700.0)]
+        } else {
+            vec![bare(3.0), bare(4.0)]
+        })
+    };
     let table = |file: &str| GrainGroup {
         velocity_spread: Some(centered(2.0)),
         ..group("ink", radius(0.1), Placement::Table(Table { file: file.into() }))
@@ -240,7 +252,8 @@ fn rows_with_velocities_and_temperatures_of_their_own_keep_them() {
         velocity_spread: Some(centered(2.0)),
         ..group("ink", radius(0.1), Placement::List(given))
     };
-    let grains = place(&hard(None, vec![table("own.csv"), table("bare.csv"), given]), folder.path()).unwrap();
+    let grains =
+        super::place(&hard(None, vec![table("own.csv"), table("bare.csv"), given]), &mut read).unwrap();
     assert_eq!(grains.velocity[..2], [Vec3::new(7.0, 0.0, 0.0), Vec3::new(0.0, 8.0, 0.0)]);
     assert_eq!(grains.velocity[4], Vec3::new(0.0, 0.0, 9.0));
     assert_eq!(grains.temperature, [450.0, 700.0, 600.0, 600.0, 600.0]);
@@ -344,7 +357,7 @@ fn hard_spheres_that_cannot_start_are_refused() {
     );
     // Soft spheres may overlap and know no volume.
     let soft = scenario(vec![group("ink", radius(0.1), list(close))]);
-    assert_ok!(place(&soft, Path::new(".")));
+    assert_ok!(place(&soft));
 }
 
 /// Speed: a million equal grains, sparse and dense, in a periodic volume.

@@ -4,7 +4,7 @@ use super::*;
 use crate::engine::soft::Simulation;
 use crate::engine::soft::skin::Skin;
 use crate::particles::{Particles, Row};
-use crate::scenario::Scenario;
+use crate::testing::Scenario;
 
 const RADIUS: f64 = 1e-4;
 const DT: f64 = 1e-6;

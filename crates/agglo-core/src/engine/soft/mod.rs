@@ -38,4 +38,4 @@ pub use simulation::{Clock, Simulation, SimulationState};
 pub use system::System;
 pub use truncation::{Truncation, truncation};
 pub use types::{Breach, Limits, Scheme, Staggered, Verlet};
-pub(crate) use validity::of_bonds as warning_of_bonds;
+pub use validity::of_bonds as warning_of_bonds;

@@ -3,7 +3,7 @@
 use super::Simulation;
 use super::test_clouds::{Grain, advance_to, particles, restitution};
 use crate::engine::SimError;
-use crate::scenario::Scenario;
+use crate::testing::Scenario;
 
 const EVENTS: &str = "[engine.event_driven]";
 const STEPS: &str = "[engine.time_stepped]";

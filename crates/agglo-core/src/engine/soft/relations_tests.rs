@@ -13,9 +13,8 @@ use super::skin::Skin;
 use crate::contact::pass::Remembered;
 use crate::math::Vec3;
 use crate::math::rng::{Purpose, Stream};
-use crate::packing;
 use crate::particles::Particles;
-use crate::scenario::Scenario;
+use crate::testing::Scenario;
 
 const VERLET: &str = "[engine.verlet]\nsafety = 0.2\n";
 const ADAPTIVE: &str = "[engine.staggered]\ninitial_step = \"20 ns\"\nlargest_step = \"80 ns\"\n\
@@ -126,7 +125,7 @@ fn scenario(engine: &str) -> Scenario {
 }
 
 fn placed(scenario: &Scenario) -> Particles {
-    let mut grains = packing::place(scenario, std::path::Path::new("")).unwrap();
+    let mut grains = crate::testing::place(scenario).unwrap();
     falling_in(&mut grains);
     grains
 }

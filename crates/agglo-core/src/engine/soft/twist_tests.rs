@@ -1,12 +1,9 @@
 //! What a contact and a bond remember turns with the pair about its axis: by the mean of both spins, in space.
 
-use std::path::Path;
-
 use super::Simulation;
 use crate::contact::friction::TangentialSpring;
 use crate::math::Vec3;
-use crate::packing;
-use crate::scenario::Scenario;
+use crate::testing::Scenario;
 
 /// Two grains of unlike size, so heavy that no load moves them, pressed together along x.
 const HEAVY: &str = r#"
@@ -42,7 +39,7 @@ gap = 0.1
 #[test]
 fn memory_turns_with_the_mean_of_both_spins() {
     let scenario = Scenario::from_toml(HEAVY).unwrap_or_else(|faults| panic!("{faults}"));
-    let mut grains = packing::place(&scenario, Path::new("")).unwrap();
+    let mut grains = crate::testing::place(&scenario).unwrap();
     // 30 and 10 rad/s about the axis: after 1000 steps of 50 us the mean has turned by 1 rad.
     grains.spin = vec![Vec3::AXES[0] * 30.0, Vec3::AXES[0] * 10.0];
     let started = Simulation::start(&scenario, grains).unwrap_or_else(|error| panic!("{error}"));

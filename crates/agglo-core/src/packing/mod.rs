@@ -1,0 +1,27 @@
+//! Where grains are, and how large, when the clock starts.
+
+mod error;
+mod group;
+mod lattice;
+mod occupied;
+mod overlap;
+mod place;
+mod placement;
+mod random;
+mod room;
+mod size;
+mod velocity;
+
+pub use error::{PackingError, SATURATION};
+pub use group::{GrainGroup, Groups, Spheres};
+pub use overlap::{Overlap, first_overlap};
+pub use place::{PlaceWatch, ReadTable, make_ready, place, place_groups, place_groups_watched};
+pub use placement::{Fill, GrainList, Lattice, LatticeKind, Placement, RandomAddition, Table, TableGrain};
+pub use random::fill_with;
+pub use size::{ConstantSize, LengthRatio, LognormalSize, Size, SizeTable, UniformSize};
+pub use velocity::{Maxwell, UniformSpread, VelocitySpread};
+
+#[cfg(test)]
+mod hard_tests;
+#[cfg(test)]
+mod tests;
