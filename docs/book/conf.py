@@ -65,7 +65,7 @@ def formulas(text):
 
 def law_page(name, folder, file):
     """A law's page, as `agglo explain` prints it: the comment at the head of its file."""
-    lines = (ROOT / f"crates/agglo/src/{folder}/{file}.rs").read_text().splitlines()
+    lines = (ROOT / f"crates/agglo-core/src/{folder}/{file}.rs").read_text().splitlines()
     head = [line.removeprefix("//!").removeprefix(" ") for line in lines if line.startswith("//!")]
     parts = re.split(r"(^```.*?^```$)", "\n".join(head), flags=re.DOTALL | re.MULTILINE)
     for at in range(0, len(parts), 2):
@@ -81,7 +81,7 @@ def add_law_pages(_app, page, source):
     """Gives the list of all laws their pages."""
     if page != "docs/laws":
         return
-    pages = (ROOT / "crates/agglo/src/scenario/explain.rs").read_text()
+    pages = (ROOT / "crates/agglo-core/src/pages/mod.rs").read_text()
     for name, folder, file in re.findall(r'^    "(\w+)" "([\w/]+)" "(\w+)" \[', pages, flags=re.MULTILINE):
         source[0] += law_page(name, folder, file)
 

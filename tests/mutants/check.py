@@ -2,11 +2,11 @@
 
 cargo-mutants makes the mistakes: a sign, an operator, a comparison, a case left out, a function that returns 0. They are made in a copy
 of the sources, target/mutants/tree, and tried by more and more tests: those of the same folder, which are quick and notice most;
-those of the library; all in Rust. The order is shuffled, so that a run within a budget looks at a sample of all.
+those of the libraries; all in Rust. The order is shuffled, so that a run within a budget looks at a sample of all.
 
 AGGLO_MUTANTS_MINUTES: the budget, 60 if not given. After it no further mistake is begun.
 AGGLO_MUTANTS_SEED: another order; if not given, each commit has its own.
-AGGLO_MUTANTS_FILES: globs of files, for a look at these alone: "crates/agglo/src/contact/**/*.rs".
+AGGLO_MUTANTS_FILES: globs of files, for a look at these alone: "crates/agglo-core/src/contact/**/*.rs".
 """
 
 import fcntl
@@ -29,16 +29,20 @@ TREE = HERE / "tree"
 
 # The laws, the engines, the measures and the rows.
 FILES = [
-    *(f"crates/agglo/src/{folder}/**/*.rs" for folder in ("acoustics", "contact", "engine", "fields", "impact", "measure")),
+    *(f"crates/agglo-core/src/{folder}/**/*.rs" for folder in ("acoustics", "contact", "engine", "fields", "impact", "measure")),
     *(f"crates/agglo/src/run/{name}" for name in ("hard/*.rs", "soft/*.rs", "summary.rs", "tables.rs")),
     *(f"crates/agglo/src/record/{name}" for name in ("series.rs", "frames/*.rs")),
 ]
 
-# By what a mutant is tried, until which share of the budget, what of which packages is built, and the names of the tests.
+# The crates that have such files.
+CRATES = ["agglo", "agglo-core"]
+
+# By what a mutant is tried, until which share of the budget, the crates whose tests are run (all if there are none), what of them is
+# built, and the names of the tests.
 ROUNDS = [
-    ("of its folder", 0.5, ["--package", "agglo"], ["--lib"], lambda mutant: [f"{module(mutant)}::"]),
-    ("of the library", 0.7, ["--package", "agglo"], ["--lib"], lambda mutant: []),
-    ("in Rust", 1.0, ["--workspace"], ["--bins", "--tests"], lambda mutant: []),
+    ("of its folder", 0.5, lambda mutant: [crate(mutant)], ["--lib"], lambda mutant: [f"{module(mutant)}::"]),
+    ("of the libraries", 0.7, lambda mutant: CRATES, ["--lib"], lambda mutant: []),
+    ("in Rust", 1.0, lambda mutant: [], ["--bins", "--tests"], lambda mutant: []),
 ]
 
 # How cargo-mutants calls what came of one.
@@ -94,7 +98,7 @@ def all_mutants():
     """Every mutant of the files: its name, its file, what it does, and the line of code that it changes."""
     files = os.environ.get("AGGLO_MUTANTS_FILES", "").split() or FILES
     globs = [word for file in files for word in ("--file", file)]
-    done = cargo_mutants("--list", "--json", "--package", "agglo", *globs, stdout=subprocess.PIPE, check=True)
+    done = cargo_mutants("--list", "--json", *packages(CRATES), *globs, stdout=subprocess.PIPE, check=True)
     found = []
     for entry in json.loads(done.stdout):
         line = entry["span"]["start"]["line"]
@@ -133,14 +137,24 @@ def order(mutants):
     return seed
 
 
+def packages(crates):
+    """How cargo is told of crates."""
+    return [word for name in crates for word in ("--package", name)] or ["--workspace"]
+
+
+def crate(mutant):
+    """The crate of a mutant's file."""
+    return Path(mutant["file"]).parts[1]
+
+
 def module(mutant):
     """The folder of a mutant's file as the names of tests have it: "engine::soft" of engine/soft/pulses.rs."""
     return "::".join(Path(mutant["file"]).parts[3:-1])
 
 
-def tests_pass(packages, targets, names):
+def tests_pass(crates, targets, names):
     """Builds and runs tests on the copy without a mistake; gives the seconds that the tests took."""
-    command = ["cargo", "test", "--quiet", "--locked", "--profile", "mutants", *packages, *targets]
+    command = ["cargo", "test", "--quiet", "--locked", "--profile", "mutants", *packages(crates), *targets]
     subprocess.run([*command, "--no-run"], cwd=TREE, check=True, stdin=subprocess.DEVNULL)
     begun = time.monotonic()
     done = subprocess.run([*command, *names], cwd=TREE, stdin=subprocess.DEVNULL, capture_output=True, text=True)
@@ -149,13 +163,13 @@ def tests_pass(packages, targets, names):
     return time.monotonic() - begun
 
 
-def outcome(mutant, packages, targets, names, patience_s):
+def outcome(mutant, crates, targets, names, patience_s):
     """What these tests say of a mutant."""
     shutil.rmtree(HERE / "mutants.out", ignore_errors=True)
-    named = ["--package", "agglo", "--file", mutant["file"], "--re", f"^{re.escape(mutant['name'])}$"]
+    named = ["--package", crate(mutant), "--file", mutant["file"], "--re", f"^{re.escape(mutant['name'])}$"]
     # What to build is said to every cargo: else each mutant would build all tests before it runs some.
     built = [f"--cargo-arg={word}" for word in ("--locked", *targets)]
-    tested = ["--test-workspace=true" if "--workspace" in packages else "--test-package=agglo"]
+    tested = [f"--test-package={name}" for name in crates] or ["--test-workspace=true"]
     how = ["--in-place", "--baseline=skip", "--profile=mutants", f"--output={HERE}", "--colors=never"]
     limits = [f"--timeout={patience_s:.0f}", "--build-timeout=1800"]
     asked = cargo_mutants(*named, *built, *tested, *how, *limits, "--", *names, capture_output=True)
@@ -169,10 +183,11 @@ def outcome(mutant, packages, targets, names, patience_s):
 class Round:
     """Mutants tried by some tests until a time."""
 
-    def __init__(self, what, deadline, packages, targets, names_for):
+    def __init__(self, what, deadline, crates_for, targets, names_for):
         self.what = what
         self.deadline = deadline
-        self.built = (packages, targets)
+        self.crates_for = crates_for
+        self.targets = targets
         self.names_for = names_for
         self.patience_s = {}
         self.verdicts = {}
@@ -180,11 +195,11 @@ class Round:
     def is_over(self):
         return time.monotonic() > self.deadline
 
-    def patience(self, names):
+    def patience(self, crates, names):
         """How long these tests may take [s]; without a mistake they must pass."""
-        key = " ".join(names)
+        key = " ".join([*crates, *names])
         if key not in self.patience_s:
-            self.patience_s[key] = max(LEAST_PATIENCE_S, PATIENCE * tests_pass(*self.built, names))
+            self.patience_s[key] = max(LEAST_PATIENCE_S, PATIENCE * tests_pass(crates, self.targets, names))
         return self.patience_s[key]
 
     def try_all(self, mutants):
@@ -195,10 +210,10 @@ class Round:
         for mutant in mutants:
             if self.is_over():
                 break
-            names = self.names_for(mutant)
-            patience_s = self.patience(names)
+            crates, names = self.crates_for(mutant), self.names_for(mutant)
+            patience_s = self.patience(crates, names)
             begun = time.monotonic()
-            verdict = outcome(mutant, *self.built, names, patience_s)
+            verdict = outcome(mutant, crates, self.targets, names, patience_s)
             self.verdicts[mutant["name"]] = verdict
             if verdict == "survived":
                 survivors.append(mutant)

@@ -1,32 +1,134 @@
-//! The design's folder table and the tree say the same.
+//! The design's folder table and the tree say the same, and crates depend on each other in one direction.
 
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-/// Folders that hold code, relative to the project's root, with a slash at the end.
-fn folders(root: &Path, below: &Path, found: &mut BTreeSet<String>) {
-    for entry in std::fs::read_dir(root.join(below)).expect("the sources are there").flatten() {
-        if entry.path().is_dir() {
-            let name = below.join(entry.file_name());
-            found.insert(format!("{}/", name.display()));
-            folders(root, &name, found);
-        }
+use toml::{Table, Value};
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// Folders inside of another, relative to the project's root, with a slash at the end.
+fn folders(root: &Path, within: &Path, found: &mut BTreeSet<String>) {
+    for name in names(&root.join(within)) {
+        let folder = within.join(name);
+        found.insert(format!("{}/", folder.display()));
+        folders(root, &folder, found);
     }
+}
+
+/// Names of the folders in a folder.
+fn names(folder: &Path) -> Vec<String> {
+    let entries = folder.read_dir().unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    let folders = entries.flatten().filter(|entry| entry.path().is_dir());
+    folders.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect()
 }
 
 #[test]
 fn the_folder_table_is_the_tree() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let root = root();
     let design = std::fs::read_to_string(root.join("DESIGN.md")).unwrap();
     let rows = design.lines().filter_map(|line| line.strip_prefix("| `")?.split_once('`'));
     let told: BTreeSet<String> =
         rows.map(|(name, _)| name.to_owned()).filter(|name| name.ends_with('/')).collect();
     let mut there = BTreeSet::new();
-    folders(&root, Path::new("crates/agglo/src"), &mut there);
-    let told_of_library: BTreeSet<String> =
-        told.iter().filter(|name| name.starts_with("crates/agglo/src/")).cloned().collect();
-    let untold: Vec<&String> = there.difference(&told_of_library).collect();
+    let crates = names(&root.join("crates"));
+    assert!(crates.len() >= 4, "crates that were found: {crates:?}");
+    for name in crates {
+        there.insert(format!("crates/{name}/"));
+        folders(&root, &Path::new("crates").join(name).join("src"), &mut there);
+    }
+    let untold: Vec<&String> = there.difference(&told).collect();
     assert!(untold.is_empty(), "folders that DESIGN.md does not tell of: {untold:?}");
     let gone: Vec<&String> = told.iter().filter(|name| !root.join(name).is_dir()).collect();
     assert!(gone.is_empty(), "folders that DESIGN.md tells of but are not there: {gone:?}");
+}
+
+fn read_toml(path: &str) -> Table {
+    let text = std::fs::read_to_string(root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"));
+    text.parse().unwrap_or_else(|error| panic!("{path}: {error}"))
+}
+
+/// What a crate of the project is built with, on any system; what only its tests take is left out.
+fn dependencies(name: &str) -> BTreeSet<String> {
+    let manifest = read_toml(&format!("crates/{name}/Cargo.toml"));
+    let targets = manifest.get("target").and_then(Value::as_table).into_iter().flatten();
+    let tables = targets.filter_map(|(_, target)| target.as_table()).chain([&manifest]);
+    let of_kind = |table: &Table, kind: &str| {
+        table
+            .get(kind)
+            .and_then(Value::as_table)
+            .into_iter()
+            .flatten()
+            .map(|(name, _)| name.clone())
+            .collect()
+    };
+    let lists: Vec<Vec<String>> = tables
+        .flat_map(|table| ["dependencies", "build-dependencies"].map(|kind| of_kind(table, kind)))
+        .collect();
+    lists.into_iter().flatten().collect()
+}
+
+/// The program names the library, the library the core; the core and the assertions name none.
+#[test]
+fn crates_depend_on_each_other_in_one_direction() {
+    let allowed: [(&str, &[&str]); 4] =
+        [("agglo-testing", &[]), ("agglo-core", &[]), ("agglo", &["agglo-core"]), ("agglo-cli", &["agglo"])];
+    let own: BTreeSet<String> = names(&root().join("crates")).into_iter().collect();
+    assert_eq!(own, allowed.iter().map(|(name, _)| (*name).to_owned()).collect(), "crates with a direction");
+    for (name, allowed) in allowed {
+        let found: Vec<String> = dependencies(name).intersection(&own).cloned().collect();
+        assert_eq!(found, allowed, "crates of the project that {name} is built with");
+    }
+}
+
+/// Beginnings of the names of crates that read files, speak to terminals or draw.
+const OF_NO_USE_FOR_PHYSICS: [&str; 20] = [
+    "annotate-snippets",
+    "anstream",
+    "anstyle",
+    "clap",
+    "console",
+    "crossterm",
+    "csv",
+    "ctrlc",
+    "dejavu",
+    "indicatif",
+    "plotly",
+    "png",
+    "ratatui",
+    "rustix",
+    "signal-hook",
+    "tempfile",
+    "termcolor",
+    "terminal",
+    "toml",
+    "walkdir",
+];
+
+/// With all that it pulls in.
+#[test]
+fn the_core_is_built_with_nothing_that_reads_files_or_knows_a_terminal() {
+    let lock = read_toml("Cargo.lock");
+    let packages: Vec<&Table> =
+        lock["package"].as_array().unwrap().iter().filter_map(Value::as_table).collect();
+    let mut open: Vec<String> = dependencies("agglo-core").into_iter().collect();
+    let mut found = BTreeSet::new();
+    while let Some(name) = open.pop() {
+        let versions = packages.iter().filter(|package| package["name"].as_str() == Some(&name));
+        let needed = versions.filter_map(|package| package.get("dependencies")?.as_array()).flatten();
+        // Where there are several versions of one, its version stands behind the name.
+        let names = needed.filter_map(|need| need.as_str()?.split(' ').next()).map(str::to_owned);
+        let names: Vec<String> = names.filter(|name| !found.contains(name)).collect();
+        if found.insert(name) {
+            open.extend(names);
+        }
+    }
+    assert!(found.len() > 10 && found.contains("rayon-core"), "what the core is built with: {found:?}");
+    let wrong: Vec<&String> = found
+        .iter()
+        .filter(|name| OF_NO_USE_FOR_PHYSICS.iter().any(|beginning| name.starts_with(beginning)))
+        .collect();
+    assert!(wrong.is_empty(), "crates of no use for physics that agglo-core is built with: {wrong:?}");
 }

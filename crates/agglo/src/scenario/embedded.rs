@@ -71,10 +71,7 @@ mod tests {
         "#;
         let mut scenario = Scenario::from_toml(text).unwrap();
         scenario.impact = None;
-        assert_matches!(
-            Microscale::try_from(&scenario),
-            Err(EmbeddedError::Run(SimError::OtherSpheres(_)))
-        );
+        assert_matches!(Microscale::try_from(&scenario), Err(EmbeddedError::Run(SimError::OtherSpheres(_))));
         let law = r#"{"restitution": {"hardness": {}}}"#;
         scenario.impact = serde_json::from_str(law).unwrap();
         let message = Microscale::try_from(&scenario).unwrap_err().to_string();
