@@ -6,6 +6,7 @@
 #[macro_use]
 extern crate agglo_testing;
 
+#[doc(inline)]
 pub use agglo_core::{
     acoustics, constants, contact, domain, engine, fields, impact, math, measure, neighbors, pages,
     particles, text, units,

@@ -4,6 +4,7 @@ mod error;
 mod place;
 mod table;
 
+#[doc(inline)]
 pub use agglo_core::packing::*;
 
 pub use error::StartError;
