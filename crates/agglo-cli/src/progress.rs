@@ -7,8 +7,7 @@ use std::time::{Duration, Instant};
 use agglo::render::FilmProgress;
 use agglo::run::Progress;
 use agglo::search::campaign::CampaignProgress;
-use agglo::text::readable;
-use agglo::text::visible;
+use agglo::text::{readable, visible};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 const BETWEEN_LINES: Duration = Duration::from_secs(10);

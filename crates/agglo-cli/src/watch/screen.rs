@@ -1,7 +1,6 @@
 //! How the dashboard looks.
 
-use agglo::text::readable;
-use agglo::text::visible;
+use agglo::text::{readable, visible};
 use agglo::watch::{Curve, Sight};
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};

@@ -9,8 +9,7 @@ use std::f64::consts::PI;
 use std::ops::Range;
 
 use crate::math::Vec3;
-use crate::packing::GrainGroup;
-use crate::packing::VelocitySpread;
+use crate::packing::{GrainGroup, VelocitySpread};
 use crate::particles::Particles;
 use crate::scenario::Scenario;
 use crate::units::vector;

@@ -15,8 +15,7 @@ use tempfile::{NamedTempFile, TempPath};
 
 use super::RecordError;
 #[cfg(unix)]
-use crate::folder::files;
-use crate::folder::{Mark, Marked};
+use crate::folder::{Mark, Marked, files};
 
 /// Temporary files begin with this and end with [`SUFFIX`].
 const PREFIX: &str = ".agglo-";

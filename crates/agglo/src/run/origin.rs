@@ -11,9 +11,8 @@ use crate::engine::{SimError, Start};
 use crate::folder::RunFolder;
 use crate::packing::{
     ConstantSize, GrainGroup, Groups, PackingError, PlaceWatch, Placement, Size, StartError, Table,
-    UniformSize,
+    UniformSize, make_ready, place_groups_watched,
 };
-use crate::packing::{make_ready, place_groups_watched};
 use crate::particles::{Material, Particles};
 use crate::record::checkpoint;
 use crate::scenario::{Scenario, fault_of_cutoff};

@@ -6,8 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::engine::SimError;
 use crate::record::json;
-use crate::text::not_finite;
-use crate::text::readable;
+use crate::text::{not_finite, readable};
 
 use super::hard::HardSummary;
 use super::soft::SoftSummary;

@@ -1,7 +1,6 @@
 //! The space of a search: from the unit cube to values of parameters and back.
 
-use crate::text::number;
-use crate::text::readable;
+use crate::text::{number, readable};
 use crate::units::Dimension;
 
 /// One parameter as an axis of the unit cube.

@@ -2,8 +2,7 @@
 
 use super::{Check, shown};
 use crate::domain::{Region, Volume};
-use crate::packing::GrainGroup;
-use crate::packing::{Fill, Lattice, Placement, RandomAddition, SATURATION, Size};
+use crate::packing::{Fill, GrainGroup, Lattice, Placement, RandomAddition, SATURATION, Size};
 use crate::scenario::types::Scenario;
 use crate::text::{digits, told_apart};
 use crate::units::Length;

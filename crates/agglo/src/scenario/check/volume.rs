@@ -3,8 +3,7 @@
 use super::{Check, shown};
 use crate::domain::{Boundary, Region, Volume, resolution};
 use crate::math::Vec3;
-use crate::packing::GrainGroup;
-use crate::packing::{GrainList, Placement};
+use crate::packing::{GrainGroup, GrainList, Placement};
 use crate::scenario::types::Scenario;
 use crate::text::readable;
 use crate::units::{Length, Triple, vector};
