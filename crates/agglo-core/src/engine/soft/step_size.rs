@@ -35,7 +35,7 @@ const DEEPEST: f64 = 0.5;
 /// The first step [s].
 pub fn first(settings: &Settings, system: &System) -> f64 {
     match &settings.scheme {
-        Scheme::Staggered(scheme) => scheme.initial_step.si(),
+        Scheme::Staggered(scheme) => scheme.initial_step.si().min(scheme.largest_step.si()),
         Scheme::Verlet(scheme) => match scheme.step {
             Some(step) => step.si(),
             None => (scheme.safety * critical(settings, system)).min(longest(settings)),

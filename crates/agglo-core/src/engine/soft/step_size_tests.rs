@@ -2,10 +2,11 @@
 
 use std::f64::consts::PI;
 
-use super::Simulation;
-use super::step_size::Paces;
+use super::step_size::{Paces, first};
+use super::{Scheme, Settings, Simulation};
 use crate::math::Pace;
 use crate::testing::{Scenario, place};
+use crate::units::Quantity;
 
 const RADIUS: f64 = 10e-6;
 const MASS: f64 = 2500.0 * 4.0 / 3.0 * PI * RADIUS * RADIUS * RADIUS;
@@ -116,4 +117,23 @@ fn the_total_is_the_sum() {
     let found = paces(&format!("{HOOKE}{drag}"));
     assert_eq!(found.total(), found.contact + found.drag);
     assert_eq!(found.fastest(), "contact");
+}
+
+/// Settings made by hand are held to no rules: a first step above the largest one is cut to it, one below stays.
+#[test]
+fn the_first_step_is_within_the_largest() {
+    let text = "version = 1\ntime.end = \"1 ms\"\n[engine.staggered]\ninitial_step = \"20 ns\"\nlargest_step = \"80 ns\"\n\
+                tolerance = 1e-5\ntarget_iterations = 8\n[materials.stone]\ndensity = \"2500 kg/m3\"\n[[grains]]\n\
+                material = \"stone\"\nsize.constant.radius = \"10 um\"\n\
+                placement.list.positions = [[\"0 m\", \"0 m\", \"0 m\"]]\n";
+    let scenario = Scenario::from_toml(text).unwrap();
+    let grains = place(&scenario).unwrap();
+    let system = Simulation::start(&scenario, grains).unwrap().system;
+    let mut settings = Settings::try_from(&scenario).unwrap();
+    for (initial, due) in [(20e-9, 20e-9), (90e-9, 80e-9)] {
+        if let Scheme::Staggered(scheme) = &mut settings.scheme {
+            scheme.initial_step = Quantity(initial);
+        }
+        assert_close!(first(&settings, &system), due, 1e-15, "in s");
+    }
 }
