@@ -14,14 +14,16 @@
 //! | files                        | `assert_there!`, `assert_gone!`                                                         |
 //! | yes or no                    | `assert_true!`, `assert_false!`, which ask for words                                    |
 //!
-//! [`Turns`] ends loops that wait for something. `assert!` with words of its own is as good; `tests/no_bare_asserts.rs` finds one
+//! [`Turns`] ends loops that wait for something, and [`AWKWARD`] are numbers for writers of numbers. `assert!` with words of its own is as good; `tests/no_bare_asserts.rs` finds one
 //! without.
 
+mod awkward;
 mod numbers;
 mod texts;
 mod turns;
 mod values;
 
+pub use awkward::AWKWARD;
 pub use turns::Turns;
 
 #[doc(hidden)]

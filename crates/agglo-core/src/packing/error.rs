@@ -60,7 +60,7 @@ pub enum PackingError {
     },
     /// A table of grains that cannot be had.
     #[error(transparent)]
-    Table(#[from] Box<dyn std::error::Error + Send + Sync>),
+    Table(Box<dyn std::error::Error + Send + Sync>),
     /// A grain where doubles no longer tell places apart.
     #[error(
         "grain {grain} lies {} from the origin, where neighbouring places are {} apart: more than 1e-5 of its radius of \

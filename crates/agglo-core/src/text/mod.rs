@@ -6,6 +6,6 @@ mod readable;
 mod visible;
 
 pub use not_finite::not_finite;
-pub use number::{AWKWARD, Number, fractional, number};
+pub use number::{Number, fractional, number};
 pub use readable::{column, digits, readable, told_apart, two_digits, with_error};
 pub use visible::{cell, visible};

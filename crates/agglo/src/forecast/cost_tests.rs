@@ -2,12 +2,11 @@
 
 use super::*;
 use crate::run::{Stretch, Summary, Weights};
-use crate::scenario::TEMPLATES;
+use crate::scenario::template;
 
 /// A run of 2 s with rows every 10 ms, 20 us while rays fly; frames every 50 ms and 0.5 ms.
 fn scenario() -> Scenario {
-    let text = TEMPLATES.iter().find(|template| template.name == "acoustic").unwrap().text;
-    Scenario::from_toml(text).unwrap()
+    Scenario::from_toml(template("acoustic").unwrap().text).unwrap()
 }
 
 /// Two beams, of three and one pulse; their rays fly for 0.04 s and 0.03 s and are followed in 7 s and 11 s.

@@ -52,8 +52,8 @@ pub(super) struct Push {
 
 /// One push for each beam.
 pub(super) fn all(scenario: &Scenario, grains: &Particles) -> Vec<Push> {
+    let Some(acoustics) = &scenario.acoustics else { return Vec::new() };
     let Ok(settings) = Settings::try_from(scenario) else { return Vec::new() };
-    let Some(acoustics) = &settings.acoustics else { return Vec::new() };
     // Each beam meets the same grains, which no pulse moves.
     let mut still = grains.clone();
     let of = |(beam, number): (&Beam, usize)| {

@@ -2,7 +2,6 @@ use super::*;
 
 use crate::folder::RunFolder;
 use crate::run::{rehearse, run};
-use crate::scenario::TEMPLATES;
 
 /// The plan of grains that are placed and pushed, with a single step tried.
 fn plan_of(text: &str) -> Plan {
@@ -11,7 +10,7 @@ fn plan_of(text: &str) -> Plan {
 }
 
 fn template(name: &str) -> &'static str {
-    TEMPLATES.iter().find(|template| template.name == name).unwrap().text
+    crate::scenario::template(name).unwrap().text
 }
 
 /// The sample problem, worked out by hand: 2000 grains, four pulses of 10,000 rays, 150 MPa <-> 4.7e10 W.

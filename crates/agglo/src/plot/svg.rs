@@ -197,7 +197,7 @@ fn list(places: &[Place]) -> String {
 }
 
 /// A number to a hundredth, without zeros at the end.
-fn short(number: f64) -> String {
+pub(super) fn short(number: f64) -> String {
     let rounded = (100.0 * number).round() / 100.0;
     // Adding zero turns -0 into 0.
     format!("{}", rounded + 0.0)

@@ -3,6 +3,7 @@
 use super::*;
 use crate::math::rng::{Purpose, Stream};
 use crate::plot::scale::Scale;
+use crate::plot::svg::short;
 use crate::record::frames::{FieldValues, Frame};
 
 /// Candidates with ten parameters about an optimum, as a search leaves them.
@@ -231,11 +232,10 @@ fn bars_are_as_long_as_their_values_say() {
     let [zero, low, value, high] = [0.0, 0.25, 0.5, 1.0].map(|value| 60.0 + 716.0 * scale.part(value));
     assert_near!((value - zero) / (high - low), 0.5 / 0.75, 1e-12);
     let svg = bars.svg();
-    let number = |value: f64| format!("{}", (100.0 * value).round() / 100.0);
-    assert_contains!(svg, &format!("<rect x=\"{}\"", number(zero)));
-    assert_contains!(svg, &format!("width=\"{}\" height=\"14\"", number(value - zero)));
+    assert_contains!(svg, &format!("<rect x=\"{}\"", short(zero)));
+    assert_contains!(svg, &format!("width=\"{}\" height=\"14\"", short(value - zero)));
     for [from, to] in [[low, high], [low, low], [high, high]] {
-        let [from, to] = [from, to].map(number);
+        let [from, to] = [from, to].map(short);
         let line = svg.split("<line ").find(|line| {
             line.starts_with(&format!("x1=\"{from}\"")) && line.contains(&format!("x2=\"{to}\""))
         });

@@ -182,7 +182,7 @@ impl Opened {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::text::AWKWARD;
+    use agglo_testing::AWKWARD;
 
     fn read(path: &Path) -> Vec<Vec<f64>> {
         let text = std::fs::read_to_string(path).unwrap();

@@ -1,7 +1,7 @@
 //! Lists of pairs and the cells behind them find whom they must find, and do not look at everybody for it.
 
 use super::*;
-use crate::particles::{Particles, Row};
+use crate::engine::hard::test_clouds::{Grain, particles};
 use crate::units::Quantity;
 
 /// An open volume, of which spheres have flown out.
@@ -15,12 +15,9 @@ fn volume() -> Volume {
 
 /// A row of 1,000 spheres of radius 1, 5 apart, far off the origin along x.
 fn row() -> Spheres {
-    let mut grains = Particles::default();
-    for at in 0..1000 {
-        let position = Vec3::new(4000.0 + 5.0 * f64::from(at), -70.0, 30.0);
-        grains.push(Row { id: at, position, radius: 1.0, mass: 1.0, polarity: 1.0, ..Row::default() });
-    }
-    Spheres::new(&grains, |_| 1.0)
+    let grains: Vec<Grain> =
+        (0..1000).map(|at| ([4000.0 + 5.0 * f64::from(at), -70.0, 30.0], [0.0; 3], 1.0)).collect();
+    Spheres::new(&particles(&grains), |_| 1.0)
 }
 
 /// Cells lie where the spheres are, not where the volume is: who looks 4 far sees some tens, not all.

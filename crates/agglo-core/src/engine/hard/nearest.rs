@@ -111,21 +111,22 @@ fn farthest(spheres: &Spheres, volume: &Volume) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::engine::hard::test_clouds::{Grain, particles};
     use crate::math::rng::{Purpose, Stream};
-    use crate::particles::{Particles, Row};
     use crate::units::Quantity;
 
     /// More spheres than are all near one another, and one far away from all others, whichever stands where in memory.
     #[test]
     fn the_nearest_of_a_loner_is_found() {
         for (loner, way) in [(0, 900.0), (37, -900.0), (99, 900.0)] {
-            let (mut stream, mut grains) = (Stream::new(7, Purpose::Sampling, 0), Particles::default());
-            for id in 0..100 {
+            let mut stream = Stream::new(7, Purpose::Sampling, 0);
+            let mut grain = |id: usize| -> Grain {
                 let mut position = stream.direction() * (20.0 * stream.uniform());
                 position.y += if id == loner { way } else { 0.0 };
-                grains.push(Row { id, position, radius: 0.1, mass: 1.0, polarity: 1.0, ..Row::default() });
-            }
-            let spheres = Spheres::new(&grains, |_| 1.0);
+                (position.to_array(), [0.0; 3], 0.1)
+            };
+            let grains: Vec<Grain> = (0..100).map(&mut grain).collect();
+            let spheres = Spheres::new(&particles(&grains), |_| 1.0);
             let volume =
                 Volume { lower: [Quantity(-20.0); 3], upper: [Quantity(20.0); 3], boundary: Boundary::Open };
             let (mut near, mut nearest) = (Near::new(0.1), Nearest::default());

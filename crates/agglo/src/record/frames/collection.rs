@@ -90,7 +90,7 @@ fn fault_of_name(file: &str) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::text::AWKWARD;
+    use agglo_testing::AWKWARD;
 
     #[test]
     fn awkward_times_come_back() {

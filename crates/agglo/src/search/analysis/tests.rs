@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use super::*;
 use crate::math::rng::{Purpose, Stream};
 use crate::search::plan::{Morris, Plan, Refinement, SobolIndices};
-use crate::text::AWKWARD;
+use agglo_testing::AWKWARD;
 
 /// Sobol' indices and elementary effects of a constant, of one with round-off on it, and of one with true differences.
 #[test]

@@ -230,7 +230,7 @@ mod tests {
 
     fn written(path: &Path) -> BTreeMap<(u64, u32), Entry> {
         let mut figures = vec![0.1 + 0.2, -0.0, f64::INFINITY, 1e-300];
-        figures.extend(crate::text::AWKWARD);
+        figures.extend(agglo_testing::AWKWARD);
         let (journal, past) = open(path);
         assert_eq!(past, Past::default());
         let outcomes: [Result<&[f64], &str>; 4] =

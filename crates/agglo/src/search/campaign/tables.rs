@@ -99,7 +99,7 @@ fn quoted(word: &str) -> Cow<'_, str> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::text::AWKWARD;
+    use agglo_testing::AWKWARD;
 
     #[test]
     fn awkward_numbers_come_back() {
