@@ -192,7 +192,7 @@ def noted(text):
 
 
 def medians(printed):
-    """What optimisers find on test functions: Rastrigin, Ackley and Griewank, the noisy and the exact value in turn."""
+    """What optimizers find on test functions: Rastrigin, Ackley and Griewank, the noisy and the exact value in turn."""
     found = {}
     for line in printed.splitlines()[1:]:
         name, *values = re.split(r"\s{2,}|(?<=\d) (?=\d)", line.strip())

@@ -35,13 +35,13 @@ PULSES = 4
 PERIOD = 0.5
 GRAINS = 2000
 
-# Okabe and Ito's colours, which the colour-blind tell apart.
+# Okabe and Ito's colors, which the color-blind tell apart.
 BLACK, ORANGE, SKY, GREEN, YELLOW = "#000000", "#E69F00", "#56B4E9", "#009E73", "#F0E442"
 BLUE, VERMILION, PURPLE, GREY = "#0072B2", "#D55E00", "#CC79A7", "#999999"
 
-# Metres that a panel is high, and its centre: nearly all grains are inside at the end.
+# Metres that a panel is high, and its center: nearly all grains are inside at the end.
 VIEW_HEIGHT = 4.8
-VIEW_CENTRE = (0.15, 0.0, 0.0)
+VIEW_CENTER = (0.15, 0.0, 0.0)
 
 # Half the edge of the reacting grains' box [m], their number, and starts of each set.
 HALF_EDGE = 0.01
@@ -80,19 +80,19 @@ def cluster_sizes(grains):
     return np.bincount(cluster)[cluster]
 
 
-def lookup(colours, norm):
-    """A VTK table of a matplotlib colour map, logarithmic over the norm."""
+def lookup(colors, norm):
+    """A VTK table of a matplotlib color map, logarithmic over the norm."""
     table = vtk.vtkLookupTable()
     table.SetNumberOfTableValues(256)
     for entry in range(256):
-        table.SetTableValue(entry, *colours(entry / 255))
+        table.SetTableValue(entry, *colors(entry / 255))
     table.SetRange(norm.vmin, norm.vmax)
     table.SetScaleToLog10()
     return table
 
 
-def grains_actor(grains, sizes, colours, norm):
-    """Grains as spheres, coloured by a size that each has."""
+def grains_actor(grains, sizes, colors, norm):
+    """Grains as spheres, colored by a size that each has."""
     data = vtk.vtkPolyData()
     data.ShallowCopy(grains)
     column = numpy_to_vtk(sizes.astype(float), deep=True)
@@ -107,7 +107,7 @@ def grains_actor(grains, sizes, colours, norm):
     mapper.SetSourceConnection(sphere.GetOutputPort())
     mapper.SetScaleModeToScaleByMagnitude()
     mapper.SetScaleArray("radius_m")
-    mapper.SetLookupTable(lookup(colours, norm))
+    mapper.SetLookupTable(lookup(colors, norm))
     mapper.SetUseLookupTableScalarRange(True)
     mapper.SetScalarModeToUsePointFieldData()
     mapper.SelectColorArray("size")
@@ -121,7 +121,7 @@ def grains_actor(grains, sizes, colours, norm):
     return actor
 
 
-def rays_actor(rays, colour):
+def rays_actor(rays, color):
     """Rays as short strokes that end where they are."""
     here = vtk_to_numpy(rays.GetPoints().GetData())
     direction = vtk_to_numpy(rays.GetPointData().GetArray("direction"))
@@ -137,14 +137,14 @@ def rays_actor(rays, colour):
     mapper.SetInputData(data)
     actor = vtk.vtkActor()
     actor.SetMapper(mapper)
-    actor.GetProperty().SetColor(*matplotlib.colors.to_rgb(colour))
+    actor.GetProperty().SetColor(*matplotlib.colors.to_rgb(color))
     actor.GetProperty().SetLineWidth(1.4)
     actor.GetProperty().SetLighting(False)
     return actor
 
 
-def render(actors, width, height, view=(VIEW_CENTRE, VIEW_HEIGHT)):
-    """The picture of actors seen along y, x to the right and z up, as an array; a view has a centre and a height."""
+def render(actors, width, height, view=(VIEW_CENTER, VIEW_HEIGHT)):
+    """The picture of actors seen along y, x to the right and z up, as an array; a view has a center and a height."""
     (x, y, z), tall = view
     renderer = vtk.vtkRenderer()
     renderer.SetBackground(1.0, 1.0, 1.0)
@@ -183,14 +183,14 @@ def save(figure, path, dpi):
 
 
 def scale_bar(axes, right, bottom):
-    """A bar of one metre, in the picture's metres."""
+    """A bar of one meter, in the picture's meters."""
     axes.plot([right - 1.0, right], [bottom, bottom], color=BLACK, linewidth=3, solid_capstyle="butt")
     axes.text(right - 0.5, bottom + 0.07, "1 m", ha="center", va="bottom", fontsize=11)
 
 
 def dispersal(sound, flight, path):
     """The agglomerate under the first pulse and after the first, second and fourth."""
-    colours, norm = matplotlib.colormaps["cividis"], LogNorm(1, GRAINS)
+    colors, norm = matplotlib.colormaps["cividis"], LogNorm(1, GRAINS)
     early, early_time = frame(flight, "grains", 0.5e-3)
     rays, _ = frame(flight, "rays", 0.5e-3)
     # Grains drift apart after their pulse, so each state is that at the end of its half second.
@@ -203,9 +203,9 @@ def dispersal(sound, flight, path):
     figure.subplots_adjust(left=0.01, right=0.99, top=0.945, bottom=0.1, wspace=0.02, hspace=0.14)
     half = VIEW_HEIGHT / 2
     aspect = 1.25
-    extent = (VIEW_CENTRE[0] - aspect * half, VIEW_CENTRE[0] + aspect * half, -half, half)
+    extent = (VIEW_CENTER[0] - aspect * half, VIEW_CENTER[0] + aspect * half, -half, half)
     for axes, (grains, title, flying) in zip(panels.flat, states):
-        actors = [grains_actor(grains, cluster_sizes(grains), colours, norm)]
+        actors = [grains_actor(grains, cluster_sizes(grains), colors, norm)]
         if flying is not None:
             actors.append(rays_actor(flying, VERMILION))
         axes.imshow(render(actors, 1000, 800), extent=extent, interpolation="antialiased")
@@ -228,7 +228,7 @@ def dispersal(sound, flight, path):
     first.text(front, 1.12, "front of the pulse", color=VERMILION, fontsize=12, ha="left")
     first.text(-1.3, -1.22, "reflected rays", color=VERMILION, fontsize=12, ha="center")
     bar = figure.add_axes((0.2, 0.058, 0.6, 0.017))
-    figure.colorbar(matplotlib.cm.ScalarMappable(norm, colours), cax=bar, orientation="horizontal")
+    figure.colorbar(matplotlib.cm.ScalarMappable(norm, colors), cax=bar, orientation="horizontal")
     bar.set_xlabel("grains in a grain's clump (bonded, or less than 5 % of a radius apart)", fontsize=12)
     ticks = [1, 10, 100, 1000, GRAINS]
     bar.set_xticks(ticks, ["1 (free)", "10", "100", "1,000", ""])
@@ -247,11 +247,11 @@ def rays_picture(sound, path):
     """Reflections, rays in flight and the beam's power by direction after each pulse."""
     rays = series(sound, "rays")
     figure, (left, middle, right) = plt.subplots(1, 3, figsize=(14, 4.6), constrained_layout=True)
-    colours = [BLUE, VERMILION, GREEN, PURPLE]
-    for pulse, (colour, style) in enumerate(zip(colours, ["-", "--", "-.", ":"])):
+    colors = [BLUE, VERMILION, GREEN, PURPLE]
+    for pulse, (color, style) in enumerate(zip(colors, ["-", "--", "-.", ":"])):
         time, rows = since_pulse(rays, pulse)
         before = rays["reflections"][rays["time_s"] <= pulse * PERIOD][-1]
-        words = {"color": colour, "linestyle": style, "linewidth": 2, "label": f"pulse {pulse + 1}"}
+        words = {"color": color, "linestyle": style, "linewidth": 2, "label": f"pulse {pulse + 1}"}
         left.plot(np.append(0, time), np.append(0, rays["reflections"][rows] - before) / 1e3, **words)
         middle.plot(np.append(0, time), np.append(10_000, rays["in_flight"][rows]), **words)
     left.set_ylabel("reflections so far (thousands)")
@@ -264,14 +264,14 @@ def rays_picture(sound, path):
     middle.legend(loc="upper right")
     middle.set_title("Nine in ten are gone within 3.5 ms")
     time, rows = since_pulse(rays, 0)
-    for name, start, colour, style, label in [
+    for name, start, color, style, label in [
         ("magnitude", 1, BLACK, "-", "in all"),
         ("x", 1, VERMILION, "--", "along x, the beam's direction"),
         ("y", 0, SKY, "-.", "along y"),
         ("z", 0, GREEN, ":", "along z"),
     ]:
         power = np.append(start, rays[f"flying_{name}"][rows])
-        right.plot(np.append(0, time), power, color=colour, linestyle=style, linewidth=2, label=label)
+        right.plot(np.append(0, time), power, color=color, linestyle=style, linewidth=2, label=label)
     right.set_ylabel("power in flight over that launched")
     right.legend(loc="upper right")
     right.set_title("Pulse 1: direction is lost before power")
@@ -300,7 +300,7 @@ def energy_picture(sound, path):
     time = energy["time_s"]
     heights = [sum(energy[name] for name in names) / 1e3 for _, names, _ in layers]
     figure, axes = plt.subplots(figsize=(11, 6), constrained_layout=True)
-    areas = axes.stackplot(time, heights, colors=[colour for *_, colour in layers], linewidth=0)
+    areas = axes.stackplot(time, heights, colors=[color for *_, color in layers], linewidth=0)
     (work,) = axes.plot(time, energy["work_rays_J"] / 1e3, color=BLACK, linestyle="--", linewidth=1.5)
     largest = np.abs(energy["drift_J"]).max()
     axes.set_title(
@@ -327,7 +327,7 @@ def primaries(grains):
 def agglomeration(early, whole, path):
     """The cloud of reacting grains at the start, as grains merge, and at the end."""
     shades = matplotlib.colormaps["viridis"](np.linspace(0.15, 1.0, 256))
-    colours, norm = matplotlib.colors.ListedColormap(shades), LogNorm(1, 100)
+    colors, norm = matplotlib.colors.ListedColormap(shades), LogNorm(1, 100)
     moments = [(early, 0.0), (early, 10e-6), (early, 50e-6), (whole, 0.01)]
     states = [frame(folder, "grains", at) for folder, at in moments]
     titles = ["at the start", "after 10 \u00b5s", "after 50 \u00b5s", "after 10 ms"]
@@ -336,7 +336,7 @@ def agglomeration(early, whole, path):
     half = 1.4 * HALF_EDGE
     for axes, (grains, _), title in zip(panels.flat, states, titles):
         sizes = primaries(grains)
-        picture = render([grains_actor(grains, sizes, colours, norm)], 900, 900, ((0.0, 0.0, 0.0), 2 * half))
+        picture = render([grains_actor(grains, sizes, colors, norm)], 900, 900, ((0.0, 0.0, 0.0), 2 * half))
         axes.imshow(picture, extent=(-half, half, -half, half), interpolation="antialiased")
         box = np.array([-1, 1, 1, -1, -1]) * HALF_EDGE
         axes.plot(box, np.roll(box, -1)[[0, 1, 2, 3, 0]], color=GREY, linewidth=0.8, linestyle="--")
@@ -352,7 +352,7 @@ def agglomeration(early, whole, path):
         axes.plot([right - 5e-3, right], [bottom, bottom], color=BLACK, linewidth=3, solid_capstyle="butt")
         axes.text(right - 2.5e-3, bottom + 0.3e-3, "5 mm", ha="center", va="bottom", fontsize=11)
     bar = figure.add_axes((0.2, 0.056, 0.6, 0.016))
-    figure.colorbar(matplotlib.cm.ScalarMappable(norm, colours), cax=bar, orientation="horizontal")
+    figure.colorbar(matplotlib.cm.ScalarMappable(norm, colors), cax=bar, orientation="horizontal")
     bar.set_xlabel("primary grains that a grain is made of", fontsize=12)
     bar.set_xticks([1, 10, 100], ["1", "10", "100"])
     bar.minorticks_off()
@@ -362,14 +362,14 @@ def agglomeration(early, whole, path):
 def growth_picture(sets, early, whole, path):
     """Mean radius over time of the six sets, and where the mass is as grains of set 1 grow."""
     figure, (left, right) = plt.subplots(1, 2, figsize=(14, 5.4), constrained_layout=True)
-    colours = [BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY]
-    for (number, folders), colour, style in zip(sets.items(), colours, ["-", "--", "-.", ":", "-", "--"]):
+    colors = [BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY]
+    for (number, folders), color, style in zip(sets.items(), colors, ["-", "--", "-.", ":", "-", "--"]):
         tables = [series(folder, "grains") for folder in folders]
         ratio = np.array([table["radius_ratio"] for table in tables])
         time, mean = tables[0]["time_s"][1:] * 1e6, ratio.mean(axis=0)[1:]
         error = ratio.std(axis=0, ddof=1)[1:] / len(tables) ** 0.5
-        left.plot(time, mean, color=colour, linestyle=style, linewidth=2, label=f"set {number}")
-        left.fill_between(time, mean - error, mean + error, color=colour, alpha=0.2, linewidth=0)
+        left.plot(time, mean, color=color, linestyle=style, linewidth=2, label=f"set {number}")
+        left.fill_between(time, mean - error, mean + error, color=color, alpha=0.2, linewidth=0)
     left.set_xscale("log")
     left.set_xlim(2, 1e4)
     left.set_ylim(1, None)

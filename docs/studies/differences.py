@@ -57,9 +57,9 @@ def impacts():
         ("iterated as printed, 20 times", printed.format(20), VERMILION, ":", 1.8),
         ("iterated as printed, 21 times", printed.format(21), ORANGE, "-.", 1.5),
     ]
-    for name, law, colour, line, width in laws:
+    for name, law, color, line, width in laws:
         found = [restitution(x, law) for x in loads]
-        axis.plot(loads, found, line, color=colour, linewidth=width, label=name)
+        axis.plot(loads, found, line, color=color, linewidth=width, label=name)
     axis.set(xlabel="x: pressure of the impact over 2H", ylabel="restitution e", title="What an impact leaves of the speed: all from runs")
     axis.legend(frameon=False, fontsize=8)
     save(made, "impacts")
@@ -68,13 +68,13 @@ def impacts():
 def steps():
     """What half the step changes in the two sample problems under sound."""
     made, panels = figure(8.6, 3.7, 2)
-    for (name, (scenario, settings)), colour in zip(halving.SCENARIOS.items(), (BLUE, VERMILION)):
+    for (name, (scenario, settings)), color in zip(halving.SCENARIOS.items(), (BLUE, VERMILION)):
         parts = [1.0, 0.5, 0.25]
         found = np.array([[halving.run(scenario, settings(part), seed) for seed in (1, 2, 3)] for part in parts])
         for panel, column in zip(panels, (0, 2)):
             means = found[:, :, column].mean(axis=1)
             errors = found[:, :, column].std(axis=1, ddof=1) / np.sqrt(3)
-            panel.errorbar(parts, means, yerr=errors, fmt="o-", ms=5, capsize=3, color=colour, label=name)
+            panel.errorbar(parts, means, yerr=errors, fmt="o-", ms=5, capsize=3, color=color, label=name)
     for panel, label in zip(panels, ("dispersion degree", "kinetic energy [J]")):
         panel.set_xscale("log", base=2)
         panel.set(xlabel="step over that of the shipped scenario", ylabel=label, xticks=[1, 0.5, 0.25], xticklabels=["1", "1/2", "1/4"])

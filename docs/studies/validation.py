@@ -30,7 +30,7 @@ ROOT = Path(__file__).resolve().parents[2]
 PICTURES = ROOT / "docs/pictures/validation"
 PROGRAM = os.environ.get("AGGLO", ROOT / "target/release/agglo")
 
-# Okabe and Ito's colours, which the colour-blind tell apart.
+# Okabe and Ito's colors, which the color-blind tell apart.
 BLACK, ORANGE, SKY, GREEN, BLUE, VERMILION = "#000000", "#E69F00", "#56B4E9", "#009E73", "#0072B2", "#D55E00"
 
 
@@ -125,14 +125,14 @@ def hertz():
         ("glass", 2800, 48e9, 0.20, (274.11e-6, 40.34e-6), BLUE),
         ("limestone", 2500, 20e9, 0.25, (368.30e-6, 54.20e-6), VERMILION),
     ]
-    for name, density, modulus, poisson, (largest, duration), colour in cases:
+    for name, density, modulus, poisson, (largest, duration), color in cases:
         material = f'density = "{density} kg/m3"\nyoungs_modulus = "{modulus} Pa"\npoisson_ratio = {poisson}\n'
         more = '[contact.normal.hertz]\n[output]\nseries = "1.5 us"\n'
         run = Run(two_grains(material, 0.01, 10.0, 60e-6, more), "steps")
         steps = run.tables["steps"]
         time, overlap = hertz_overlap(modulus, poisson, density, 0.01, 10.0)
-        axis.plot(time * 1e6, overlap * 1e6, color=colour, linewidth=1.2, label=f"{name}: Hertz, integrated here")
-        axis.plot(steps["time_s"] * 1e6, steps["largest_strain"] * 0.02 * 1e6, "o", ms=4, color=colour, label=f"{name}: agglo")
+        axis.plot(time * 1e6, overlap * 1e6, color=color, linewidth=1.2, label=f"{name}: Hertz, integrated here")
+        axis.plot(steps["time_s"] * 1e6, steps["largest_strain"] * 0.02 * 1e6, "o", ms=4, color=color, label=f"{name}: agglo")
         axis.plot([duration * 1e6], [0], "|", ms=14, mew=2, color=BLACK)
         axis.axhline(largest * 1e6, color=BLACK, linewidth=0.8, linestyle=":")
     axis.set(xlabel="time [µs]", ylabel="overlap [µm]", xlim=(-3, 112), title="Two spheres of 10 mm meet at ±10 m/s")
@@ -150,7 +150,7 @@ def restitution():
         ("hooke", '[contact.normal.hooke]\nstiffness = "10 MN/m"', VERMILION, "s"),
     ]
     material = 'density = "4000 kg/m3"\nyoungs_modulus = "380 GPa"\npoisson_ratio = 0.23\n'
-    for name, law, colour, marker in laws:
+    for name, law, color, marker in laws:
         found = []
         for wanted in asked:
             more = f'{law}\n[contact.damping.restitution]\nrestitution = {wanted}\n'
@@ -158,8 +158,8 @@ def restitution():
             run = Run(two_grains(material, 0.0025, 1.95, 1e-4, more, engine, gap=1e-7), "moments")
             speeds = run.tables["moments"]["mean_speed_m_s"]
             found.append(speeds[-1] / speeds[0])
-        axis.plot(asked, found, marker, color=colour, ms=5, label=f"agglo, {name}", fillstyle="none")
-        error.semilogy(asked, np.abs(np.array(found) - asked) + 1e-12, marker, color=colour, label=f"agglo, {name}", fillstyle="none")
+        axis.plot(asked, found, marker, color=color, ms=5, label=f"agglo, {name}", fillstyle="none")
+        error.semilogy(asked, np.abs(np.array(found) - asked) + 1e-12, marker, color=color, label=f"agglo, {name}", fillstyle="none")
     axis.plot([0, 1], [0, 1], color=BLACK, linewidth=0.8, label="what was asked for")
     axis.set(xlabel="restitution asked for", ylabel="restitution found")
     error.axhline(1e-3, color=BLACK, linestyle=":", label="tolerance of the test")
@@ -258,12 +258,12 @@ def enskog(solid_fraction, temperature=1.0):
 def haff():
     """Haff (1983): a gas of grains cools as (1 + t/t_H)^-2."""
     made, axis = figure()
-    for value, colour, marker in ((0.95, BLUE, "o"), (0.98, VERMILION, "s")):
+    for value, color, marker in ((0.95, BLUE, "o"), (0.98, VERMILION, "s")):
         own = 6 / (enskog(0.05) * (1 - value**2))
         runs = [Run(gas(4000, 0.05, value, 8 * own, own / 2), "grains", seed=seed) for seed in (1, 2, 3)]
         time = runs[0].tables["grains"]["time_s"] / own
         temperature = np.mean([run.tables["grains"]["granular_temperature_m2_s2"] for run in runs], axis=0)
-        axis.semilogy(time, temperature / temperature[0], marker, color=colour, ms=5, fillstyle="none", label=f"agglo, restitution {value}")
+        axis.semilogy(time, temperature / temperature[0], marker, color=color, ms=5, fillstyle="none", label=f"agglo, restitution {value}")
     line = np.linspace(0, 8, 100)
     axis.semilogy(line, (1 + line) ** -2.0, color=BLACK, linewidth=1, label="Haff (1983)")
     axis.set(xlabel="time over t_H = 6/(ω (1 - e²)), ω Enskog's rate", ylabel="granular temperature over its start")
@@ -384,10 +384,10 @@ def order():
         ("staggered, φ = 1", staggered.replace("{1}", "1.0"), VERMILION, "^"),
     ]
     made, axis = figure()
-    for name, engine, colour, marker in schemes:
+    for name, engine, color, marker in schemes:
         errors = [circling(engine.format(float(step))) for step in steps]
         slope = np.polyfit(np.log(steps[2:]), np.log(errors[2:]), 1)[0]
-        axis.loglog(steps, errors, marker + "-", color=colour, ms=5, linewidth=1, fillstyle="none", label=f"{name}: slope {slope:.3f}")
+        axis.loglog(steps, errors, marker + "-", color=color, ms=5, linewidth=1, fillstyle="none", label=f"{name}: slope {slope:.3f}")
     axis.loglog(steps, 0.05 * steps**2, color=BLACK, linewidth=0.8, linestyle=":", label="slopes 2 and 1")
     axis.loglog(steps, 1.5 * steps, color=BLACK, linewidth=0.8, linestyle=":")
     axis.set(xlabel="step [rad]", ylabel="distance from the exact place,\nover that of the charges")
@@ -403,7 +403,7 @@ def sets():
         ("as printed, 21 iterations", 21, ORANGE, "^"),
     ]
     made, axis = figure()
-    for place, (name, most, colour, marker) in zip((-0.18, 0.0, 0.18), kinds):
+    for place, (name, most, color, marker) in zip((-0.18, 0.0, 0.18), kinds):
         for number in reacting.PAPER:
             scenario, settings = f"reacting-set-{number}", []
             if most:
@@ -412,7 +412,7 @@ def sets():
             ratios = np.array([reacting.run(scenario, settings, seed)["radius_ratio"] for seed in range(1, 13)])
             error = ratios.std(ddof=1) / np.sqrt(len(ratios))
             label = name if number == 1 else None
-            axis.errorbar(number + place, ratios.mean(), yerr=error, fmt=marker, color=colour, ms=5, capsize=3, label=label)
+            axis.errorbar(number + place, ratios.mean(), yerr=error, fmt=marker, color=color, ms=5, capsize=3, label=label)
     axis.plot(list(reacting.PAPER), list(reacting.PAPER.values()), "_", color=BLACK, ms=26, mew=2, label="Zohdi (2004), table 3")
     axis.set(xlabel="set", ylabel="mean radius, end over start", xticks=list(reacting.PAPER), ylim=(0, None))
     axis.legend(frameon=False, fontsize=8, ncols=2)

@@ -127,7 +127,7 @@ def test_a_search_cost_against_generation_candidates_parallel_coordinates_tables
         "search",
         """
 [[objectives]]
-minimise = "growth_deficit"
+minimize = "growth_deficit"
 [method.published_genetic]
 population = 8
 parents = 4
@@ -162,9 +162,9 @@ def test_two_costs_a_front(opened_clean, searched):
         "search",
         """
 [[objectives]]
-minimise = "growth_deficit"
+minimize = "growth_deficit"
 [[objectives]]
-minimise = "temperature_mean_K"
+minimize = "temperature_mean_K"
 [method.genetic]
 population = 8
 generations = 3
@@ -182,7 +182,7 @@ starts = 2
 
 
 def test_a_study_of_sensitivity_what_moves_what(opened_clean, searched):
-    folder = searched("study", '\n[[objectives]]\nminimise = "growth_deficit"\n[plan.morris]\ntrajectories = 3\n')
+    folder = searched("study", '\n[[objectives]]\nminimize = "growth_deficit"\n[plan.morris]\ntrajectories = 3\n')
     page = opened_clean(folder)
     sizes = table(folder / "sensitivity.csv")["mean_size"]
     assert page.lines("sensitivity-0")[0]["y"] == sizes[:2]

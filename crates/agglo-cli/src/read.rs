@@ -131,7 +131,7 @@ fn is_of_a_shell(file: &Path) -> bool {
     file == Path::new("/dev/stdin") || file.starts_with("/dev/fd") || file.starts_with("/proc/self/fd")
 }
 
-/// Colours on a terminal, unless the user has asked for none (no-color.org).
+/// Colors on a terminal, unless the user has asked for none (no-color.org).
 fn wants_color() -> bool {
     io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
 }

@@ -22,16 +22,16 @@ pub(crate) struct Wishes {
     /// A picture (.png), a movie (.mp4, .gif), or a folder or pattern for numbered pictures (frames/, frames/*.png)
     #[arg(short, long = "output", value_name = "PATH")]
     output: PathBuf,
-    /// What colours show: speed, temperature, cluster, absorbed_power, size, id ... as far as the frames hold it
+    /// What colors show: speed, temperature, cluster, absorbed_power, size, id ... as far as the frames hold it
     #[arg(long, default_value = "speed", value_name = "QUANTITY")]
     color: String,
-    /// Colour map of values [default: one that suits the quantity]
+    /// Color map of values [default: one that suits the quantity]
     #[arg(long, value_parser = map, value_name = "viridis|cividis|inferno")]
     map: Option<Map>,
-    /// Values in SI units at the ends of the colour map [default: those of all frames]
+    /// Values in SI units at the ends of the color map [default: those of all frames]
     #[arg(long, value_parser = range, value_name = "LOW,HIGH", allow_hyphen_values = true)]
     range: Option<[f64; 2]>,
-    /// What is in the picture: all frames (fit), the first one (first), or what is about a place in metres
+    /// What is in the picture: all frames (fit), the first one (first), or what is about a place in meters
     #[arg(long, value_parser = view, default_value = "fit", value_name = "fit|first|X,Y,Z", allow_hyphen_values = true)]
     view: View,
     /// Direction of view about the z axis in degrees: 0 looks along +x, 90 along +y
@@ -171,7 +171,7 @@ fn view(text: &str) -> Result<View, String> {
         "first" => Ok(View::First),
         _ => numbers(text)
             .map(|place| View::At(Vec3::from(place)))
-            .map_err(|reason| format!("{reason}; say fit, first, or a place in metres such as 0,0,1e-3")),
+            .map_err(|reason| format!("{reason}; say fit, first, or a place in meters such as 0,0,1e-3")),
     }
 }
 

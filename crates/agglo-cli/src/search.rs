@@ -92,7 +92,7 @@ pub(crate) fn check(source: &Source, settings: &[String]) -> Result<(), Failure>
     let mut parts = vec![format!("{} is sound", source.shown), columns(&rows(&campaign, &problem))];
     let notes = problem.notes().into_iter().chain(problem.refused_ends());
     parts.extend(notes.map(|note| format!("note: {note}")));
-    if let Ok(scenario) = problem.scenario(&problem.centre()) {
+    if let Ok(scenario) = problem.scenario(&problem.center()) {
         let plan = Plan::new(&scenario, problem.folder())
             .map_err(|error| Failure::bad_input(format!("error: {}: {error}", source.shown)))?;
         parts.push(format!("\nOne run, with all parameters in the middle of their ranges:\n{plan}"));

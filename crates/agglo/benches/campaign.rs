@@ -8,7 +8,7 @@ use agglo::folder::CampaignFolder;
 use agglo::search::analysis::Moments;
 use agglo::search::campaign::{CampaignEnding, Course, Goal, conduct};
 use agglo::search::functions::TestFunction;
-use agglo::search::optimiser::{Method, PublishedGenetic};
+use agglo::search::optimizer::{Method, PublishedGenetic};
 use agglo::search::{Axis, Candidate, Confirm, Ensemble, Fitness, Model, Scale, Trouble};
 use divan::Bencher;
 use divan::counter::ItemsCount;
@@ -65,7 +65,7 @@ fn campaign(threads: usize, starts: u32) {
         parameters: (0..10).map(axis).collect(),
         objectives: vec![Goal { formula: "value".to_owned(), is_to_be_large: false }],
         ensemble: Ensemble::fixed(starts),
-        optimiser: method.start(10, 1, 1),
+        optimizer: method.start(10, 1, 1),
         planned: Vec::new(),
         budget_s: None,
         limits: &|_| Vec::new(),

@@ -1,7 +1,7 @@
-//! What an optimiser costs for each evaluation, ask and tell together: 2,000 evaluations of a bowl in 10 dimensions.
+//! What an optimizer costs for each evaluation, ask and tell together: 2,000 evaluations of a bowl in 10 dimensions.
 
-use agglo::search::functions::{TestFunction, minimise};
-use agglo::search::optimiser::{CmaEs, Genetic, Method, NelderMead, PublishedGenetic, Random, Sobol};
+use agglo::search::functions::{TestFunction, minimize};
+use agglo::search::optimizer::{CmaEs, Genetic, Method, NelderMead, PublishedGenetic, Random, Sobol};
 use agglo::search::{Campaign, Fitness, Model, Problem};
 use divan::Bencher;
 use divan::counter::ItemsCount;
@@ -13,7 +13,7 @@ fn main() {
 fn search(bencher: Bencher, method: &Method, dimensions: usize) {
     let run = || {
         let mut evaluations = 0_usize;
-        minimise(method.start(dimensions, 1, 1).as_mut(), 2000, |point, _| {
+        minimize(method.start(dimensions, 1, 1).as_mut(), 2000, |point, _| {
             evaluations += 1;
             Fitness::new(vec![TestFunction::Rosenbrock.at(point)])
         });

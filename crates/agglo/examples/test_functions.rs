@@ -1,4 +1,4 @@
-//! How well the optimisers do: 2,000 evaluations of test functions in 10 dimensions, with and without noise.
+//! How well the optimizers do: 2,000 evaluations of test functions in 10 dimensions, with and without noise.
 //!
 //! `cargo run --release -p agglo --example test_functions -- 20` prints, for each method and function, the median over 20
 //! seeds of the noise-free value at the point recommended. All lowest values are 0.
@@ -9,8 +9,8 @@ use std::error::Error;
 
 use agglo::math::rng::{Purpose, Stream};
 use agglo::search::Fitness;
-use agglo::search::functions::{Noisy, TestFunction, minimise};
-use agglo::search::optimiser::{CmaEs, Genetic, Method, NelderMead, PublishedGenetic, Random, Sobol};
+use agglo::search::functions::{Noisy, TestFunction, minimize};
+use agglo::search::optimizer::{CmaEs, Genetic, Method, NelderMead, PublishedGenetic, Random, Sobol};
 
 const DIMENSIONS: usize = 10;
 const EVALUATIONS: usize = 2000;
@@ -60,7 +60,7 @@ fn nelder_mead(seed: u64) -> Method {
 fn value(row: &Row, noisy: Noisy) -> f64 {
     let (_, method, told) = row;
     let mut search = method(noisy.seed).start(DIMENSIONS, 1, noisy.seed);
-    let recommended = minimise(search.as_mut(), EVALUATIONS as u64, |point, number| {
+    let recommended = minimize(search.as_mut(), EVALUATIONS as u64, |point, number| {
         let fitness = noisy.fitness(point, number);
         if *told { fitness } else { Fitness::new(fitness.costs) }
     });

@@ -65,7 +65,7 @@ fn restitution_and_speed_of_a_pair_are_found_again() {
         seed = 3
         base.file = "base.toml"
         [[objectives]]
-        minimise = "(energy.kinetic_J/{kept:e} - 1)^2 + (energy.lost_contact_damping_J/{lost:e} - 1)^2"
+        minimize = "(energy.kinetic_J/{kept:e} - 1)^2 + (energy.lost_contact_damping_J/{lost:e} - 1)^2"
         [[parameters]]
         name = "restitution"
         key = "contact.damping.restitution.restitution"
@@ -123,7 +123,7 @@ fn restitution_and_spread_of_a_gas_are_found_again() {
             base.file = "base.toml"
             columns = ["granular_temperature_m2_s2", "impacts"]
             [[objectives]]
-            minimise = "{objective}"
+            minimize = "{objective}"
             [[parameters]]
             name = "restitution"
             key = "impact.restitution.constant.restitution"

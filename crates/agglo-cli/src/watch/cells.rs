@@ -5,12 +5,12 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Color;
 
-/// How many colours the terminal has.
+/// How many colors the terminal has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Depth {
     /// All of 24 bits.
     Full,
-    /// 256: a cube of 6 x 6 x 6, and greys.
+    /// 256: a cube of 6 x 6 x 6, and grays.
     Indexed,
 }
 
@@ -21,7 +21,7 @@ impl Depth {
         if matches!(said.as_str(), "truecolor" | "24bit") { Self::Full } else { Self::Indexed }
     }
 
-    /// The terminal's colour for red, green and blue.
+    /// The terminal's color for red, green and blue.
     pub fn color(self, [r, g, b]: [u8; 3]) -> Color {
         match self {
             Self::Full => Color::Rgb(r, g, b),
@@ -30,7 +30,7 @@ impl Depth {
     }
 }
 
-/// The nearest of the 240 fixed colours. The cube's levels are 0, 95, 135, 175, 215 and 255, the greys 8, 18 ... 238.
+/// The nearest of the 240 fixed colors. The cube's levels are 0, 95, 135, 175, 215 and 255, the grays 8, 18 ... 238.
 fn indexed(color: [u8; 3]) -> u8 {
     const LEVELS: [u8; 6] = [0, 95, 135, 175, 215, 255];
     let nearest = |part: u8| {
@@ -40,11 +40,11 @@ fn indexed(color: [u8; 3]) -> u8 {
     let [r, g, b] = color.map(nearest);
     let mean = color.iter().map(|&part| u32::from(part)).sum::<u32>() / 3;
     let step = (mean.saturating_sub(3) / 10).min(23) as u8;
-    let grey = 8 + 10 * step;
+    let gray = 8 + 10 * step;
     let far = |other: [u8; 3]| -> u32 {
         color.iter().zip(other).map(|(a, b)| u32::from(a.abs_diff(b)).pow(2)).sum()
     };
-    if far([grey; 3]) < far([LEVELS[r], LEVELS[g], LEVELS[b]]) {
+    if far([gray; 3]) < far([LEVELS[r], LEVELS[g], LEVELS[b]]) {
         232 + step
     } else {
         (16 + 36 * r + 6 * g + b) as u8
@@ -85,8 +85,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn fixed_colours_stand_for_the_nearest() {
-        // The corners of the cube, a grey between its levels, and one beside them.
+    fn fixed_colors_stand_for_the_nearest() {
+        // The corners of the cube, a gray between its levels, and one beside them.
         assert_eq!((indexed([0, 0, 0]), indexed([255, 255, 255])), (16, 231));
         assert_eq!((indexed([255, 0, 0]), indexed([0, 95, 135])), (196, 16 + 6 + 2));
         assert_eq!((indexed([118, 118, 118]), indexed([120, 117, 117])), (243, 243));

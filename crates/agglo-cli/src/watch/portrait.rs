@@ -13,11 +13,11 @@ const TURN: f64 = 15.0_f64.to_radians();
 pub(super) struct Portrait {
     dir: PathBuf,
     side: Side,
-    /// Which of the quantities that the frames hold the colours show.
+    /// Which of the quantities that the frames hold the colors show.
     color: usize,
     words: Vec<&'static str>,
     shown: Option<Shown>,
-    /// What the shown picture is of: frame, side, colour, size.
+    /// What the shown picture is of: frame, side, color, size.
     key: Option<(usize, Side, usize, [u32; 2])>,
     /// Why there is no picture.
     pub trouble: Option<String>,
@@ -46,7 +46,7 @@ impl Portrait {
         self.shown.as_ref()
     }
 
-    /// Colours by the next quantity.
+    /// Colors by the next quantity.
     pub fn next_color(&mut self) {
         self.color = (self.color + 1) % self.words.len().max(1);
     }

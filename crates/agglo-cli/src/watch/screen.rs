@@ -28,7 +28,7 @@ pub(super) struct Screen<'a> {
     pub keys: &'a str,
 }
 
-/// Colours of curves (Okabe and Ito), as far as the terminal has them.
+/// Colors of curves (Okabe and Ito), as far as the terminal has them.
 const CURVES: [[u8; 3]; 3] = [[0x56, 0xb4, 0xe9], [0xe6, 0x9f, 0x00], [0x00, 0x9e, 0x73]];
 /// Lines for notes.
 const NOTES: usize = 3;
@@ -39,7 +39,7 @@ const SIDE: u16 = 46;
 pub(super) fn picture_area(area: Rect) -> Rect {
     let [_, middle, ..] = rows(area, 0);
     let [left, _] = columns(middle);
-    // A frame about it, and the line of its colours.
+    // A frame about it, and the line of its colors.
     Rect {
         x: left.x + 1,
         y: left.y + 1,

@@ -29,8 +29,8 @@ const KEYS_EVERY: Duration = Duration::from_millis(100);
 const LINE_EVERY: Duration = Duration::from_secs(5);
 /// After this time without news the run may have stopped.
 const QUIET: Duration = Duration::from_secs(30);
-const KEYS: &str = "q leave   c colour   arrows turn   Ctrl-C leave";
-const GUEST_KEYS: &str = "q plain bar   c colour   arrows turn   Ctrl-C stop the run";
+const KEYS: &str = "q leave   c color   arrows turn   Ctrl-C leave";
+const GUEST_KEYS: &str = "q plain bar   c color   arrows turn   Ctrl-C stop the run";
 
 /// Why a sitting ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

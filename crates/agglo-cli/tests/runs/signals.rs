@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use crate::common::{Bench, STAGGERED, command, complained, reference, signal};
 
-/// A second, and as much again for a machine that is busy with other tests, on top of a build that is not optimised.
+/// A second, and as much again for a machine that is busy with other tests, on top of a build that is not optimized.
 const SOON: Duration = Duration::from_secs(6);
 
 /// Grains that are placed at random, denser than there is room for: the search for it takes minutes.

@@ -16,7 +16,7 @@ fn assert_says(text: &str, words: &[&str]) {
     }
 }
 
-/// Two grains fly at one another, a millimetre apart, at 10 m/s.
+/// Two grains fly at one another, a millimeter apart, at 10 m/s.
 const MEETING: &str = r#"
 version = 1
 title = "meeting"

@@ -32,7 +32,7 @@ fn candidates_that_fail_are_recorded_and_the_search_goes_on() {
 #[test]
 fn a_search_in_which_all_fail_is_given_up() {
     // Grains without a thermal conductivity have no Biot number.
-    let bench = Bench::with(&SEARCH.replace("minimise = \"growth_deficit\"", "minimise = \"biot_number\""));
+    let bench = Bench::with(&SEARCH.replace("minimize = \"growth_deficit\"", "minimize = \"biot_number\""));
     let text = complained(&bench.ends("search", &[], 1));
     assert!(text.contains("none of 20 candidates could be evaluated: 20 failed"), "{text}");
     assert!(text.contains("the first one failed so: \"biot_number\" has no value"), "{text}");

@@ -93,7 +93,7 @@ fn a_study_runs_its_plan() {
 #[test]
 fn a_study_without_objectives_measures() {
     let method = SEARCH.find("[method").unwrap();
-    let study = SEARCH[..method].replace("[[objectives]]\nminimise = \"growth_deficit\"\n", "")
+    let study = SEARCH[..method].replace("[[objectives]]\nminimize = \"growth_deficit\"\n", "")
         + "[plan.grid]\nlevels = 2\n";
     let study = study.replacen("seed = 5\n", "seed = 5\ncolumns = [\"radius_ratio\", \"impacts\"]\n", 1);
     let bench = Bench::with(&study);

@@ -17,7 +17,7 @@ pub struct Ray {
     /// Unit vector.
     pub direction: Vec3,
     /// Way since the segment began [m].
-    pub travelled: f64,
+    pub traveled: f64,
     /// Power now [W].
     pub power: f64,
     /// Power at the start [W].
@@ -97,7 +97,7 @@ impl Ray {
     /// Where the ray is [m].
     #[inline]
     pub fn position(&self) -> Vec3 {
-        self.origin + self.direction * self.travelled
+        self.origin + self.direction * self.traveled
     }
 }
 
@@ -121,7 +121,7 @@ impl Flight {
         self.rays.extend(starts.iter().map(|start| Ray {
             origin: start.position,
             direction,
-            travelled: 0.0,
+            traveled: 0.0,
             power: start.power,
             first_power: start.power,
             area,

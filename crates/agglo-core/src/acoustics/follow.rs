@@ -125,7 +125,7 @@ mod tests {
                 };
                 (0..4000).map(|step| gap(after(step))).fold(f64::INFINITY, f64::min)
             };
-            // Round-off at the exit; a millimetre before it the clearance is below zero by up to the slope times that.
+            // Round-off at the exit; a millimeter before it the clearance is below zero by up to the slope times that.
             assert!(clearance(exit) > -1e-12, "{k}: {}", clearance(exit));
             assert!(clearance(exit - 1e-3) < 0.0, "{k}: {}", clearance(exit - 1e-3));
             grazing += usize::from(offset.norm() > 0.99 * ball.radius);

@@ -72,7 +72,7 @@ impl Default for Ends {
 /// The grains that rays fly among, as they are now.
 #[derive(Clone, Copy, Debug)]
 pub struct Targets<'a> {
-    /// Centres [n, 3] [m].
+    /// Centers [n, 3] [m].
     pub positions: &'a [Vec3],
     /// Radii [n] [m].
     pub radii: &'a [f64],
@@ -325,11 +325,11 @@ impl Scene<'_> {
     fn fly_some(&self, rays: &mut [Ray], chunk: &mut Chunk) {
         while chunk.done < rays.len() && chunk.hits.len() < BATCH {
             let mut ray = rays[chunk.done];
-            let fresh = Leg { end: ray.travelled + self.distance, in_place: 0 };
+            let fresh = Leg { end: ray.traveled + self.distance, in_place: 0 };
             let leg = chunk.leg.take();
             let tally = tally_of(ray.pulse, &mut chunk.tallies);
             let fate = if leg.is_none() && self.is_clear(&ray, fresh.end) {
-                ray.travelled = fresh.end;
+                ray.traveled = fresh.end;
                 Fate::Flies
             } else {
                 self.fly(&mut ray, leg.unwrap_or(fresh), tally, &mut chunk.hits)
@@ -380,13 +380,13 @@ impl Scene<'_> {
             let span = RaySpan {
                 origin: ray.origin,
                 direction: ray.direction,
-                from: ray.travelled,
+                from: ray.traveled,
                 to: end.min(exit),
                 skip: ray.last_hit,
             };
             let Some(met) = self.grid.nearest(&span) else {
                 if exit > end {
-                    ray.travelled = end;
+                    ray.traveled = end;
                     let to = if matches!(self.way, Way::Out(_)) { exit } else { f64::INFINITY };
                     ray.clear = self.grid.clear_until(&RaySpan { from: end, to, ..span });
                     return Fate::Flies;
@@ -395,7 +395,7 @@ impl Scene<'_> {
                 return Fate::Ended;
             };
             leg.end -= met.at;
-            leg.in_place = if met.at > ray.travelled { 0 } else { leg.in_place + 1 };
+            leg.in_place = if met.at > ray.traveled { 0 } else { leg.in_place + 1 };
             let hit = self.bounce(ray, met);
             tally.count(ray, &hit);
             hits.push(hit);
@@ -445,7 +445,7 @@ impl Scene<'_> {
         };
         ray.origin = point;
         ray.direction = scattering.reflected;
-        ray.travelled = 0.0;
+        ray.traveled = 0.0;
         ray.power *= scattering.reflectance;
         ray.last_hit = met.sphere;
         ray.bounces += 1;

@@ -13,14 +13,14 @@ pub fn touching() -> f64 {
     TOUCHING
 }
 
-/// Distance of two centres [m] up to which surfaces are no farther apart than `part` of the smaller radius.
+/// Distance of two centers [m] up to which surfaces are no farther apart than `part` of the smaller radius.
 #[inline]
 pub fn reach(a: f64, b: f64, part: f64) -> f64 {
     a + b + part * a.min(b)
 }
 
 /// Whether the surfaces of two grains are no farther apart than `part` of the smaller radius, from the square of the
-/// distance of their centres [m²].
+/// distance of their centers [m²].
 ///
 /// ```
 /// use agglo::contact::closeness::{TOUCHING, are_close};

@@ -4,7 +4,7 @@ use super::friction::{Mindlin, Sliding, TangentialSpring};
 use super::{Damping, Normal, PairConstants, Touch};
 use crate::math::Vec3;
 
-/// Two grains that meet along the line of centres.
+/// Two grains that meet along the line of centers.
 pub struct HeadOn<'a> {
     pub pair: PairConstants,
     /// The pair at touching.

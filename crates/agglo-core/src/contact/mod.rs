@@ -32,9 +32,9 @@ use crate::math::Pace;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ContactLaws {
-    /// The elastic repulsion along the line of centres.
+    /// The elastic repulsion along the line of centers.
     pub normal: Normal,
-    /// The dissipation along the line of centres; none if left out.
+    /// The dissipation along the line of centers; none if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub damping: Option<Damping>,
     /// The resistance to sliding; none if left out.
@@ -43,13 +43,13 @@ pub struct ContactLaws {
 }
 
 impl ContactLaws {
-    /// How fast the laws are in a contact with this overlap: along the line of centres or across it.
+    /// How fast the laws are in a contact with this overlap: along the line of centers or across it.
     pub fn pace(&self, pair: &PairConstants, touch: &Touch) -> Pace {
         let damping = self.damping.as_ref().map_or(Pace::NONE, |law| law.pace(pair, touch, &self.normal));
         let along = self.normal.pace(pair, touch) + damping;
         let across = match &self.friction {
             None => Pace::NONE,
-            Some(Friction::Regularised(law)) => law.pace(touch),
+            Some(Friction::Regularized(law)) => law.pace(touch),
             Some(Friction::Mindlin(law)) => {
                 let (stiffness, mass) = (self.normal.pace(pair, touch).square, touch.effective_mass);
                 law.pace(pair, touch, stiffness * mass, damping.rate * mass)

@@ -51,7 +51,7 @@ pub struct Network {
 
 impl Network {
     /// Bonds all grains whose surfaces are no farther apart than the law's gap.
-    pub fn bond_neighbours(law: Option<&Beam>, grains: &Particles) -> Self {
+    pub fn bond_neighbors(law: Option<&Beam>, grains: &Particles) -> Self {
         let mut network = Self { law: law.cloned(), ..Self::default() };
         if let Some(law) = law {
             let largest = grains.radius.iter().copied().fold(0.0, f64::max);
@@ -77,7 +77,7 @@ impl Network {
                 let held = bonds.len();
                 Self::restored(law, bonds, held, grains.len())
             }
-            None => Self::bond_neighbours(law, grains),
+            None => Self::bond_neighbors(law, grains),
         }
     }
 

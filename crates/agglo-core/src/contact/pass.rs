@@ -23,7 +23,7 @@ pub struct ContactLoad {
     pub force: Vec3,
     /// Moment per arm [N]: n x F_t, the same for both grains.
     pub couple: Vec3,
-    /// Distances from the two centres to the contact [m]: owner's and partner's.
+    /// Distances from the two centers to the contact [m]: owner's and partner's.
     pub arms: [f64; 2],
 }
 
@@ -255,7 +255,7 @@ impl<'a> Contact<'a> {
             grains.map(|k| columns.contact_stiffness[k]),
             distance,
         );
-        // Two centres in one point have no normal; any will do, since the next step parts them.
+        // Two centers in one point have no normal; any will do, since the next step parts them.
         let normal = if distance > 0.0 { apart * (1.0 / distance) } else { Vec3::AXES[0] };
 
         Self {
@@ -303,7 +303,7 @@ impl<'a> Contact<'a> {
             rates.damping += dashpot * separation * separation;
             match &laws.friction {
                 None => {}
-                Some(Friction::Regularised(law)) => {
+                Some(Friction::Regularized(law)) => {
                     let speed = slip.norm();
                     if speed > 0.0 {
                         let size = law.force(constants, touch.area(), speed, world.dt, elastic);

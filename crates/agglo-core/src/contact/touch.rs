@@ -16,14 +16,14 @@
 //! | δ      | `overlap`          | m    | R_i + R_j - d, > 0 in contact                       |
 //! | S      | `radius_sum`       | m    | R_i + R_j                                           |
 //! | R*     | `effective_radius` | m    | R_i R_j / S                                         |
-//! | d      | `distance()`       | m    | distance of the centres                             |
+//! | d      | `distance()`       | m    | distance of the centers                             |
 //! | u      | `strain()`         | -    | E of [A] 14, overlap over the sum of the radii    |
 //! | A      | `area()`           | m²   | disc in which the spheres cut each other            |
-//! | L_i    | `arms()[0]`        | m    | from the centre of i to that disc along the normal  |
+//! | L_i    | `arms()[0]`        | m    | from the center of i to that disc along the normal  |
 //!
 //! # Valid when
 //! |R_i - R_j| < d <= S. One sphere inside the other has no disc: A = 0 there. For very unequal spheres the
-//! disc shrinks again once the small one's centre has passed it.
+//! disc shrinks again once the small one's center has passed it.
 //!
 //! # Compared with others
 //! For δ much smaller than R*, A = 2 π R* δ: twice the area π R* δ of Hertz's contact.
@@ -56,7 +56,7 @@ pub struct Touch {
 }
 
 impl Touch {
-    /// Two grains with radii [m], masses [kg] and contact stiffness [Pa], centres `distance` [m] apart.
+    /// Two grains with radii [m], masses [kg] and contact stiffness [Pa], centers `distance` [m] apart.
     #[inline]
     pub fn new(radii: [f64; 2], masses: [f64; 2], stiffness: [f64; 2], distance: f64) -> Self {
         let radius_sum = radii[0] + radii[1];
@@ -145,7 +145,7 @@ impl Touch {
     }
 }
 
-/// Distances [m] along the line of centres from each of two spheres to the plane of their common disc
+/// Distances [m] along the line of centers from each of two spheres to the plane of their common disc
 /// ([A] 69); their sum is `distance` [m], also for spheres that do not touch.
 #[inline]
 pub fn arms(radii: [f64; 2], distance: f64) -> [f64; 2] {

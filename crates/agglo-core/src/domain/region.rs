@@ -23,7 +23,7 @@ pub enum Region {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Ball {
-    /// Its centre; the origin if left out.
+    /// Its center; the origin if left out.
     #[serde(default)]
     pub center: Triple<Length>,
     /// Its radius.
@@ -44,7 +44,7 @@ pub struct Block {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Cylinder {
-    /// Its centre; the origin if left out.
+    /// Its center; the origin if left out.
     #[serde(default)]
     pub center: Triple<Length>,
     /// Direction of its axis.
@@ -157,7 +157,7 @@ impl Region {
         }
     }
 
-    /// A point uniform among the centres [m] of spheres of `radius` [m] that lie wholly inside.
+    /// A point uniform among the centers [m] of spheres of `radius` [m] that lie wholly inside.
     ///
     /// Nothing where no such sphere fits. Made by rejection alone, without sines and roots, so that the
     /// point is the same to the last bit on every machine (save for cylinders askew to the axes, whose
@@ -231,7 +231,7 @@ fn leaving_slab(low: f64, high: f64, speed: f64) -> f64 {
     if speed == 0.0 { f64::INFINITY } else { (low / speed).max(high / speed) }
 }
 
-/// Where a ray that starts at `from` seen from the centre leaves a ball (or, in two dimensions, a circle).
+/// Where a ray that starts at `from` seen from the center leaves a ball (or, in two dimensions, a circle).
 fn farther_root(from: Vec3, direction: Vec3, radius: f64) -> f64 {
     let nearest = -from.dot(direction);
     let offset = from + direction * nearest;
@@ -268,7 +268,7 @@ mod tests {
         ]
     }
 
-    /// The mean of |r - centre|² over a solid body is a textbook moment of inertia per mass: 3/5 R² for a
+    /// The mean of |r - center|² over a solid body is a textbook moment of inertia per mass: 3/5 R² for a
     /// ball, the sum of edge²/12 for a block, R²/2 + L²/12 for a cylinder. Five standard errors of the mean.
     #[test]
     fn samples_have_the_second_moment_of_the_shrunk_body() {
@@ -333,8 +333,8 @@ mod tests {
         assert_eq!(regions().map(|region| region.inner_radius()), [1.5, 0.75, 0.8, 0.2]);
     }
 
-    /// Just before the exit a point is inside, just behind it outside, and inside the bounds: by a nanometre on
-    /// metres, since a grazing ray crosses the surface slowly.
+    /// Just before the exit a point is inside, just behind it outside, and inside the bounds: by a nanometer on
+    /// meters, since a grazing ray crosses the surface slowly.
     #[test]
     fn exit_lies_on_the_surface() {
         let mut stream = Stream::new(1, Purpose::Sampling, 0);

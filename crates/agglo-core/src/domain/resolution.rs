@@ -1,12 +1,12 @@
 //! Where doubles end: how finely they tell places apart.
 //!
-//! Neighbouring doubles near 1 m are 2e-16 m apart, near 1e12 m a tenth of a millimetre. A grain whose place is known no
+//! Neighboring doubles near 1 m are 2e-16 m apart, near 1e12 m a tenth of a millimeter. A grain whose place is known no
 //! better than that does not touch, and moves, by chance. One limit holds for soft and hard spheres, at the start and on the
 //! way.
 
 use crate::math::Vec3;
 
-/// Largest part of a grain's radius by which neighbouring places may differ.
+/// Largest part of a grain's radius by which neighboring places may differ.
 ///
 /// It is a hundredth of the gap within which grains count as touching (`contact::closeness`), and of the overlap of a
 /// contact that is pressed by a thousandth of the radius: both are known to 1 %. Normals of impacts are then known to
@@ -15,7 +15,7 @@ pub const COARSEST: f64 = 1e-5;
 /// A grain that would move less far in a whole run, in parts of its radius, may stand still.
 const WORTH_MOVING: f64 = 1e-3;
 
-/// Distance [m] between neighbouring doubles at the largest coordinate of a place.
+/// Distance [m] between neighboring doubles at the largest coordinate of a place.
 #[inline]
 pub fn spacing(position: Vec3) -> f64 {
     let largest = position.x.abs().max(position.y.abs()).max(position.z.abs());
@@ -55,13 +55,13 @@ pub fn warning(
     grains.find_map(|(position, velocity, radius)| {
         if is_too_far(position, radius) {
             Some(
-                "a grain is so far from the origin that neighbouring places differ by more than 1e-5 of its radius: \
+                "a grain is so far from the origin that neighboring places differ by more than 1e-5 of its radius: \
                  contacts and motion are round-off there",
             )
         } else if is_stuck(position, velocity, radius, dt, duration) {
             Some(
-                "a grain moves less in a step than neighbouring places differ, so it stands still; move the grains \
-                 towards the origin or take longer steps",
+                "a grain moves less in a step than neighboring places differ, so it stands still; move the grains \
+                 toward the origin or take longer steps",
             )
         } else {
             None

@@ -170,7 +170,7 @@ mod tests {
     }
 
     /// Whole periods away from a point inside, the same point comes back to the rounding of the largest coordinate
-    /// on the way (a few hundred metres, so 1e-13 m), and it lies inside.
+    /// on the way (a few hundred meters, so 1e-13 m), and it lies inside.
     #[test]
     fn images_come_back_to_their_point() {
         let mut stream = Stream::new(4, Purpose::Sampling, 0);

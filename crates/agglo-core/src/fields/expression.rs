@@ -1,6 +1,6 @@
 //! A field that is a constant with a unit or an expression in x, y, z and t.
 //!
-//! A constant carries its unit (`"0.1 T"`). A formula is in SI units throughout: x, y, z in metres, t in
+//! A constant carries its unit (`"0.1 T"`). A formula is in SI units throughout: x, y, z in meters, t in
 //! seconds, the value in the field's SI unit; it must contain at least one of them, so that a bare number is
 //! never taken for a quantity. It knows `+ - * / ^`, parentheses, `pi` and the functions of
 //! [`FUNCTIONS`](crate::math::formula::FUNCTIONS), as formulas of searches do. Where a formula has no value (1/x at 0) the

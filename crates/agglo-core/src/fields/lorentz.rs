@@ -12,7 +12,7 @@
 //! | symbol | name in code            | unit | meaning                              |
 //! |--------|-------------------------|------|--------------------------------------|
 //! | q      | `charge`                | C    | charge of the grain                  |
-//! | v      | `velocity`              | m/s  | velocity of its centre               |
+//! | v      | `velocity`              | m/s  | velocity of its center               |
 //! | E      | `electric_field`        | V/m  | applied electric field               |
 //! | B      | `magnetic_flux_density` | T    | applied magnetic flux density        |
 //!
@@ -99,7 +99,7 @@ mod tests {
     use super::*;
     use crate::fields::Expression;
 
-    /// On the circle of radius m v/(q B) the force is m v²/r towards its centre.
+    /// On the circle of radius m v/(q B) the force is m v²/r toward its center.
     #[test]
     fn cyclotron_radius() {
         let flux_density = ["0 T", "0 T", "0.1 T"].map(|text| Expression::new(text).unwrap());

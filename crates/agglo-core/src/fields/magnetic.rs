@@ -1,4 +1,4 @@
-//! Magnetic force on magnetisable grains.
+//! Magnetic force on magnetizable grains.
 //!
 //! # Equation
 //! ```text
@@ -11,12 +11,12 @@
 //! # Symbols
 //! | symbol | name in code            | unit | meaning                                              |
 //! |--------|-------------------------|------|------------------------------------------------------|
-//! | γ      | `magnetisability`       | J/T² | χ V/(2 μ0) for a weakly magnetic grain of volume V   |
+//! | γ      | `magnetizability`       | J/T² | χ V/(2 μ0) for a weakly magnetic grain of volume V   |
 //! | B      | `magnetic_flux_density` | T    | applied flux density                                 |
 //! | h      | `difference`            | m    | half the width of the central difference             |
 //!
 //! # Valid when
-//! Grains do not magnetise one another. The difference is exact, up to round-off, where B is linear in space
+//! Grains do not magnetize one another. The difference is exact, up to round-off, where B is linear in space
 //! (a uniform gradient): B·B is then quadratic. Otherwise its error is h²/6 times the third derivative.
 //!
 //! # Compared with others
@@ -26,7 +26,7 @@
 //! ```
 //! use agglo::{fields::{Expression, Magnetic}, math::Vec3, units::Quantity};
 //! let field = ["0 T", "0 T", "0.5 + 10*z"].map(|text| Expression::new(text).unwrap());
-//! let law = Magnetic { magnetisability: Quantity(2.0), magnetic_flux_density: field, difference: None };
+//! let law = Magnetic { magnetizability: Quantity(2.0), magnetic_flux_density: field, difference: None };
 //! let force = law.force(1e-3, Vec3::ZERO, 0.0);
 //! assert!((force.z - 2.0 * 2.0 * 0.5 * 10.0).abs() < 1e-9);
 //! ```
@@ -37,14 +37,14 @@ use serde::{Deserialize, Serialize};
 use super::FieldVector;
 use super::expression::evaluate;
 use crate::math::{Pace, Vec3};
-use crate::units::{Length, Magnetisability};
+use crate::units::{Length, Magnetizability};
 
 /// Force up the gradient of B.B.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Magnetic {
     /// gamma.
-    pub magnetisability: Magnetisability,
+    pub magnetizability: Magnetizability,
     /// B.
     pub magnetic_flux_density: FieldVector<1, 0, -2, 0, -1>,
     /// Distance over which the gradient is taken; a ten-thousandth of a grain's radius if left out.
@@ -66,7 +66,7 @@ impl Magnetic {
             let behind = evaluate(field, position - axis * step, time);
             (ahead + behind).dot(ahead - behind) / (2.0 * step)
         });
-        Vec3::from(gradient) * self.magnetisability.si()
+        Vec3::from(gradient) * self.magnetizability.si()
     }
 
     /// How fast a grain of this mass [kg] and radius [m] moves by the gradient of the force at a point [m] and time [s].
@@ -81,7 +81,7 @@ impl Magnetic {
     /// Potential energy -γ B·B [J] of a grain at a point [m] and time [s].
     #[inline]
     pub fn energy(&self, position: Vec3, time: f64) -> f64 {
-        -self.magnetisability.si() * evaluate(&self.magnetic_flux_density, position, time).norm_squared()
+        -self.magnetizability.si() * evaluate(&self.magnetic_flux_density, position, time).norm_squared()
     }
 }
 
@@ -93,7 +93,7 @@ mod tests {
 
     fn law(text: [&str; 3]) -> Magnetic {
         let magnetic_flux_density = text.map(|text| Expression::new(text).unwrap());
-        Magnetic { magnetisability: Quantity(3e-6), magnetic_flux_density, difference: None }
+        Magnetic { magnetizability: Quantity(3e-6), magnetic_flux_density, difference: None }
     }
 
     /// B = (a + g x, -g y, 0): ∇(B·B) = 2 g (a + g x, g y, 0). Round-off: 1e-16 (B/g)/h = 1e-16 * 0.1/1e-8.

@@ -32,7 +32,7 @@ pub struct Fields {
     /// Electric and magnetic force on charges.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lorentz: Option<Lorentz>,
-    /// Magnetic force on magnetisable grains.
+    /// Magnetic force on magnetizable grains.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub magnetic: Option<Magnetic>,
     /// Attraction and repulsion between grains at a distance.

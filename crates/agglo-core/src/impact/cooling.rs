@@ -101,9 +101,9 @@ enum Way {
     None,
     /// Exponential.
     Convection,
-    /// Towards absolute zero, with both terms.
+    /// Toward absolute zero, with both terms.
     ToZero,
-    /// Towards an `equilibrium` [K] above zero.
+    /// Toward an `equilibrium` [K] above zero.
     Radiation { equilibrium: f64, decay: Decay },
     /// One Euler step.
     Euler,

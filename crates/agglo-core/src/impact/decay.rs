@@ -1,4 +1,4 @@
-//! Cooling towards the temperature at which a body neither gains nor loses heat, by convection and radiation together.
+//! Cooling toward the temperature at which a body neither gains nor loses heat, by convection and radiation together.
 //!
 //! With y the temperature over that of equilibrium, and a clock s in which radiation has the rate 1,
 //! ```text

@@ -29,7 +29,7 @@
 //! pieces a body breaks is asked of equal ones, whose surface is the most that n pieces can have.
 //!
 //! # Compared with others
-//! The condition printed as [B] 5.3, break if b ≤ b0, is always true. In the frame of the centre of mass ΔK is the same for every
+//! The condition printed as [B] 5.3, break if b ≤ b0, is always true. In the frame of the center of mass ΔK is the same for every
 //! observer; as printed it grows with the speed of the whole cloud. [B] 5.4 calls b = b0/2 two pieces; it is eight. So
 //! 5.5, b0 = 4 γ/(H af β), is the size where sticking and breaking into eight need the same speed; for two it is 0.26 of it.
 //!
@@ -64,7 +64,7 @@ pub struct Fragmentation {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum BreakingEnergy {
-    /// Its share of what the pair lost, in the frame of their centre of mass.
+    /// Its share of what the pair lost, in the frame of their center of mass.
     #[default]
     CenterOfMass,
     /// The change of its own kinetic energy, which depends on the observer, as printed.

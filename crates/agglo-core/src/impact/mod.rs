@@ -37,9 +37,9 @@ use crate::math::Vec3;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Impact {
-    /// Along the line of centres.
+    /// Along the line of centers.
     pub restitution: Restitution,
-    /// Across the line of centres; frictionless if left out.
+    /// Across the line of centers; frictionless if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tangential: Option<Tangential>,
     /// What becomes of a pair with restitution 0.

@@ -29,7 +29,7 @@ pub(super) struct Meeting<'a> {
     pub approach: f64,
     pub slip: f64,
     smaller_radius: f64,
-    /// Each partner's own speed towards the other, and along the slip of its own surface [m/s].
+    /// Each partner's own speed toward the other, and along the slip of its own surface [m/s].
     own_speeds: [[f64; 2]; 2],
 }
 

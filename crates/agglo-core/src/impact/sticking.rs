@@ -15,7 +15,7 @@
 //! |--------|-----------------|------|------------------------------------------------|
 //! | m      | `mass`          | kg   |                                                |
 //! | v      | `velocity`      | m/s  |                                                |
-//! | r      | `position`      | m    | centre; the merged sphere's is the centre of mass |
+//! | r      | `position`      | m    | center; the merged sphere's is the center of mass |
 //! | C      | `heat_capacity` | J/K  | of the whole body                              |
 //! | T      | `temperature`   | K    |                                                |
 //! | b      | `radius`        | m    |                                                |
@@ -23,7 +23,7 @@
 //!
 //! # Valid when
 //! The merged sphere has no pores, so it is smaller than the pair was; it keeps no spin, so angular momentum about the
-//! common centre is lost. Its material is that of the heavier partner (of equal ones, the one named first in the
+//! common center is lost. Its material is that of the heavier partner (of equal ones, the one named first in the
 //! alphabet): with two materials a sphere is a mixture that has the laws of its larger part.
 //!
 //! # Compared with others
@@ -57,7 +57,7 @@ pub enum Sticking {
     Never,
 }
 
-/// The sphere that two become, and the place [m] of its centre. Swapping the two gives the same bits.
+/// The sphere that two become, and the place [m] of its center. Swapping the two gives the same bits.
 ///
 /// Both places must be of the same image, if space is periodic.
 pub fn merged(bodies: [&Body; 2], positions: [Vec3; 2]) -> (Body, Vec3) {
@@ -88,7 +88,7 @@ pub fn merged(bodies: [&Body; 2], positions: [Vec3; 2]) -> (Body, Vec3) {
     (body, positions[0] * (a.mass / mass) + positions[1] * (b.mass / mass))
 }
 
-/// Velocity [m/s] of the centre of mass of two bodies.
+/// Velocity [m/s] of the center of mass of two bodies.
 #[inline]
 pub fn common_velocity([a, b]: [&Body; 2]) -> Vec3 {
     (a.velocity * a.mass + b.velocity * b.mass) * (1.0 / (a.mass + b.mass))

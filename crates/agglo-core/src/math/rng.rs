@@ -40,7 +40,7 @@ pub enum Purpose {
     Sampling = 5,
     /// Pieces of agglomerates that break.
     Fragment = 6,
-    /// Proposals of optimisers.
+    /// Proposals of optimizers.
     Search = 7,
     /// Seeds of the random starts of an ensemble.
     Start = 8,

@@ -57,7 +57,7 @@ pub fn root_between(
     Root { at: if fa.abs() < fb.abs() { a } else { b }, evaluations: MOST }
 }
 
-/// How far from `a` towards `b` to look next: inverse quadratic interpolation through three points if it is monotone.
+/// How far from `a` toward `b` to look next: inverse quadratic interpolation through three points if it is monotone.
 fn next_part([a, b, c]: [f64; 3], [fa, fb, fc]: [f64; 3]) -> f64 {
     let (xi, phi) = ((a - b) / (c - b), (fa - fb) / (fc - fb));
     if phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi {

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 /// Which grain belongs to which cluster. Clusters are numbered from the heaviest down; of equally heavy ones the one
-/// with the grain of smaller index comes first. A grain without neighbours is a cluster of one.
+/// with the grain of smaller index comes first. A grain without neighbors is a cluster of one.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Clusters {
     /// The cluster of each grain [n].

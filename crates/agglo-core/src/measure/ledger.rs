@@ -13,7 +13,7 @@ use crate::math::Vec3;
 /// Energy in the stores [J].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Stores {
-    /// Kinetic energy of the centres' motion, added mass included.
+    /// Kinetic energy of the centers' motion, added mass included.
     #[serde(rename = "kinetic_J")]
     pub kinetic: f64,
     /// Kinetic energy of spin.

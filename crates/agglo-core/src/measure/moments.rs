@@ -23,7 +23,7 @@
 //! they were drawn from: nothing is divided by n - 1.
 //!
 //! # Compared with others
-//! [A] uses the raw third and fourth moments; skewness and kurtosis here are normalised, so that a normal distribution
+//! [A] uses the raw third and fourth moments; skewness and kurtosis here are normalized, so that a normal distribution
 //! has 0 and 3 (not the excess). [`moment_about`] gives the raw ones.
 //!
 //! # Example
@@ -55,11 +55,11 @@ pub fn moments(values: &[f64], weights: &[f64]) -> Option<Moments> {
     let first = *values.first()?;
     let mean = first + moment_about(values, weights, first, 1)?;
     let second = moment_about(values, weights, mean, 2)?;
-    let normalised = |order: i32| {
+    let normalized = |order: i32| {
         let moment = moment_about(values, weights, mean, order).unwrap_or_default();
         if second > 0.0 { moment / second.sqrt().powi(order) } else { 0.0 }
     };
-    Some(Moments { mean, deviation: second.sqrt(), skewness: normalised(3), kurtosis: normalised(4) })
+    Some(Moments { mean, deviation: second.sqrt(), skewness: normalized(3), kurtosis: normalized(4) })
 }
 
 /// The moment of `order` of `values` [n] with `weights` [n] about `reference`; nothing where no weight is above zero.

@@ -1,4 +1,4 @@
-//! How far the nearest neighbour is.
+//! How far the nearest neighbor is.
 
 use rayon::prelude::*;
 
@@ -7,7 +7,7 @@ use crate::math::Vec3;
 /// Grains that are asked at the most; of more, every k-th.
 const ASKED: usize = 20_000;
 
-/// Mean distance [m] from a grain's centre to the nearest other centre; 0 for fewer than two grains.
+/// Mean distance [m] from a grain's center to the nearest other center; 0 for fewer than two grains.
 ///
 /// Of more than 20,000 grains an even sample is asked. `positions` [n, 3] [m].
 pub fn mean_nearest_distance(positions: &[Vec3]) -> f64 {

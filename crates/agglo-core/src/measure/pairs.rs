@@ -5,7 +5,7 @@ use crate::math::Vec3;
 
 /// Bits of a cell's number along one axis.
 const BITS: u32 = 20;
-/// Most cells along one axis: room is left for neighbours on both sides.
+/// Most cells along one axis: room is left for neighbors on both sides.
 const MOST: f64 = ((1_u32 << BITS) - 3) as f64;
 
 /// Calls `found(i, j)`, i < j, once for every pair of grains whose surfaces are no farther apart than `gap` times the
@@ -36,7 +36,7 @@ pub fn close_pairs(positions: &[Vec3], radii: &[f64], gap: f64, found: &mut impl
         let ahead = &cells[at + 1..];
         ahead.iter().take_while(|&&(other, _)| other <= cell + 1).for_each(|&(_, b)| check(a, b));
         for (start, row) in starts.iter_mut().zip(rows) {
-            // Numbers along an axis begin at 1, so that no neighbour's is below zero.
+            // Numbers along an axis begin at 1, so that no neighbor's is below zero.
             let middle = cell.wrapping_add_signed(row);
             while *start < cells.len() && cells[*start].0 + 1 < middle {
                 *start += 1;

@@ -5,7 +5,7 @@
 //! R_g² = sum(m (|r - r_cm|² + 3/5 R²))/sum(m)
 //! M(r) ~ r^d_f
 //! ```
-//! M(r) is the mass within r of a grain, averaged over the grains nearest to the centre of mass; a grain that lies
+//! M(r) is the mass within r of a grain, averaged over the grains nearest to the center of mass; a grain that lies
 //! partly within r counts with the part of its volume that does (two spheres' lens). d_f is the slope of ln M over
 //! ln r, by least squares over radii in equal ratios from twice the mean grain radius to R_g.
 //!
@@ -16,10 +16,10 @@
 //! # Symbols
 //! | symbol | name in code | unit | meaning                              |
 //! |--------|--------------|------|--------------------------------------|
-//! | r      | `positions`  | m    | centres [n]                          |
+//! | r      | `positions`  | m    | centers [n]                          |
 //! | R      | `radii`      | m    | radii [n]                            |
 //! | m      | `masses`     | kg   | masses [n]                           |
-//! | r_cm   |              | m    | centre of mass                       |
+//! | r_cm   |              | m    | center of mass                       |
 //! | R_g    |              | m    | radius of gyration                   |
 //! | d_f    |              | 1    | fractal dimension                    |
 //!
@@ -87,7 +87,7 @@ pub fn summarize(clusters: &Clusters, positions: &[Vec3], radii: &[f64], masses:
     }
 }
 
-/// Centre of mass [m] of the grains `members` [index]; the origin where they have no mass.
+/// Center of mass [m] of the grains `members` [index]; the origin where they have no mass.
 pub fn center_of_mass(positions: &[Vec3], masses: &[f64], members: &[u32]) -> Vec3 {
     let (mut moment, mut total) = (Vec3::ZERO, 0.0);
     for &grain in members {
@@ -97,7 +97,7 @@ pub fn center_of_mass(positions: &[Vec3], masses: &[f64], members: &[u32]) -> Ve
     if total > 0.0 { moment / total } else { Vec3::ZERO }
 }
 
-/// Radius of gyration [m] of the grains `members` [index] about their centre of mass; 0 where they have no mass.
+/// Radius of gyration [m] of the grains `members` [index] about their center of mass; 0 where they have no mass.
 pub fn radius_of_gyration(positions: &[Vec3], radii: &[f64], masses: &[f64], members: &[u32]) -> f64 {
     let center = center_of_mass(positions, masses, members);
     let (mut moment, mut total) = (0.0, 0.0);
@@ -137,7 +137,7 @@ pub fn fractal_dimension(positions: &[Vec3], radii: &[f64], masses: &[f64], memb
     Some(slope(&points.collect::<Vec<_>>()))
 }
 
-/// Part of the volume of a sphere of `radius` that lies within `reach` of a point `distance` away from its centre.
+/// Part of the volume of a sphere of `radius` that lies within `reach` of a point `distance` away from its center.
 fn part_within(distance: f64, radius: f64, reach: f64) -> f64 {
     if distance + radius <= reach {
         1.0
@@ -192,7 +192,7 @@ mod tests {
         assert_near!(measured(&[Vec3::AXES[0]]).0, 0.15_f64.sqrt(), 1e-15);
     }
 
-    /// Unequal masses: 3 kg at 0 and 1 kg at 4 have their centre at 1 and spread (3 1 + 1 9)/4 = 3.
+    /// Unequal masses: 3 kg at 0 and 1 kg at 4 have their center at 1 and spread (3 1 + 1 9)/4 = 3.
     #[test]
     fn unequal_masses() {
         let positions = [Vec3::ZERO, Vec3::new(4.0, 0.0, 0.0)];
@@ -213,7 +213,7 @@ mod tests {
         }
     }
 
-    /// Vicsek's cross in three dimensions (a cube of 27 cells of which the middle and its 6 neighbours are kept, again
+    /// Vicsek's cross in three dimensions (a cube of 27 cells of which the middle and its 6 neighbors are kept, again
     /// and again) has dimension ln 7/ln 3 = 1.771; it repeats only by factors of 3, and M(r) ripples: 6 %.
     #[test]
     fn dimension_of_a_fractal() {

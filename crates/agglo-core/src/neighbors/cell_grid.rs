@@ -162,7 +162,7 @@ mod tests {
     use super::*;
 
     /// 0.6/0.2 is just below 3, 0.6 times 5 is not: the outermost of spheres in a row at whole numbers of cells must
-    /// still have a cell, and meet its neighbour, along every axis.
+    /// still have a cell, and meet its neighbor, along every axis.
     #[test]
     fn the_outermost_sphere_has_a_cell() {
         let mut grid = CellGrid::default();

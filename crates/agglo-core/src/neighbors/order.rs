@@ -1,4 +1,4 @@
-//! The order of grains along a space-filling curve, so that neighbours in space are neighbours in memory.
+//! The order of grains along a space-filling curve, so that neighbors in space are neighbors in memory.
 
 use crate::math::Vec3;
 

@@ -118,7 +118,7 @@ impl RaySpan {
     }
 
     /// Where the ray first touches a ball that a moving sphere may be anywhere in: unlike [`RaySpan::meets`] also on
-    /// its way out, since the sphere's own centre may lie ahead.
+    /// its way out, since the sphere's own center may lie ahead.
     #[inline]
     fn touches(&self, ball: Sphere) -> Option<f64> {
         let now = self.origin + self.direction * self.from - ball.center;

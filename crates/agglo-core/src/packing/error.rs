@@ -63,8 +63,8 @@ pub enum PackingError {
     Table(Box<dyn std::error::Error + Send + Sync>),
     /// A grain where doubles no longer tell places apart.
     #[error(
-        "grain {grain} lies {} from the origin, where neighbouring places are {} apart: more than 1e-5 of its radius of \
-         {}, so that contacts and motion would be round-off; move all grains towards the origin",
+        "grain {grain} lies {} from the origin, where neighboring places are {} apart: more than 1e-5 of its radius of \
+         {}, so that contacts and motion would be round-off; move all grains toward the origin",
         readable(*.away, "m"), readable(*.spacing, "m"), readable(*.radius, "m")
     )]
     TooFar {
@@ -72,7 +72,7 @@ pub enum PackingError {
         grain: u32,
         /// Its largest coordinate [m].
         away: f64,
-        /// Distance between neighbouring doubles there [m].
+        /// Distance between neighboring doubles there [m].
         spacing: f64,
         /// Its radius [m].
         radius: f64,

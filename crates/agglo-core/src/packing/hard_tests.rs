@@ -183,7 +183,7 @@ fn centered(deviation: f64) -> VelocitySpread {
     VelocitySpread::Maxwell(Maxwell { deviation: Quantity(deviation), centered: true })
 }
 
-/// The momentum of a centred group is its mass times the velocity that is asked for, to the rounding of the velocities
+/// The momentum of a centered group is its mass times the velocity that is asked for, to the rounding of the velocities
 /// (a few m/s, so 1e-15 m/s each).
 #[test]
 fn velocities_scatter_about_the_groups_own() {
@@ -328,7 +328,7 @@ fn hard_spheres_that_cannot_start_are_refused() {
             "{found}"
         );
     }
-    // Across a face only periodic neighbours count.
+    // Across a face only periodic neighbors count.
     let across: &[[f64; 3]] = &[[0.49, 2.5, 0.5], [-0.45, 2.5, 0.5]];
     assert_contains!(message(Boundary::Periodic, across, 0.1).unwrap_err(), "overlap by 140 mm");
     assert_ok!(message(Boundary::Antipodal, across, 0.1));

@@ -1,6 +1,6 @@
 //! Grains on a lattice, with one lattice point in the middle of the region.
 //!
-//! | kind  | distance of nearest neighbours = spacing a | grains per volume |
+//! | kind  | distance of nearest neighbors = spacing a | grains per volume |
 //! |-------|--------------------------------------------|-------------------|
 //! | cubic | cube edge a                                | 1/a³              |
 //! | bcc   | cube edge 2a/√3                            | 3√3/(4a³)         |
@@ -47,7 +47,7 @@ impl LatticeKind {
     }
 }
 
-/// The centres [m] for grains up to the radius `largest` [m].
+/// The centers [m] for grains up to the radius `largest` [m].
 ///
 /// # Errors
 /// [`PackingError::TooLarge`], or [`PackingError::Value`] for a spacing that is not above zero, makes too many points

@@ -39,7 +39,7 @@ struct Sphere {
 impl Occupied {
     /// Empty space in the box `bounds` [m] that will take spheres of the given radii [m].
     ///
-    /// If it `repeats` itself, the images of all spheres are kept clear of too; centres must then lie in the box, and
+    /// If it `repeats` itself, the images of all spheres are kept clear of too; centers must then lie in the box, and
     /// no diameter may be above an edge.
     pub fn new(
         bounds: (Vec3, Vec3),
@@ -88,7 +88,7 @@ impl Occupied {
         })
     }
 
-    /// Whether no sphere of `radius` has room with its centre anywhere in the cube about `middle` [m].
+    /// Whether no sphere of `radius` has room with its center anywhere in the cube about `middle` [m].
     pub fn covers(&self, middle: Vec3, half_edge: f64, radius: f64) -> bool {
         let leaves_some = |between: Vec3, other: f64| {
             let least = radius + other + self.gap;
@@ -115,7 +115,7 @@ impl Occupied {
             return class.all_near(center, reach, holds);
         }
         let (lower, upper) = self.bounds;
-        // Seen from the opposite side, the centre is a period farther on.
+        // Seen from the opposite side, the center is a period farther on.
         let images = |axis: usize| {
             let (at, period) = (center[axis], upper[axis] - lower[axis]);
             let below = (at - reach < lower[axis]).then_some(at + period);

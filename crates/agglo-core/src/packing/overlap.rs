@@ -23,7 +23,7 @@ pub struct Overlap {
 
 /// The overlapping pair with the smallest names, if there is one; across the faces too where a volume is periodic.
 ///
-/// Centres must then lie in the volume or on its faces. Less than 1e-9 of the sum of the radii is no overlap.
+/// Centers must then lie in the volume or on its faces. Less than 1e-9 of the sum of the radii is no overlap.
 ///
 /// ```
 /// use agglo::math::Vec3;
@@ -50,7 +50,7 @@ pub fn first_overlap(grains: &Particles, volume: Option<&Volume>) -> Option<Over
     parallel::over(0..crowd.ids.len(), LEAF, (), &search, &first_of)
 }
 
-/// The first grain, by its place, that lies outside a volume whose faces hold grains in: with its centre where faces
+/// The first grain, by its place, that lies outside a volume whose faces hold grains in: with its center where faces
 /// are periodic or antipodal, with any part of it where they are walls, unless it may reach into them.
 pub(super) fn first_outside(grains: &Particles, volume: &Volume, may_reach_in: bool) -> Option<usize> {
     let (lower, upper) = (volume.lower(), volume.upper());

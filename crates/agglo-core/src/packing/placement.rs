@@ -44,7 +44,7 @@ pub struct RandomAddition {
 
 /// Random sequential addition in the control volume, without overlap.
 ///
-/// With periodic or antipodal faces centres lie anywhere in the volume and images are kept clear of; with reflecting or
+/// With periodic or antipodal faces centers lie anywhere in the volume and images are kept clear of; with reflecting or
 /// open ones grains lie wholly inside.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -66,7 +66,7 @@ pub struct Fill {
 pub struct Lattice {
     /// Which lattice.
     pub kind: LatticeKind,
-    /// Distance of nearest neighbours.
+    /// Distance of nearest neighbors.
     pub spacing: Length,
     /// Where; grains lie wholly inside.
     pub region: Region,
@@ -81,9 +81,9 @@ pub struct Lattice {
 pub enum LatticeKind {
     /// Simple cubic.
     Cubic,
-    /// Face-centred cubic.
+    /// Face-centered cubic.
     Fcc,
-    /// Body-centred cubic.
+    /// Body-centered cubic.
     Bcc,
     /// Hexagonal close-packed.
     Hcp,
@@ -101,7 +101,7 @@ pub struct Table {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GrainList {
-    /// Centres.
+    /// Centers.
     pub positions: Vec<Triple<Length>>,
     /// Velocities, one per position; the group's if left out.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -111,7 +111,7 @@ pub struct GrainList {
 /// A row of a table: what it does not say is `None`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TableGrain {
-    /// Centre [m].
+    /// Center [m].
     pub position: Vec3,
     /// Radius [m].
     pub radius: Option<f64>,

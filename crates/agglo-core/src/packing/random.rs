@@ -4,7 +4,7 @@
 //! to a grain that is there already, another place is drawn. Grains never move. Where sizes differ, the larger
 //! grains go first (small ones would leave them no room), so names run from large to small within a group.
 //!
-//! Where space repeats itself beyond the control volume, centres are drawn from the whole volume, and images are kept
+//! Where space repeats itself beyond the control volume, centers are drawn from the whole volume, and images are kept
 //! clear of like the grains themselves.
 //!
 //! # Source
@@ -113,7 +113,7 @@ pub(super) struct Request<'a> {
 }
 
 /// Places one group beside the grains that are there already, and their images where a `volume` repeats itself; returns
-/// centres [m] and radii [m].
+/// centers [m] and radii [m].
 ///
 /// # Errors
 /// [`PackingError::Saturated`] where there is no room, [`PackingError::TooLarge`], [`PackingError::Value`].
@@ -157,7 +157,7 @@ pub(super) fn add(
 }
 
 /// Places spheres of given radii [n] [m] at random in the control volume, clear of one another and of their images:
-/// centres [n, 3] [m], in the order of the radii.
+/// centers [n, 3] [m], in the order of the radii.
 ///
 /// # Errors
 /// [`PackingError::Saturated`] where there is no room, [`PackingError::TooLarge`].

@@ -18,7 +18,7 @@ impl Room {
         Self { region: region.clone(), repeats: false }
     }
 
-    /// The control volume: centres anywhere where it repeats itself, else grains wholly inside.
+    /// The control volume: centers anywhere where it repeats itself, else grains wholly inside.
     pub fn of_volume(volume: &Volume) -> Self {
         let block = Block { lower: volume.lower, upper: volume.upper };
         Self { region: Region::Box(block), repeats: volume.boundary.wraps() }
@@ -48,17 +48,17 @@ impl Room {
         self.region.sample(self.wall(radius), stream)
     }
 
-    /// Whether a grain of `radius` [m] may have its centre here.
+    /// Whether a grain of `radius` [m] may have its center here.
     pub fn admits(&self, center: Vec3, radius: f64) -> bool {
         self.region.contains(center, self.wall(radius))
     }
 
-    /// Whether a grain of `radius` [m] may have its centre somewhere within `reach` [m] of here; in doubt, yes.
+    /// Whether a grain of `radius` [m] may have its center somewhere within `reach` [m] of here; in doubt, yes.
     pub fn may_admit_near(&self, middle: Vec3, radius: f64, reach: f64) -> bool {
         self.region.contains(middle, self.wall(radius) - reach)
     }
 
-    /// How far from the surface a centre must keep.
+    /// How far from the surface a center must keep.
     fn wall(&self, radius: f64) -> f64 {
         if self.repeats { 0.0 } else { radius }
     }

@@ -207,7 +207,7 @@ fn hopeless_requests_end_soon_with_a_reason() {
     }
 }
 
-/// Densest packings fill pi/sqrt(18) of the space, body-centred ones sqrt(3) pi/8, cubic ones pi/6. Within the half
+/// Densest packings fill pi/sqrt(18) of the space, body-centered ones sqrt(3) pi/8, cubic ones pi/6. Within the half
 /// grain layer at the surface: the ball holds about 60,000 grains, whose surface layer fluctuates by under 1 %.
 #[test]
 fn lattices_have_their_density_and_nearest_distance() {

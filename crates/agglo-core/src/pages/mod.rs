@@ -34,7 +34,7 @@ pages! {
     "hooke" "contact/normal" "hooke" [];
     "viscous_area" "contact/damping" "viscous_area" [];
     "restitution" "contact/damping" "restitution" [];
-    "regularised" "contact/friction" "regularised" [];
+    "regularized" "contact/friction" "regularized" [];
     "mindlin" "contact/friction" "mindlin" [];
     "strain_bond" "contact/bond" "strain_bond" [];
     "beam" "contact/bond" "beam" [];

@@ -135,9 +135,9 @@ macro_rules! columns {
 columns! {
     /// Stable name of the grain [n].
     id: u32, "", Larger;
-    /// Centre [n, 3] [m].
+    /// Center [n, 3] [m].
     position: Vec3, "m", MassMean;
-    /// Velocity of the centre [n, 3] [m/s].
+    /// Velocity of the center [n, 3] [m/s].
     velocity: Vec3, "m/s", MassMean;
     /// Angular velocity [n, 3] [rad/s].
     spin: Vec3, "rad/s", Derived;

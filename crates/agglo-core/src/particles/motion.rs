@@ -5,9 +5,9 @@ use crate::math::Vec3;
 /// Positions, velocities and spins of all grains at one moment; [n] each.
 #[derive(Clone, Copy, Debug)]
 pub struct Motion<'a> {
-    /// Centres [m].
+    /// Centers [m].
     pub position: &'a [Vec3],
-    /// Velocities of the centres [m/s].
+    /// Velocities of the centers [m/s].
     pub velocity: &'a [Vec3],
     /// Angular velocities [rad/s].
     pub spin: &'a [Vec3],

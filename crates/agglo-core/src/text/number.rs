@@ -4,7 +4,7 @@
 //! since readers of tables lose digits of long decimals (some take 28 zeros for 0). A whole number has no point, so
 //! that counts are counts. What cannot be had is `NaN`, what has no bound `inf`. A negative zero is a zero.
 //!
-//! Numbers for people are written by [`super::readable`] and its neighbours.
+//! Numbers for people are written by [`super::readable`] and its neighbors.
 
 use std::fmt;
 

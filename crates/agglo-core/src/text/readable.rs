@@ -137,7 +137,7 @@ mod tests {
         assert_eq!(told_apart([1.000_04e-3, 1.000_01e-3], "m"), ["1.00004 mm", "1.00001 mm"]);
         assert_eq!(told_apart([1e-3, 2e-3], "m"), ["1 mm", "2 mm"]);
         assert_eq!(told_apart([0.5, 0.5], ""), ["0.5", "0.5"]);
-        // Neighbours among doubles, the hardest case.
+        // Neighbors among doubles, the hardest case.
         for value in [0.1, 1.0, 1e-28, 3e22, 123_456.789] {
             let next = f64::from_bits(f64::to_bits(value) + 1);
             let [a, b] = told_apart([value, next], "J");

@@ -1,4 +1,4 @@
-//! Text of others as a terminal may show it: names, titles, cells and paths can hold codes that move the cursor, recolour
+//! Text of others as a terminal may show it: names, titles, cells and paths can hold codes that move the cursor, recolor
 //! the screen or turn the direction of writing. The one function through which such text goes.
 
 use std::borrow::Cow;

@@ -1,4 +1,4 @@
-//! Dimensions as powers of kilogram, metre, second, kelvin and ampere.
+//! Dimensions as powers of kilogram, meter, second, kelvin and ampere.
 
 use std::fmt;
 

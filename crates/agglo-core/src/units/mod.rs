@@ -72,7 +72,7 @@ quantities! {
     /// Electric charge [C].
     Charge = 0 0 1 0 1;
     /// Energy per squared magnetic flux density [J/T²].
-    Magnetisability = -1 2 2 0 2;
+    Magnetizability = -1 2 2 0 2;
 }
 
 impl<const KG: i8, const M: i8, const S: i8, const K: i8, const A: i8> Quantity<KG, M, S, K, A> {

@@ -407,7 +407,7 @@ mod tests {
         let message = |text: &str| parse_quantity(text, length).unwrap_err().to_string();
         assert_contains!(message("3"), "has no unit");
         assert_contains!(message("3 Pa"), "is a pressure");
-        assert_contains!(message("3 metres"), "unknown unit \"metres\"");
+        assert_contains!(message("3 meters"), "unknown unit \"meters\"");
         assert_contains!(message("wide"), "does not begin with a number");
         assert_ends!(message("1000 kg/m\u{b3}"), "write powers as digits, such as kg/m3 or m^-1");
         assert_contains!(message("20 \u{b0}C"), "20 degrees Celsius are \"293.15 K\"");

@@ -29,7 +29,7 @@ const BYTES_PER_RAY: f64 = 120.0;
 const BYTES_PER_SAVED_GRAIN: f64 = 150.0;
 /// A row of a table of grains has hardly fewer than this.
 const BYTES_PER_TABLE_ROW: f64 = 20.0;
-/// Contacts and bonds per grain: a random packing has about six neighbours each, shared by two.
+/// Contacts and bonds per grain: a random packing has about six neighbors each, shared by two.
 const CONTACTS_PER_GRAIN: f64 = 3.0;
 
 /// Expected number of grains of each group.

@@ -31,7 +31,7 @@ pub(super) struct Gas {
     pub relative_speed: f64,
     /// Mass of all [kg].
     pub mass: f64,
-    /// Kinetic energy [J], as seen by one at rest and by one who moves with the centre of mass.
+    /// Kinetic energy [J], as seen by one at rest and by one who moves with the center of mass.
     pub kinetic: [f64; 2],
     /// The group with most of the mass.
     pub heaviest: Option<GrainGroup>,
@@ -93,7 +93,7 @@ impl Gas {
     }
 }
 
-/// Kinetic energy [J] as seen at rest, and from the centre of mass.
+/// Kinetic energy [J] as seen at rest, and from the center of mass.
 fn kinetic(kinds: &[Kind]) -> [f64; 2] {
     let mass: f64 = kinds.iter().map(|kind| kind.mass).sum();
     let momentum = kinds.iter().fold(Vec3::ZERO, |sum, kind| sum + kind.mean * kind.mass);

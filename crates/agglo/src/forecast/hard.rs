@@ -208,7 +208,7 @@ pub(super) fn notes(notes: &mut Vec<String>, scenario: &Scenario) {
     if let Engine::TimeStepped(law) = &scenario.engine {
         if law.pairs == Pairs::Nearest {
             note(
-                "engine.time_stepped.pairs = nearest: grains that touch others than their nearest neighbour pass into them; all does not",
+                "engine.time_stepped.pairs = nearest: grains that touch others than their nearest neighbor pass into them; all does not",
             );
         }
         if law.distance == Distance::Centers {

@@ -61,8 +61,8 @@ fn wavelengths(notes: &mut Vec<String>, scenario: &Scenario, smallest: f64) {
 
 fn published_laws(notes: &mut Vec<String>, scenario: &Scenario) {
     let laws = scenario.contact.as_ref();
-    if let Some(Friction::Regularised(_)) = laws.and_then(|laws| laws.friction.as_ref()) {
-        notes.push("contact.friction.regularised: its stick force is proportional to the step and does not converge; mindlin does".to_owned());
+    if let Some(Friction::Regularized(_)) = laws.and_then(|laws| laws.friction.as_ref()) {
+        notes.push("contact.friction.regularized: its stick force is proportional to the step and does not converge; mindlin does".to_owned());
     }
     match &scenario.bonds {
         Some(Bonds::StrainBond(_)) => notes.push(

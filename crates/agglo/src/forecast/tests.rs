@@ -39,7 +39,7 @@ fn the_sample_problem() {
     let page = plan.to_string();
     // p = sqrt(7.06e13 W x 1.5e6 / pi m²) = 5.806 GPa.
     assert!(page.contains("5.806 GPa"), "{page}");
-    for law in ["regularised", "strain_bond", "published_step", "stokes"] {
+    for law in ["regularized", "strain_bond", "published_step", "stokes"] {
         assert!(plan.notes.iter().any(|note| note.contains(law)), "{law} in\n{page}");
     }
 }
@@ -178,7 +178,7 @@ fn lattices_are_counted() {
         "placement.list.positions = [[\"0 m\", \"0 m\", \"0 m\"]]",
         "placement.lattice = { kind = \"cubic\", spacing = \"80 um\", region.box = { lower = [\"0 m\", \"0 m\", \"0 m\"], upper = [\"0.88 mm\", \"0.88 mm\", \"0.88 mm\"] } }",
     );
-    // Centres fill a cube of 0.8 mm: ten spacings along each edge. By volume, and one by one with both ends.
+    // Centers fill a cube of 0.8 mm: ten spacings along each edge. By volume, and one by one with both ends.
     let counted = Plan::with(&Scenario::from_toml(&text).unwrap(), Path::new(""), Effort::NONE).unwrap();
     assert_eq!((counted.grains, plan_of(&text).grains), (1000, 1331));
 }

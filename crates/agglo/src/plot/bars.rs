@@ -1,7 +1,7 @@
 //! Bars with error bars, one group for each name.
 
 use super::axis::Axis;
-use super::colour::{GRID, INK, named};
+use super::color::{GRID, INK, named};
 use super::panel::{FOOT, legend};
 use super::scale::Scale;
 use super::svg::{Anchor, Area, FONT, Pen, Style, Svg, WIDTH, text_width};
@@ -55,7 +55,7 @@ impl Bars {
             }
         }
         svg.line([zero, area.top], [zero, area.bottom()], Pen::new(INK, 1.2));
-        svg.text([area.centre()[0], area.bottom() + 46.0], &self.axis.title(), Style::new(Anchor::Middle));
+        svg.text([area.center()[0], area.bottom() + 46.0], &self.axis.title(), Style::new(Anchor::Middle));
         let entry =
             |(number, series): (usize, &'_ Series)| (series.name.clone(), Pen::new(named(number), 9.0));
         let entries: Vec<(String, Pen<'_>)> = self.series.iter().enumerate().map(entry).collect();

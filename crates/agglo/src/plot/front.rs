@@ -1,7 +1,7 @@
 //! Two costs against each other, and the front of those that none beats in both.
 
 use super::axis::Axis;
-use super::colour::{GREY, INK, named};
+use super::color::{GREY, INK, named};
 use super::panel::{FOOT, LEFT, Panel, RIGHT, legend};
 use super::svg::{Area, Pen, Svg};
 

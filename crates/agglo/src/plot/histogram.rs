@@ -1,7 +1,7 @@
 //! How often values fall into bins.
 
 use super::axis::Axis;
-use super::colour::{INK, named};
+use super::color::{INK, named};
 use super::panel::{FOOT, Panel};
 use super::scale::{Scale, with_error};
 use super::svg::{Anchor, Area, Pen, Style, Svg, WIDTH};
@@ -79,7 +79,7 @@ impl Histogram {
         panel.y_marks(svg);
         self.bars(svg, &panel);
         panel.frame(svg);
-        let [middle, _] = area.centre();
+        let [middle, _] = area.center();
         svg.text([middle, area.bottom() + 42.0], &axis.title(), Style::new(Anchor::Middle));
         let Some([mean, error]) = self.mean else { return };
         if let (Some(low), Some(high)) = (panel.at([mean, 0.0]), panel.at([mean, panel.y.high])) {

@@ -1,7 +1,7 @@
 //! Lines with bands, in panels one above the other that share their x axis.
 
 use super::axis::Axis;
-use super::colour::{dashes, named};
+use super::color::{dashes, named};
 use super::panel::{FOOT, LEFT, Panel, RIGHT, legend};
 use super::svg::{Area, Pen, Svg};
 

@@ -1,17 +1,17 @@
-//! Colour maps for values, and colours for names of grains.
+//! Color maps for values, and colors for names of grains.
 
-/// A colour map: equal steps of the value look equally far apart, in grey and to the colour-blind too.
+/// A color map: equal steps of the value look equally far apart, in gray and to the color-blind too.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Map {
     /// From violet over green to yellow.
     Viridis,
-    /// From blue over grey to yellow.
+    /// From blue over gray to yellow.
     Cividis,
     /// From violet over red to yellow, like glowing matter.
     Inferno,
 }
 
-/// Every fifteenth of the 256 colours of a map.
+/// Every fifteenth of the 256 colors of a map.
 type Table = [u32; 18];
 
 /// Source: S. van der Walt and N. Smith (2015), public domain (CC0).
@@ -30,11 +30,11 @@ const INFERNO: Table = [
     0xc6_3d4d, 0xd9_4d3d, 0xe9_612b, 0xf4_7918, 0xfa_9407, 0xfc_b014, 0xf8_cd37, 0xf2_ea69, 0xfc_ffa4,
 ];
 
-/// Colours of names of grains, in their order, as red, green and blue, a byte each.
+/// Colors of names of grains, in their order, as red, green and blue, a byte each.
 ///
 /// Source: M. Okabe and K. Ito, *Color universal design* (2008).
 pub const NAMED: [u32; 7] = [0x00_72b2, 0xe6_9f00, 0x00_9e73, 0xcc_79a7, 0x56_b4e9, 0xd5_5e00, 0xf0_e442];
-/// Colour of what has no name of its own.
+/// Color of what has no name of its own.
 pub const PLAIN: u32 = 0xbd_bdbd;
 
 /// Steps of a map that is given out: two for each of the tables, so that those whole are exact.
@@ -59,7 +59,7 @@ impl Map {
         }
     }
 
-    /// The colour for a part from 0 to 1 of a range of values, as red, green and blue, a byte each.
+    /// The color for a part from 0 to 1 of a range of values, as red, green and blue, a byte each.
     pub fn color(self, part: f64) -> u32 {
         let (table, begin) = self.table();
         let part = if part.is_nan() { 0.0 } else { part.clamp(0.0, 1.0) };
@@ -73,13 +73,13 @@ impl Map {
         channel(16) | channel(8) | channel(0)
     }
 
-    /// The map at equal steps, between which colours can be mixed.
+    /// The map at equal steps, between which colors can be mixed.
     pub fn stops(self) -> impl Iterator<Item = u32> {
         (0..=STOPS).map(move |step| self.color(f64::from(step) / f64::from(STOPS)))
     }
 }
 
-/// Colour of a grain with the number of a name; plain grey without one.
+/// Color of a grain with the number of a name; plain gray without one.
 pub fn name_color(number: Option<usize>) -> u32 {
     number.map_or(PLAIN, |number| NAMED[number % NAMED.len()])
 }
@@ -88,8 +88,8 @@ pub fn name_color(number: Option<usize>) -> u32 {
 mod tests {
     use super::*;
 
-    /// Lightness as the eye sees it (CIE L*) rises evenly: so the maps can be read in grey and with any kind of
-    /// colour vision. A step of a hundredth is 0.6 to 0.8 of L*, half and twice of which are let pass.
+    /// Lightness as the eye sees it (CIE L*) rises evenly: so the maps can be read in gray and with any kind of
+    /// color vision. A step of a hundredth is 0.6 to 0.8 of L*, half and twice of which are let pass.
     #[test]
     fn maps_get_lighter_evenly() {
         for (word, map) in Map::WORDS {

@@ -1,13 +1,13 @@
-//! Charts as SVG text: what is in them is given, nothing is computed but the layout. And what grains can be coloured by, for
+//! Charts as SVG text: what is in them is given, nothing is computed but the layout. And what grains can be colored by, for
 //! pictures and pages.
 //!
-//! Colours are told apart by readers with any kind of colour vision: the map for values is perceptually uniform, the colours
+//! Colors are told apart by readers with any kind of color vision: the map for values is perceptually uniform, the colors
 //! for names come with dashes. Each chart has a title and a text for readers who cannot see it. The same chart is the
 //! same text, byte by byte. Fonts are the reader's; room for text is estimated from the number of letters.
 
 mod axis;
 mod bars;
-mod colour;
+mod color;
 mod front;
 mod histogram;
 mod lines;
@@ -25,7 +25,7 @@ mod tests;
 
 pub use axis::Axis;
 pub use bars::{Bars, Series};
-pub use colour::{Colour, LINES, viridis};
+pub use color::{Color, LINES, viridis};
 pub use front::{Front, FrontPoint};
 pub use histogram::{Histogram, Histograms};
 pub use lines::{Line, LinePanel, Lines};

@@ -1,7 +1,7 @@
 //! Every parameter against every other, in a lower triangle, with the distribution of each on the diagonal.
 
 use super::axis::Axis;
-use super::colour::{GRID, INK, viridis};
+use super::color::{GRID, INK, viridis};
 use super::histogram::Histogram;
 use super::panel::{Panel, Shades};
 use super::scale::Scale;
@@ -18,11 +18,11 @@ pub struct Pairs {
     pub axes: Vec<Axis>,
     /// One value for each axis, for each candidate.
     pub rows: Vec<Vec<f64>>,
-    /// What the colours stand for.
+    /// What the colors stand for.
     pub shade: Axis,
-    /// The value that gives each candidate its colour.
+    /// The value that gives each candidate its color.
     pub shades: Vec<f64>,
-    /// Whether large colour values are good, and not small ones.
+    /// Whether large color values are good, and not small ones.
     pub is_large_first: bool,
 }
 
@@ -33,7 +33,7 @@ const REACH: f64 = 700.0;
 const SMALL: f64 = 11.0;
 
 impl Pairs {
-    /// The picture; candidates with good colour values lie on top.
+    /// The picture; candidates with good color values lie on top.
     pub fn svg(&self) -> String {
         let mut svg = Svg::new(TOP + REACH + 66.0, &self.title, &self.description);
         if self.axes.is_empty() {
@@ -104,7 +104,7 @@ impl Pairs {
         histogram.bars(svg, &panel);
         if self.axes.len() > 1 {
             let style = Style { size: 12.0, is_bold: true, has_rim: true, ..Style::new(Anchor::Middle) };
-            svg.text([area.centre()[0], area.top - 2.0], &self.axes[number].name, style);
+            svg.text([area.center()[0], area.top - 2.0], &self.axes[number].name, style);
         }
     }
 
@@ -133,17 +133,17 @@ impl Pairs {
             }
         }
         let size = if text_width(&title, 12.0) < below.width { 12.0 } else { 10.0 };
-        // Neighbours with long names stand at two heights.
+        // Neighbors with long names stand at two heights.
         let drop =
             if text_width(&title, size) < below.width || number.is_multiple_of(2) { 36.0 } else { 50.0 };
         svg.text(
-            [below.centre()[0], below.bottom() + drop],
+            [below.center()[0], below.bottom() + drop],
             &title,
             Style { size, ..Style::new(Anchor::Middle) },
         );
         if number > 0 {
             let style = Style { size, turn: -90.0, ..Style::new(Anchor::Middle) };
-            svg.text([beside.left - 64.0, beside.centre()[1]], &title, style);
+            svg.text([beside.left - 64.0, beside.center()[1]], &title, style);
         }
     }
 }

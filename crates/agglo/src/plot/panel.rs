@@ -1,13 +1,13 @@
-//! A pair of axes, and the bar that says what colours mean.
+//! A pair of axes, and the bar that says what colors mean.
 
 use super::axis::Axis;
-use super::colour::{GRID, INK, viridis};
+use super::color::{GRID, INK, viridis};
 use super::scale::Scale;
 use super::svg::{Anchor, Area, FONT, Pen, Place, Style, Svg, text_width};
 
 /// Left edge of panels [px]: room for the marks and the name of the y axis.
 pub(super) const LEFT: f64 = 92.0;
-/// Right edge of panels that have no colour bar [px].
+/// Right edge of panels that have no color bar [px].
 pub(super) const RIGHT: f64 = 776.0;
 /// Room for the marks and the name of an x axis [px].
 pub(super) const FOOT: f64 = 62.0;
@@ -38,10 +38,10 @@ impl Panel {
         self.x_marks(svg);
         self.y_marks(svg);
         self.frame(svg);
-        let [middle, centre] = self.area.centre();
+        let [middle, center] = self.area.center();
         svg.text([middle, self.area.bottom() + 46.0], &x.title(), Style::new(Anchor::Middle));
         let turned = Style { turn: -90.0, ..Style::new(Anchor::Middle) };
-        svg.text([self.area.left - 68.0, centre], &y.title(), turned);
+        svg.text([self.area.left - 68.0, center], &y.title(), turned);
     }
 
     /// The lines at the left and at the bottom.
@@ -94,7 +94,7 @@ impl Panel {
     }
 }
 
-/// Which colour a value has: the smallest is dark, the largest yellow.
+/// Which color a value has: the smallest is dark, the largest yellow.
 #[derive(Clone, Debug)]
 pub(super) struct Shades {
     scale: Scale,
@@ -105,7 +105,7 @@ impl Shades {
         Self { scale: axis.scale(values) }
     }
 
-    /// The part of the colour map for a value.
+    /// The part of the color map for a value.
     pub fn part(&self, value: f64) -> f64 {
         // The last yellow is too light for a white ground.
         0.95 * self.scale.part(value).clamp(0.0, 1.0)

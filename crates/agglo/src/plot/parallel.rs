@@ -3,7 +3,7 @@
 //! Source: A. Inselberg, *The plane with parallel coordinates*, Vis. Comput. 1, 69 (1985).
 
 use super::axis::Axis;
-use super::colour::{INK, viridis};
+use super::color::{INK, viridis};
 use super::panel::Shades;
 use super::scale::Scale;
 use super::svg::{Anchor, Area, Pen, Place, Style, Svg, WIDTH, text_width};
@@ -20,7 +20,7 @@ pub struct Parallel {
     pub title: String,
     /// What it shows, in words.
     pub description: String,
-    /// What the axes stand for; the last one gives the colours.
+    /// What the axes stand for; the last one gives the colors.
     pub axes: Vec<Axis>,
     /// One value for each axis, for each candidate; values that are not finite leave a candidate out.
     pub rows: Vec<Vec<f64>>,
@@ -52,9 +52,9 @@ impl Parallel {
                 })
                 .collect();
             let good = 1.0 - rank as f64 / last;
-            let colour = viridis(shades.part(row[self.axes.len() - 1]));
+            let color = viridis(shades.part(row[self.axes.len() - 1]));
             let (width, opacity) = (0.8 + 1.2 * good.powi(40), 0.2 + 0.7 * good.powi(20));
-            svg.path(&places, Pen { opacity, ..Pen::new(colour, width) });
+            svg.path(&places, Pen { opacity, ..Pen::new(color, width) });
         }
         let is_crowded = self.axes.iter().any(|axis| text_width(&axis.title(), NAME) > gap);
         for (index, (axis, scale)) in self.axes.iter().zip(&scales).enumerate() {

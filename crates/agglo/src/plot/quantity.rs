@@ -1,20 +1,20 @@
-//! What grains can be coloured by.
+//! What grains can be colored by.
 
 use super::map::Map;
 use crate::record::frames::{FieldValues, Frame};
 
-/// How values become colours.
+/// How values become colors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coloring {
     /// By a map over a range of values.
     Values(Map),
-    /// A colour for each cluster; the heaviest has the first, single grains are grey.
+    /// A color for each cluster; the heaviest has the first, single grains are gray.
     Clusters,
-    /// A colour for each material.
+    /// A color for each material.
     Materials,
 }
 
-/// Something that grains can be coloured by.
+/// Something that grains can be colored by.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quantity {
     /// Its word in the terminal.
@@ -25,7 +25,7 @@ pub struct Quantity {
     pub unit: &'static str,
     /// The field in frames.
     pub field: &'static str,
-    /// How its values become colours.
+    /// How its values become colors.
     pub coloring: Coloring,
     /// Whether a few grains have values far beyond the others', so that the range leaves the uppermost hundredth out.
     pub has_outliers: bool,

@@ -1,7 +1,7 @@
 //! A value against the fineness of the computation, and where it has settled.
 
 use super::axis::Axis;
-use super::colour::{INK, named};
+use super::color::{INK, named};
 use super::panel::{FOOT, LEFT, Panel, RIGHT, legend};
 use super::svg::{Area, Pen, Svg};
 

@@ -63,7 +63,7 @@ impl Scale {
         }
     }
 
-    /// About `target` marks, labelled.
+    /// About `target` marks, labeled.
     pub fn ticks(&self, target: usize) -> Vec<Tick> {
         if !self.labels.is_empty() {
             let label =

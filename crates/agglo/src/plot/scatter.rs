@@ -1,7 +1,7 @@
-//! Points, coloured by a third value.
+//! Points, colored by a third value.
 
 use super::axis::Axis;
-use super::colour::{named, viridis};
+use super::color::{named, viridis};
 use super::panel::{FOOT, LEFT, Panel, RIGHT, Shades};
 use super::svg::{Area, Svg};
 
@@ -18,14 +18,14 @@ pub struct Scatter {
     pub y: Axis,
     /// x and y of each point.
     pub points: Vec<[f64; 2]>,
-    /// What the colours stand for.
+    /// What the colors stand for.
     pub shade: Axis,
-    /// The value that gives each point its colour; empty for one colour.
+    /// The value that gives each point its color; empty for one color.
     pub shades: Vec<f64>,
 }
 
 impl Scatter {
-    /// The picture; points with small colour values lie on top.
+    /// The picture; points with small color values lie on top.
     pub fn svg(&self) -> String {
         let mut svg = Svg::new(66.0 + 360.0 + FOOT, &self.title, &self.description);
         let is_shaded = self.shades.len() == self.points.len() && !self.points.is_empty();
@@ -43,9 +43,9 @@ impl Scatter {
             shades.bar(&mut svg, bar, &self.shade);
         }
         for index in order {
-            let colour = if is_shaded { viridis(shades.part(self.shades[index])) } else { named(0) };
+            let color = if is_shaded { viridis(shades.part(self.shades[index])) } else { named(0) };
             if let Some(place) = panel.at(self.points[index]) {
-                svg.dot(place, 4.0, colour, 0.9);
+                svg.dot(place, 4.0, color, 0.9);
             }
         }
         svg.finish()

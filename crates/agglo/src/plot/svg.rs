@@ -1,6 +1,6 @@
 //! The few shapes that charts are made of, as SVG text.
 
-use super::colour::{Colour, INK, PAPER};
+use super::color::{Color, INK, PAPER};
 
 /// Size of text [px].
 pub(super) const FONT: f64 = 13.0;
@@ -31,7 +31,7 @@ impl Area {
         self.top + self.height
     }
 
-    pub fn centre(&self) -> Place {
+    pub fn center(&self) -> Place {
         [self.left + 0.5 * self.width, self.top + 0.5 * self.height]
     }
 }
@@ -39,21 +39,21 @@ impl Area {
 /// How a line is drawn.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pen<'a> {
-    pub colour: Colour,
+    pub color: Color,
     pub width: f64,
     pub opacity: f64,
     pub dashes: &'a str,
 }
 
 impl Pen<'_> {
-    pub fn new(colour: Colour, width: f64) -> Self {
-        Self { colour, width, opacity: 1.0, dashes: "" }
+    pub fn new(color: Color, width: f64) -> Self {
+        Self { color, width, opacity: 1.0, dashes: "" }
     }
 
     fn attributes(&self) -> String {
         let opacity = optional(self.opacity < 1.0, || format!(" stroke-opacity=\"{}\"", short(self.opacity)));
         let dashes = optional(!self.dashes.is_empty(), || format!(" stroke-dasharray=\"{}\"", self.dashes));
-        format!("stroke=\"{}\" stroke-width=\"{}\"{opacity}{dashes}", self.colour, short(self.width))
+        format!("stroke=\"{}\" stroke-width=\"{}\"{opacity}{dashes}", self.color, short(self.width))
     }
 }
 
@@ -78,7 +78,7 @@ pub(super) struct Style {
     /// Turned by so many degrees, clockwise.
     pub turn: f64,
     pub is_bold: bool,
-    /// Whether it has a rim in the ground's colour, to be read on lines.
+    /// Whether it has a rim in the ground's color, to be read on lines.
     pub has_rim: bool,
 }
 
@@ -124,12 +124,12 @@ impl Svg {
     }
 
     /// A filled shape with these corners.
-    pub fn polygon(&mut self, places: &[Place], fill: Colour, opacity: f64) {
+    pub fn polygon(&mut self, places: &[Place], fill: Color, opacity: f64) {
         let (points, opacity) = (list(places), short(opacity));
         self.push(&format!("<polygon points=\"{points}\" fill=\"{fill}\" fill-opacity=\"{opacity}\"/>"));
     }
 
-    pub fn rect(&mut self, area: Area, fill: Colour, opacity: f64) {
+    pub fn rect(&mut self, area: Area, fill: Color, opacity: f64) {
         let [x, y, width, height] = [area.left, area.top, area.width, area.height].map(short);
         let opacity = short(opacity);
         self.push(&format!(
@@ -137,8 +137,8 @@ impl Svg {
         ));
     }
 
-    /// A filled circle with a thin rim in the ground's colour, so that neighbours stay apart.
-    pub fn dot(&mut self, [x, y]: Place, radius: f64, fill: Colour, opacity: f64) {
+    /// A filled circle with a thin rim in the ground's color, so that neighbors stay apart.
+    pub fn dot(&mut self, [x, y]: Place, radius: f64, fill: Color, opacity: f64) {
         let [x, y, radius, opacity] = [x, y, radius, opacity].map(short);
         self.push(&format!(
             "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" fill=\"{fill}\" fill-opacity=\"{opacity}\" \
@@ -178,7 +178,7 @@ impl Svg {
         let [width, height] = [WIDTH, height].map(short);
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-             viewBox=\"0 0 {width} {height}\" role=\"img\" aria-labelledby=\"title description\" \
+             viewBox=\"0 0 {width} {height}\" role=\"img\" aria-labeledby=\"title description\" \
              font-family=\"{FAMILY}\" fill=\"{INK}\">\n\
              <title id=\"title\">{title}</title>\n<desc id=\"description\">{description}</desc>\n\
              <rect width=\"{width}\" height=\"{height}\" fill=\"{PAPER}\"/>\n{body}</svg>\n"

@@ -35,8 +35,8 @@ pub enum RenderError {
         /// How many frames there are.
         count: usize,
     },
-    /// The frames do not hold what the grains should be coloured by.
-    #[error("the frames of {dir} cannot be coloured by \"{found}\"{advice}\nthey can be by {known}", dir = .dir.display())]
+    /// The frames do not hold what the grains should be colored by.
+    #[error("the frames of {dir} cannot be colored by \"{found}\"{advice}\nthey can be by {known}", dir = .dir.display())]
     Color {
         /// The folder.
         dir: PathBuf,

@@ -95,13 +95,13 @@ impl Output {
                 Ok(Sink::Pictures { folder: folder.clone(), name: name.clone(), count: 0 })
             }
             Self::Movie(path) => {
-                // Players want even sizes, colours at half the resolution, and what they need first at the start.
+                // Players want even sizes, colors at half the resolution, and what they need first at the start.
                 let codec = ["-c:v", "libx264", "-preset", "medium", "-crf", "18", "-pix_fmt", "yuv420p"];
                 let more = ["-movflags", "+faststart", "-threads", "1", "-f", "mp4"];
                 Ok(Sink::Movie(Encoder::start(path, size, rate, &[&codec[..], &more[..]].concat())?))
             }
             Self::Gif(path) => {
-                // Each picture has colours of its own: so nothing has to wait for the last one.
+                // Each picture has colors of its own: so nothing has to wait for the last one.
                 let palette = "split[a][b];[a]palettegen=stats_mode=single[p];\
                                [b][p]paletteuse=new=1:dither=bayer:bayer_scale=4";
                 Ok(Sink::Movie(Encoder::start(

@@ -1,11 +1,11 @@
-//! Words over a picture: the legend of colours, a scale, the time.
+//! Words over a picture: the legend of colors, a scale, the time.
 
 use super::image::Image;
 use super::text::{Align, Writer};
 use crate::plot::scale::Scale;
 use crate::plot::{Map, Quantity};
 
-/// What the colours mean.
+/// What the colors mean.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Legend {
     /// A map over values.
@@ -21,7 +21,7 @@ pub(super) enum Legend {
     Names { title: String, entries: Vec<Entry> },
 }
 
-/// A name with its colours.
+/// A name with its colors.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Entry {
     pub label: String,
@@ -61,7 +61,7 @@ fn prefixed(value: f64, unit: &str) -> (f64, String) {
     ];
     let takes_prefix = matches!(unit, "m" | "m/s" | "s" | "W" | "C");
     let decade = value.log10().floor();
-    // Metres above kilometres are read as powers of ten, seconds above one as seconds.
+    // Metres above kilometers are read as powers of ten, seconds above one as seconds.
     let largest = if unit == "s" { 0 } else { 15 };
     let wanted = if decade.is_finite() && takes_prefix { (decade as i32).div_euclid(3) * 3 } else { 0 };
     let wanted = wanted.min(largest);
@@ -69,7 +69,7 @@ fn prefixed(value: f64, unit: &str) -> (f64, String) {
     prefix.map_or((1.0, unit.to_owned()), |&(power, prefix)| (10_f64.powi(power), format!("{prefix}{unit}")))
 }
 
-/// A round length that is about `target` pixels long, in metres, with its label.
+/// A round length that is about `target` pixels long, in meters, with its label.
 fn round_length(pixel: f64, target: f64) -> (f64, String) {
     let longest = pixel * target;
     let power = 10_f64.powf(longest.log10().floor());

@@ -57,7 +57,7 @@ fn overlay(pixel: f64) -> Overlay {
     Overlay { legend, pixel, time: 0.0, last_time: 1.0, is_dark: false }
 }
 
-/// The bar in the picture is as long as its label says: metres over metres a pixel. Bytes of partly covered pixels
+/// The bar in the picture is as long as its label says: meters over meters a pixel. Bytes of partly covered pixels
 /// are rounded.
 #[test]
 fn the_bar_is_as_long_as_it_says() {
@@ -74,7 +74,7 @@ fn the_bar_is_as_long_as_it_says() {
     }
 }
 
-/// The column of the map shows its colours from the bottom to the top, and a point where values go beyond.
+/// The column of the map shows its colors from the bottom to the top, and a point where values go beyond.
 #[test]
 fn the_legend_shows_the_map() {
     let mut image = Image::new([1280, 720]);
@@ -89,7 +89,7 @@ fn the_legend_shows_the_map() {
     let column: Vec<u32> = (1000..1280).filter(is_column).collect();
     assert!(column.len() > 10, "{column:?}");
     let middle = column[column.len() / 2];
-    // Above it the point, of the uppermost colour and ever narrower.
+    // Above it the point, of the uppermost color and ever narrower.
     assert_eq!(color(middle, 205), Map::Viridis.color(1.0));
     assert_eq!(image.pixel(column[0], 203)[3], 0);
 }

@@ -24,7 +24,7 @@ pub enum Background {
 }
 
 impl Background {
-    /// Its colour and opacity.
+    /// Its color and opacity.
     fn ink(self) -> Ink {
         match self {
             Self::Light => Ink { light: [1.0; 3], cover: 1.0 },

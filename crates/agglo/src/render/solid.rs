@@ -111,8 +111,8 @@ mod tests {
     #[test]
     fn lines_have_a_mantle_and_round_ends() {
         let line = Line { ends: [Vec3::ZERO, Vec3::new(0.0, 0.0, 4.0)], radius: 0.5, color: [1.0; 3] };
-        let hit = |origin: [f64; 3], towards: [f64; 3]| {
-            line.hit(&Ray::new(origin.into(), Vec3::from(towards).normalized()))
+        let hit = |origin: [f64; 3], toward: [f64; 3]| {
+            line.hit(&Ray::new(origin.into(), Vec3::from(toward).normalized()))
         };
         assert_eq!(hit([-3.0, 0.0, 1.0], [1.0, 0.0, 0.0]), Some(2.5));
         assert_near!(hit([-3.0, 0.3, 1.0], [1.0, 0.0, 0.0]).unwrap(), 2.6, 1e-15);

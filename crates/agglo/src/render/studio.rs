@@ -1,4 +1,4 @@
-//! Pictures of a run: one view and one range of colours for all frames.
+//! Pictures of a run: one view and one range of colors for all frames.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -30,11 +30,11 @@ pub enum View {
 #[derive(Clone, Debug)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a wish of its own")]
 pub struct Options {
-    /// Word of the quantity that grains are coloured by.
+    /// Word of the quantity that grains are colored by.
     pub color: String,
-    /// Colour map for values; that of the quantity if left out.
+    /// Color map for values; that of the quantity if left out.
     pub map: Option<Map>,
-    /// Values [SI] at the ends of the colour map; those of all frames if left out.
+    /// Values [SI] at the ends of the color map; those of all frames if left out.
     pub range: Option<[f64; 2]>,
     /// What the camera looks at.
     pub view: View,
@@ -111,7 +111,7 @@ const OUTSIDE: f64 = 0.025;
 const ABOVE: f64 = 0.01;
 /// Room about what is framed.
 const MARGIN: f64 = 1.12;
-/// Colours of lines.
+/// Colors of lines.
 const BOND: u32 = 0x50_5050;
 const BOND_ON_DARK: u32 = 0xc8_c8c8;
 const RAY: u32 = 0x1c_1c1c;
@@ -119,7 +119,7 @@ const RAY_ON_DARK: u32 = 0x56_b4e9;
 const EDGE: u32 = 0x8c_8c8c;
 
 impl Studio {
-    /// Looks through the frames with these numbers and sets up the camera and the colours. `look` is told how many
+    /// Looks through the frames with these numbers and sets up the camera and the colors. `look` is told how many
     /// are done and may end it.
     ///
     /// # Errors
@@ -166,12 +166,12 @@ impl Studio {
         &self.camera
     }
 
-    /// What the colours show.
+    /// What the colors show.
     pub fn quantity(&self) -> &Quantity {
         &self.quantity
     }
 
-    /// The colour map and the values at its ends; nothing where colours are names.
+    /// The color map and the values at its ends; nothing where colors are names.
     pub fn scale(&self) -> Option<(Map, [f64; 2])> {
         match self.coloring() {
             Coloring::Values(map) => Some((map, self.range)),
@@ -245,7 +245,7 @@ impl Studio {
         let mut notes = Vec::new();
         if self.options.map.is_some() && !matches!(self.quantity.coloring, Coloring::Values(_)) {
             let word = self.quantity.word;
-            notes.push(format!("the map is left aside: {word} has a colour for each name"));
+            notes.push(format!("the map is left aside: {word} has a color for each name"));
         }
         notes
     }
@@ -333,7 +333,7 @@ impl Studio {
     }
 }
 
-/// The number of a cluster's colour: that of the heaviest is used once.
+/// The number of a cluster's color: that of the heaviest is used once.
 fn cluster_number(cluster: usize) -> usize {
     if cluster == 0 { 0 } else { 1 + (cluster - 1) % (NAMED.len() - 1) }
 }
@@ -399,7 +399,7 @@ fn joined(a: [[f64; 2]; 3], b: [[f64; 2]; 3]) -> [[f64; 2]; 3] {
     std::array::from_fn(|axis| [a[axis][0].min(b[axis][0]), a[axis][1].max(b[axis][1])])
 }
 
-/// The range of the colour map, and whether values are below or above it.
+/// The range of the color map, and whether values are below or above it.
 fn range(surveys: &[Survey], quantity: &Quantity, wanted: Option<[f64; 2]>) -> ([f64; 2], [bool; 2]) {
     let over = |of: fn(&Survey) -> [f64; 2]| {
         surveys.iter().map(of).fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], [least, most]| {

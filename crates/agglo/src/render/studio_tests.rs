@@ -1,4 +1,4 @@
-//! Views, colours and films of small folders.
+//! Views, colors and films of small folders.
 
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -86,7 +86,7 @@ fn a_place_can_be_looked_at() {
 
 /// One range for all frames, without the uppermost hundredth of each frame's speeds.
 #[test]
-fn colours_have_one_range() {
+fn colors_have_one_range() {
     let dir = two_frames();
     let found = studio(dir.path(), small("speed")).unwrap();
     // Of 0 to 399, and 1e6: a hundredth of 400 is 4.
@@ -95,14 +95,14 @@ fn colours_have_one_range() {
     let given = studio(dir.path(), given).unwrap();
     assert_eq!((given.range, given.beyond), ([100.0, 1e7], [true, false]));
     assert_eq!(given.colors(&[50.0, 1e9]), [0.0, 1.0].map(|part| light_of(Map::Viridis.color(part))));
-    // All radii are the same: their colour is in the middle of the map.
+    // All radii are the same: their color is in the middle of the map.
     let same = studio(dir.path(), small("size")).unwrap();
     let middle = light_of(Map::Cividis.color(0.5));
     assert_all!(same.colors(&[0.05])[0].iter().zip(middle), |(a, b)| (a - b).abs() < 0.01);
 }
 
 #[test]
-fn clusters_have_colours_and_single_grains_are_grey() {
+fn clusters_have_colors_and_single_grains_are_gray() {
     let dir = two_frames();
     let studio = studio(dir.path(), small("cluster")).unwrap();
     let colors = studio.colors(&[0.0, 0.0, 1.0, 1.0, 2.0, 0.0, 7.0, 7.0]);

@@ -41,7 +41,7 @@ pub enum Kind {
     Points,
     /// Bars.
     Bars,
-    /// Colours over two axes.
+    /// Colors over two axes.
     Map,
     /// An axis for each dimension, a line for each point.
     Parallel,
@@ -76,16 +76,16 @@ pub struct Series {
     /// What pointing at each point says besides.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub text: Vec<String>,
-    /// Colours of a map, one row for each height.
+    /// Colors of a map, one row for each height.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub z: Vec<Vec<f64>>,
-    /// What the colours stand for.
+    /// What the colors stand for.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub label: String,
-    /// The colour of each point or line.
+    /// The color of each point or line.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub colors: Vec<f64>,
-    /// Whether large colour values are the bright ones of parallel coordinates, and not small ones.
+    /// Whether large color values are the bright ones of parallel coordinates, and not small ones.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub ascending: bool,
     /// The axes of parallel coordinates.

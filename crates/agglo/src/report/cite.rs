@@ -5,10 +5,10 @@ use toml::Value;
 use crate::impact::heat::Balance;
 use crate::pages::{PAGES, Page};
 use crate::scenario::Scenario;
-use crate::search::optimiser::Method;
+use crate::search::optimizer::Method;
 use crate::search::{Campaign, Plan};
 
-const NELDER_MEAD: (&str, &str) = ("nelder_mead", include_str!("../search/optimiser/nelder_mead.rs"));
+const NELDER_MEAD: (&str, &str) = ("nelder_mead", include_str!("../search/optimizer/nelder_mead.rs"));
 
 /// A law that a scenario uses, and its source.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -62,13 +62,13 @@ fn in_full(source: &str) -> String {
 pub fn methods(campaign: &Campaign) -> Vec<Citation> {
     let polish = campaign.polish.as_ref().map(|_| NELDER_MEAD);
     let method = campaign.method.as_ref().and_then(|method| match method {
-        Method::CmaEs(_) => Some(("cma_es", include_str!("../search/optimiser/cma_es.rs"))),
-        Method::Genetic(_) => Some(("genetic", include_str!("../search/optimiser/genetic.rs"))),
+        Method::CmaEs(_) => Some(("cma_es", include_str!("../search/optimizer/cma_es.rs"))),
+        Method::Genetic(_) => Some(("genetic", include_str!("../search/optimizer/genetic.rs"))),
         Method::PublishedGenetic(_) => {
-            Some(("published_genetic", include_str!("../search/optimiser/published_genetic.rs")))
+            Some(("published_genetic", include_str!("../search/optimizer/published_genetic.rs")))
         }
         Method::NelderMead(_) => Some(NELDER_MEAD),
-        Method::Sobol(_) => Some(("sobol", include_str!("../search/optimiser/sobol.rs"))),
+        Method::Sobol(_) => Some(("sobol", include_str!("../search/optimizer/sobol.rs"))),
         Method::Random(_) => None,
     });
     let plan = campaign.plan.as_ref().and_then(|plan| match plan {

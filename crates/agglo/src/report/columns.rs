@@ -1,11 +1,11 @@
-//! What grains can be coloured by.
+//! What grains can be colored by.
 
 use serde::Serialize;
 
 use crate::plot::{Coloring, Quantity};
 use crate::record::frames::Frame;
 
-/// Something that grains can be coloured by.
+/// Something that grains can be colored by.
 #[derive(Clone, Debug, Serialize)]
 pub struct Column {
     /// Its name in the page.
@@ -18,9 +18,9 @@ pub struct Column {
     pub low: f64,
     /// The largest value of the run.
     pub high: f64,
-    /// Where the colours begin and end: all but the rarest values lie between.
+    /// Where the colors begin and end: all but the rarest values lie between.
     pub colors: [f64; 2],
-    /// The colour map of values; none where they are names.
+    /// The color map of values; none where they are names.
     pub map: Option<&'static str>,
     #[serde(skip)]
     quantity: Quantity,
@@ -31,7 +31,7 @@ pub const NAMES: &str = "id";
 /// Name of the radii, which are always there.
 pub const SIZES: &str = "size";
 
-/// Part of all values at either end that gets the colour of the end.
+/// Part of all values at either end that gets the color of the end.
 const RAREST: f64 = 0.02;
 
 impl Column {

@@ -18,7 +18,7 @@ const STYLE: &str = include_str!("page/page.css");
 const SCRIPT: &str = include_str!(concat!(env!("OUT_DIR"), "/page.js"));
 const SCRIPT_DIGEST: &str = include_str!(concat!(env!("OUT_DIR"), "/page.sha256"));
 const STAGE: &str = include_str!("page/replay.html");
-const LICENCES: &str = include_str!("page/licences.html");
+const LICENSES: &str = include_str!("page/licenses.html");
 /// Plotly.js as base64 of deflated bytes, and the digest of its text; see `build.rs`.
 const PLOTLY: &str = include_str!(concat!(env!("OUT_DIR"), "/plotly.min.js.deflate.base64"));
 const PLOTLY_DIGEST: &str = include_str!(concat!(env!("OUT_DIR"), "/plotly.sha256"));
@@ -158,7 +158,7 @@ impl Report {
     }
 }
 
-/// The colours of the page: maps by their words, colours of names, lines with their dashes.
+/// The colors of the page: maps by their words, colors of names, lines with their dashes.
 fn palette() -> serde_json::Value {
     let text = |color: u32| format!("{color:06x}");
     let stops = |map: Map| map.stops().map(text).collect::<Vec<_>>();
@@ -166,7 +166,7 @@ fn palette() -> serde_json::Value {
     serde_json::json!({ "maps": maps, "names": NAMED.map(text), "plain": text(PLAIN), "lines": lines() })
 }
 
-/// Colours, dashes and widths [pixels] of lines: those of charts, and once more in the same colours, but with the dashes
+/// Colors, dashes and widths [pixels] of lines: those of charts, and once more in the same colors, but with the dashes
 /// of another and wider, so that twelve lines can be told apart.
 fn lines() -> Vec<(String, &'static str, f64)> {
     let count = LINES.len();
@@ -230,7 +230,7 @@ fn file(file: &Listing) -> String {
     let lines: String = file.lines.iter().map(line).collect();
     let title = escaped(&file.title);
     let any = file.lines.iter().any(|line| line.is_default);
-    let marks = if any { "; defaults are grey and marked <i>default</i>" } else { "" };
+    let marks = if any { "; defaults are gray and marked <i>default</i>" } else { "" };
     format!(
         "<h2>{title}</h2>\n<details class=\"card file\"><summary>Show the file{marks}</summary>\n<pre>{lines}</pre>\
          </details>\n"
@@ -254,7 +254,7 @@ fn source(citation: &Citation) -> String {
 fn foot() -> String {
     let version = env!("CARGO_PKG_VERSION");
     format!(
-        "<footer>\n<p class=\"soft\">Written by agglo {version}. This file asks nothing of the network.</p>\n{LICENCES}\
+        "<footer>\n<p class=\"soft\">Written by agglo {version}. This file asks nothing of the network.</p>\n{LICENSES}\
          </footer>\n"
     )
 }
@@ -276,7 +276,7 @@ mod tests {
         let lines = lines();
         assert_eq!(lines.len(), 12);
         for (at, (color, dashes, width)) in lines.iter().enumerate() {
-            // Told apart by colour, and without colours by dashes or width.
+            // Told apart by color, and without colors by dashes or width.
             let alike = |other: &(String, &str, f64)| (other.1, other.2) == (*dashes, *width);
             assert!(!lines[..at].iter().any(alike), "{at}");
             assert!(!lines[..at].iter().any(|other| other.0 == *color && other.1 == *dashes), "{at}");

@@ -125,7 +125,7 @@ impl Frames {
         self.lists.grains.add(time, &name, mark, &self.folder.frame_list("grains"))
     }
 
-    /// Writes the bonds at `time` [s] as lines between centres, in the order of the names that they join.
+    /// Writes the bonds at `time` [s] as lines between centers, in the order of the names that they join.
     pub fn bonds(&mut self, time: f64, grains: &Particles, bonds: &[Bond]) -> Result<(), RecordError> {
         let name = self.lists.bonds.next_name("bonds");
         let mut bonds: Vec<&Bond> = bonds.iter().collect();

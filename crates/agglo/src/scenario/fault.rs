@@ -110,7 +110,7 @@ impl Faults {
         self.0.is_empty()
     }
 
-    /// All faults with the lines of `source` that they point to; `color` adds terminal colours. Nothing else in it acts on
+    /// All faults with the lines of `source` that they point to; `color` adds terminal colors. Nothing else in it acts on
     /// a terminal.
     pub fn render(&self, source: &str, filename: &str, color: bool) -> String {
         let filename = &*visible(filename);

@@ -8,7 +8,7 @@ use std::time::Duration;
 use super::campaign::{Stage, planned};
 use super::file::Campaign;
 use super::model::Model;
-use super::optimiser::{Method, Point, Sobol};
+use super::optimizer::{Method, Point, Sobol};
 use super::problem::Problem;
 use crate::forecast::{Effort, Plan, duration};
 use crate::text::readable;

@@ -158,8 +158,8 @@ impl Reader<'_> {
         let mut read = Vec::new();
         for (at, objective) in campaign.objectives.iter().enumerate() {
             let (text, word, sign) = match objective {
-                Objective::Minimise(text) => (text, "minimise", 1.0),
-                Objective::Maximise(text) => (text, "maximise", -1.0),
+                Objective::Minimize(text) => (text, "minimize", 1.0),
+                Objective::Maximize(text) => (text, "maximize", -1.0),
             };
             let formula = self.of_columns(text, &format!("objectives.{at}.{word}"));
             read.extend(formula.map(|formula| Cost { formula, sign }));

@@ -1,4 +1,4 @@
-//! Functions with a known lowest point, to try optimisers on; with noise if wanted.
+//! Functions with a known lowest point, to try optimizers on; with noise if wanted.
 //!
 //! # Equation
 //! ```text
@@ -24,10 +24,10 @@
 use std::f64::consts::{E, TAU};
 
 use super::Fitness;
-use super::optimiser::{Optimiser, Point};
+use super::optimizer::{Optimizer, Point};
 use crate::math::rng::{Purpose, Stream};
 
-/// A function to try optimisers on.
+/// A function to try optimizers on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TestFunction {
     /// One round bowl.
@@ -135,24 +135,24 @@ impl Noisy {
     }
 }
 
-/// Lets an optimiser search until it is done or `most` points are evaluated; `evaluate` gets a point and its number.
+/// Lets an optimizer search until it is done or `most` points are evaluated; `evaluate` gets a point and its number.
 ///
 /// Gives the point that it recommends.
-pub fn minimise(
-    optimiser: &mut dyn Optimiser,
+pub fn minimize(
+    optimizer: &mut dyn Optimizer,
     most: u64,
     mut evaluate: impl FnMut(&[f64], u64) -> Fitness,
 ) -> Option<Point> {
     let mut evaluations = 0;
     loop {
-        let points = optimiser.ask();
+        let points = optimizer.ask();
         if points.is_empty() || evaluations + points.len() as u64 > most {
-            return optimiser.recommended();
+            return optimizer.recommended();
         }
         let fitnesses: Vec<Fitness> =
             (evaluations..).zip(&points).map(|(n, point)| evaluate(point, n)).collect();
         evaluations += points.len() as u64;
-        optimiser.tell(&fitnesses);
+        optimizer.tell(&fitnesses);
     }
 }
 

@@ -1,6 +1,6 @@
 //! Searches for the conditions that do something best, and studies of how an outcome depends on them.
 //!
-//! Optimisers propose points of a unit cube and are told how good they are; the space turns points into scenarios; an
+//! Optimizers propose points of a unit cube and are told how good they are; the space turns points into scenarios; an
 //! ensemble of random starts tells how good a scenario is.
 
 pub mod analysis;
@@ -16,7 +16,7 @@ mod formula;
 mod formulas;
 pub mod functions;
 mod model;
-pub mod optimiser;
+pub mod optimizer;
 mod plan;
 mod pool;
 mod problem;

@@ -137,7 +137,7 @@ impl Problem {
     }
 
     /// The candidate in the middle of the box.
-    pub fn centre(&self) -> Candidate {
+    pub fn center(&self) -> Candidate {
         self.candidate(&vec![0.5; self.knobs.len()])
     }
 
@@ -295,7 +295,7 @@ impl Model for Problem {
     }
 }
 
-/// 0 from a single start, of which no error is known: an optimiser heeds only noise that is known.
+/// 0 from a single start, of which no error is known: an optimizer heeds only noise that is known.
 fn known_error(cost: &Moments) -> f64 {
     if cost.count > 1 { cost.standard_error() } else { 0.0 }
 }

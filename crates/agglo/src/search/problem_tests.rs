@@ -60,7 +60,7 @@ fn fitness_by_hand() {
         base.template = "reacting"
         columns = ["impacts"]
         [[objectives]]
-        maximise = "radius_ratio*scale"
+        maximize = "radius_ratio*scale"
         [[parameters]]
         name = "scale"
         range.linear = { lower = 1, upper = 3 }
@@ -117,7 +117,7 @@ fn figures_are_those_of_the_summary() {
             base.template = "reacting"
             settings = ["grains.0.placement.fill.count=60", "grains.0.size.length_ratio.count=60", "time.end=1 ms"]
             columns = ["energy.kinetic_J", "biot_number"]
-            objectives = [{{ minimise = "{objective}" }}]
+            objectives = [{{ minimize = "{objective}" }}]
             method.random.points = 4
             [[parameters]]
             name = "mu"
@@ -128,9 +128,9 @@ fn figures_are_those_of_the_summary() {
     };
     let (_, problem) = problem(&text("growth_deficit"));
     let stop = AtomicBool::new(false);
-    let centre = problem.centre();
-    let figures = problem.run(&problem.prepare(&centre).unwrap(), 9, &stop).unwrap();
-    let scenario = Scenario { seed: 9, ..problem.scenario(&centre).unwrap() };
+    let center = problem.center();
+    let figures = problem.run(&problem.prepare(&center).unwrap(), 9, &stop).unwrap();
+    let scenario = Scenario { seed: 9, ..problem.scenario(&center).unwrap() };
     let Ok(Ending::Finished(summary)) = run::quiet(&scenario, Path::new(""), &stop) else {
         panic!("it fails")
     };
@@ -139,7 +139,7 @@ fn figures_are_those_of_the_summary() {
     assert!(figures[2].is_nan(), "no thermal conductivity, no Biot number");
 
     let (_, problem) = self::problem(&text("biot_number"));
-    let prepared = problem.prepare(&problem.centre()).unwrap();
+    let prepared = problem.prepare(&problem.center()).unwrap();
     let refused = problem.run(&prepared, 9, &stop).unwrap_err();
     assert_eq!(refused, Trouble::Failed("\"biot_number\" has no value for this run".to_owned()));
     assert_eq!(problem.run(&prepared, 9, &AtomicBool::new(true)), Err(Trouble::Stopped));
@@ -151,7 +151,7 @@ fn ends_that_cannot_be_run_are_told() {
     let text = r#"
         version = 1
         base.template = "reacting"
-        objectives = [{ minimise = "growth_deficit" }]
+        objectives = [{ minimize = "growth_deficit" }]
         method.random.points = 4
         [[parameters]]
         name = "L"

@@ -4,7 +4,7 @@ use agglo::math::Vec3;
 
 use crate::common::{self, Listed};
 
-/// Grains on a jittered lattice that move towards its middle, listed in this order; velocities by lattice place.
+/// Grains on a jittered lattice that move toward its middle, listed in this order; velocities by lattice place.
 fn after(order: &[usize], engine: &str) -> Vec<Vec3> {
     let place = |k: usize| {
         let along = |n: usize| 2.2e-3 * n as f64;

@@ -20,7 +20,7 @@ const DAMPING: [&str; 3] = [
 const FRICTION: [&str; 3] = [
     "",
     "[contact.friction.mindlin]\nstatic_friction = 0.5\ndynamic_friction = 0.3\nstiffness_ratio = 0.8\ndashpot = 0.5",
-    "[contact.friction.regularised]\nstiffness = \"1e12 Pa/m\"\nstatic_friction = 0.5\ndynamic_friction = 0.5",
+    "[contact.friction.regularized]\nstiffness = \"1e12 Pa/m\"\nstatic_friction = 0.5\ndynamic_friction = 0.5",
 ];
 const BOND: [&str; 3] = [
     "",

@@ -37,7 +37,7 @@ const CEMENTED: &str = r#"
 "#;
 
 /// What holds the grains at rest must still be there when the clock starts: they then drift together, and what they
-/// had of stretched cement would otherwise drive them apart at some metres per second.
+/// had of stretched cement would otherwise drive them apart at some meters per second.
 #[test]
 fn rest_lasts() {
     let mut simulation = start(CEMENTED, |_| {});

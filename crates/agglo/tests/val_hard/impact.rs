@@ -30,7 +30,7 @@ impl Pair {
         (ratio * 4.0 * PI * smaller.powi(3) * HARDNESS * (a + b) / (a * b)).sqrt()
     }
 
-    /// After an impact at this approach speed, in a frame that drifts; the line of centres is slanted.
+    /// After an impact at this approach speed, in a frame that drifts; the line of centers is slanted.
     fn meet(&self, engine: &str, speed: f64) -> Simulation {
         let [a, b] = self.radii;
         let along = Vec3::new(2.0, -1.0, 2.0) / 3.0;
@@ -85,7 +85,7 @@ impl Pair {
 
 const PAIRS: [[f64; 2]; 3] = [[1e-3, 1e-3], [1e-3, 1.7e-3], [4e-3, 2e-4]];
 
-/// 1e-9: the driver finds the time of the impact to rounding of places, which turns the line of centres by some 1e-13; step by
+/// 1e-9: the driver finds the time of the impact to rounding of places, which turns the line of centers by some 1e-13; step by
 /// step the impact comes up to 1 ns late, on the same line.
 #[test]
 fn val_zohdi_2004_restitution_from_hardness() {
@@ -149,7 +149,7 @@ fn val_zohdi_2004_sticking_begins_at_its_speed() {
     }
 }
 
-/// Two become one with their mass, momentum and volume, at the centre of mass.
+/// Two become one with their mass, momentum and volume, at the center of mass.
 #[test]
 fn what_sticks_is_the_sum_of_both() {
     for radii in PAIRS {

@@ -1,7 +1,7 @@
 //! The six published sets of T. I. Zohdi, Proc. R. Soc. Lond. A 460, 3421 (2004), tables 1 to 3: mean radius at the end over
 //! that at the start.
 //!
-//! The paper's program (a coarse step, nearest neighbours, faces that grains do not see through) is not ours. The reference is
+//! The paper's program (a coarse step, nearest neighbors, faces that grains do not see through) is not ours. The reference is
 //! an independent program with a fine step, impacts across the faces and restitution e = 1 - √x, the mean of 12 starts.
 
 use std::path::Path;

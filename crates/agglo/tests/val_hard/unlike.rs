@@ -64,7 +64,7 @@ fn by_hand_with(friction: f64, restitution: f64, is_one: bool, surfaces: [f64; 2
     let [first, second] = if is_one {
         [(VELOCITY[0] * m + VELOCITY[1] * n) / (m + n); 2]
     } else {
-        // What the pair's slip and approach become; the rest is the centre of mass's.
+        // What the pair's slip and approach become; the rest is the center of mass's.
         let kept = 1.0 - friction * (1.0 + restitution) * approach / slip.norm();
         assert_true!((kept > 0.0) == (friction == FRICTION), "{kept} of the slip would be kept");
         let left = slip * kept.max(0.0) - NORMAL * (restitution * approach);
@@ -88,7 +88,7 @@ fn by_hand_with(friction: f64, restitution: f64, is_one: bool, surfaces: [f64; 2
     }
 }
 
-/// Where the centre of clay is at the meeting: inside, or with lead across the upper faces of x and z.
+/// Where the center of clay is at the meeting: inside, or with lead across the upper faces of x and z.
 fn meeting_place(boundary: &str) -> Vec3 {
     if boundary == "open" { Vec3::new(1e-3, -0.5e-3, 0.3e-3) } else { Vec3::new(9.7e-3, -0.5e-3, 9.4e-3) }
 }

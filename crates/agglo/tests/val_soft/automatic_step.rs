@@ -175,7 +175,7 @@ const LAWS: &[(&str, &str)] = &[
     ("friction", "[contact.friction.mindlin]\nstatic_friction = 0.4\nstiffness_ratio = 0.8\ndashpot = 0.5\n"),
     (
         "friction",
-        "[contact.friction.regularised]\nstiffness = \"1e12 Pa/m\"\nstatic_friction = 0.4\ndynamic_friction = 0.3\n",
+        "[contact.friction.regularized]\nstiffness = \"1e12 Pa/m\"\nstatic_friction = 0.4\ndynamic_friction = 0.3\n",
     ),
     (
         "bonds",
@@ -201,7 +201,7 @@ const LAWS: &[(&str, &str)] = &[
     ("lorentz", "[fields.lorentz]\nmagnetic_flux_density = [\"0 T\", \"0 T\", \"1e7 T\"]\n"),
     (
         "magnetic",
-        "[fields.magnetic]\nmagnetisability = \"1e-9 J/T2\"\n\
+        "[fields.magnetic]\nmagnetizability = \"1e-9 J/T2\"\n\
          magnetic_flux_density = [\"1 T\", \"0 T\", \"1e4*z\"]\n",
     ),
     ("near", "[fields.near_field.law.van_der_waals]\nhamaker = \"1e-19 J\"\nsmallest_gap = \"10 nm\"\n"),
@@ -216,7 +216,7 @@ const LAWS: &[(&str, &str)] = &[
 
 /// Laws that do not converge with the step, so that a warning is all that can be had.
 fn is_published(law: &str) -> bool {
-    law.contains("regularised") || law.contains("strain_bond")
+    law.contains("regularized") || law.contains("strain_bond")
 }
 
 /// Two grains that approach aslant and spin, over some ten periods of the springs here.
@@ -303,7 +303,7 @@ fn unexplained_energy_raises_an_alarm() {
     let (_, ending) = too_coarse(SPRING);
     let error = ending.unwrap_err();
     assert!(matches!(error, SimError::Unexplained { part, limit: 0.1, .. } if part > 0.1), "{error}");
-    let published = "[contact.friction.regularised]\nstiffness = \"1 Pa/m\"\nstatic_friction = 0.1\ndynamic_friction = 0.1\n";
+    let published = "[contact.friction.regularized]\nstiffness = \"1 Pa/m\"\nstatic_friction = 0.1\ndynamic_friction = 0.1\n";
     for more in [format!("drift_error = 1e9\n{SPRING}"), format!("{SPRING}{published}")] {
         let (simulation, ending) = too_coarse(&more);
         assert_eq!(ending, Ok(()), "{more}");

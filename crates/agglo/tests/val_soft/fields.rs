@@ -101,12 +101,12 @@ fn val_cyclotron_radius_and_period() {
             grains.charge[0] = charge;
             grains.velocity[0] = Vec3::AXES[0] * speed;
         });
-        // A positive charge that flies along x turns about a centre on the side of -y.
+        // A positive charge that flies along x turns about a center on the side of -y.
         let radius = mass * speed / (charge * 0.5);
-        let centre = Vec3::new(0.0, -radius, 0.0);
+        let center = Vec3::new(0.0, -radius, 0.0);
         let mut worst = 0.0_f64;
         common::watch(&mut simulation, |now| {
-            let found = (common::grain(now, 0).position - centre).norm();
+            let found = (common::grain(now, 0).position - center).norm();
             worst = worst.max((found / radius - 1.0).abs());
         });
         assert!(worst < 1e-6, "radius off by {worst:e}: {engine}");

@@ -103,10 +103,10 @@ pub fn before_a_plane(radius: f64, material: &str, of_plane: &str, engine: &str,
 /// Test 2; computed independently. The sphere for a plane changes R* by 1e-4, the overlap by a fifth of that.
 #[test]
 fn val_chung_ooi_2011_sphere_on_plane() {
-    let aluminium = "density = \"2699 kg/m3\"\nyoungs_modulus = \"70 GPa\"\npoisson_ratio = 0.30";
+    let aluminum = "density = \"2699 kg/m3\"\nyoungs_modulus = \"70 GPa\"\npoisson_ratio = 0.30";
     let magnesium = "density = \"1800 kg/m3\"\nyoungs_modulus = \"40 GPa\"\npoisson_ratio = 0.35";
     for (name, material, [overlap, force, duration]) in [
-        ("aluminium", aluminium, [49.717e-6, 11.370e3, 731.7e-6]),
+        ("aluminum", aluminum, [49.717e-6, 11.370e3, 731.7e-6]),
         ("magnesium", magnesium, [52.123e-6, 7.233e3, 767.1e-6]),
     ] {
         let text = before_a_plane(0.1, material, RIGID, &common::verlet(2e-7), "[contact.normal.hertz]\n");

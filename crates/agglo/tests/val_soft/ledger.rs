@@ -190,7 +190,7 @@ fn gravity_and_buoyancy() {
 /// Up the gradient of B·B from 0 to z: γ B² = γ (b z)².
 #[test]
 fn a_magnetic_force() {
-    let more = "[fields.magnetic]\nmagnetisability = \"1e-6 J/T2\"\nmagnetic_flux_density = [\"0 T\", \"0 T\", \"1 + 100*z\"]";
+    let more = "[fields.magnetic]\nmagnetizability = \"1e-6 J/T2\"\nmagnetic_flux_density = [\"0 T\", \"0 T\", \"1 + 100*z\"]";
     let mut simulation = unlike(0.1, 1e-4, 1.0, more).start(|grains| grains.position[1].z = -0.3);
     common::finish(&mut simulation);
     let work = |id: u32, from: f64| {

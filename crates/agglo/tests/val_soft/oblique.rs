@@ -22,7 +22,7 @@ fn pair(more: &str) -> Listed {
     }
 }
 
-/// The second grain comes with `velocity` relative to the first; the centre of mass rests.
+/// The second grain comes with `velocity` relative to the first; the center of mass rests.
 fn coming(velocity: Vec3) -> impl FnOnce(&mut Particles) {
     move |grains: &mut Particles| {
         grains.velocity[0] = velocity * -0.5;
@@ -47,7 +47,7 @@ fn collide(simulation: &mut Simulation, mut look: impl FnMut(&Simulation)) {
 }
 
 /// Gross sliding of two equal spheres. The impulse J_n = m* (1 + e) v_n brings μ J_n along the contact; with
-/// m* = m/2 and I = (2/5) m R² the relative velocity of the centres falls by μ (1 + e) v_n and each spin becomes
+/// m* = m/2 and I = (2/5) m R² the relative velocity of the centers falls by μ (1 + e) v_n and each spin becomes
 /// μ J_n R/I = (5/4) μ (1 + e) v_n/R. Sliding lasts where v_t > (7/2) μ (1 + e) v_n.
 ///
 /// 0.5 %: the normal turns while the grains touch, by some 2e-3 for Hertz; velocities are of the turned contact.
@@ -114,7 +114,7 @@ fn energy_never_rises_at_76_degrees() {
             for friction in [
                 "[contact.friction.mindlin]\nstatic_friction = 0.5\nstiffness_ratio = 0.8",
                 "[contact.friction.mindlin]\nstatic_friction = 0.5\ndynamic_friction = 0.3\nstiffness_ratio = 0.8\ndashpot = 1.0",
-                "[contact.friction.regularised]\nstiffness = \"1e18 Pa/m\"\nstatic_friction = 0.5\ndynamic_friction = 0.5",
+                "[contact.friction.regularized]\nstiffness = \"1e18 Pa/m\"\nstatic_friction = 0.5\ndynamic_friction = 0.5",
             ] {
                 let more = format!("{normal}\n{damping}\n{friction}");
                 let velocity = Vec3::new(-angle.cos(), angle.sin(), 0.0);

@@ -42,7 +42,7 @@ fn driven(engine: String) -> Vec<Vec3> {
         more: "[fields.near_field]\nlaw.coulomb.relative_permittivity = 1.0\n\
                [medium]\ndensity = \"1000 kg/m3\"\nviscosity = \"20 uPa s\"\n[fields.drag]\nlaw = \"schiller_naumann\"\n\
                added_mass = 0.5\nmedium_velocity = [\"0.3*sin(1500*t) + 400*y\", \"0.2*cos(1200*t)\", \"300*x*cos(900*t)\"]\n\
-               [fields.magnetic]\nmagnetisability = \"1e-9 J/T2\"\n\
+               [fields.magnetic]\nmagnetizability = \"1e-9 J/T2\"\n\
                magnetic_flux_density = [\"0.1 + 10*x\", \"0 T\", \"20*z*cos(1000*t)\"]\n\
                [fields.lorentz]\nelectric_field = [\"-2e7*x*(2 + sin(1500*t))\", \"-3e7*y + 1e3*cos(2000*t)\", \"-2e7*z\"]\n\
                magnetic_flux_density = [\"0 T\", \"2e4*t*1000\", \"2e4*(1 + 300*x)\"]"

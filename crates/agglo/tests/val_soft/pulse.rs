@@ -9,7 +9,7 @@ use agglo::scenario::Scenario;
 
 use crate::common;
 
-/// T. I. Zohdi, Comput. Mech. 57, 465 (2016), section 7: 59,238 "reflections", 58,000-62,000 over realisations, which
+/// T. I. Zohdi, Comput. Mech. 57, 465 (2016), section 7: 59,238 "reflections", 58,000-62,000 over realizations, which
 /// are straight segments. Three independent programs, ten packings, grains at rest: 50,450 ± 1,000 reflections and
 /// 60,450 ± 1,000 segments. Three standard deviations.
 #[test]

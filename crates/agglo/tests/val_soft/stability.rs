@@ -226,7 +226,7 @@ fn bonds_and_fields() -> Vec<Case> {
         },
         free(
             "magnetic",
-            "[fields.magnetic]\nmagnetisability = \"1e-6 J/T2\"\ndifference = \"1 mm\"\n\
+            "[fields.magnetic]\nmagnetizability = \"1e-6 J/T2\"\ndifference = \"1 mm\"\n\
              magnetic_flux_density = [\"sqrt(1e4 - 1e6*x*x)\", \"0 T\", \"0 T\"]",
             0.02,
             alone,

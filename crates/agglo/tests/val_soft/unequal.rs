@@ -124,7 +124,7 @@ fn published_laws_by_hand() {
     let bond = "[bonds.strain_bond]\nstiffness = \"2 MPa\"\nexponent = 1.5\ntangential_stiffness = \"3e9 Pa/m\"\n\
                 threshold_strain = 0.001";
     let laws = "[contact.normal.strain_power]\nexponent = 1.5\n[contact.damping.viscous_area]\ncoefficient = \"1e5 Pa s/m\"\n\
-                [contact.friction.regularised]\nstiffness = \"1e10 Pa/m\"\nstatic_friction = 50.0\ndynamic_friction = 40.0\n";
+                [contact.friction.regularized]\nstiffness = \"1e10 Pa/m\"\nstatic_friction = 50.0\ndynamic_friction = 40.0\n";
     for bond in [None, Some(bond)] {
         let (simulation, pair) = askew(&format!("{laws}{}", bond.unwrap_or_default()));
         let softened =

@@ -22,12 +22,12 @@
 //! |--------|-------------------|------|--------------------------------------------------------------|
 //! | E      | `youngs_modulus`  | Pa   | of the cement                                                |
 //! | κ      | `shear_ratio`     | -    | shear over normal stiffness per area                         |
-//! | l0     | `state.length`    | m    | distance of the centres when the bond was made               |
+//! | l0     | `state.length`    | m    | distance of the centers when the bond was made               |
 //! | r      | `state.radius`    | m    | of the disc: `radius_ratio` times the smaller grain's        |
-//! | d      | `distance`        | m    | of the centres                                               |
+//! | d      | `distance`        | m    | of the centers                                               |
 //! | Δu     | `displacement`    | m    | of j's side of the disc relative to i's, tangential          |
 //! | Δθ     | `rotation`        | rad  | of j relative to i; Δθ_n along the normal, Δθ_b the rest     |
-//! | a      | `arms`            | m    | from each centre to the disc                                 |
+//! | a      | `arms`            | m    | from each center to the disc                                 |
 //! | σ, τ   | `tensile_strength`, `shear_strength` | Pa | of the cement                               |
 //! | ζ      | `damping_ratio`   | -    | part of critical damping in each mode                        |
 //!
@@ -98,7 +98,7 @@ fn one() -> f64 {
 /// What a bond remembers.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BeamState {
-    /// Distance of the centres [m] when the bond was made: no normal force there.
+    /// Distance of the centers [m] when the bond was made: no normal force there.
     pub length: f64,
     /// Radius of the disc [m].
     pub radius: f64,
@@ -115,11 +115,11 @@ pub struct BeamState {
 /// The two grains of a bond over one step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BeamPair {
-    /// Distance of the centres [m] at the end of the step.
+    /// Distance of the centers [m] at the end of the step.
     pub distance: f64,
     /// Unit normal from i to j at the end of the step.
     pub normal: Vec3,
-    /// Distances [m] of the disc from the centres of i and j along the normal; their sum is the distance.
+    /// Distances [m] of the disc from the centers of i and j along the normal; their sum is the distance.
     pub arms: [f64; 2],
     /// Displacement [m] of j's side of the disc relative to i's over the step, spins included, tangential:
     /// dt times `slip` of the middle of the step.
@@ -128,7 +128,7 @@ pub struct BeamPair {
     pub rotation: Vec3,
     /// Angle [rad] by which the pair turned about its normal over the step: dt (w_i + w_j) . n / 2.
     pub spin_angle: f64,
-    /// Speed [m/s] at which the centres part at the end of the step.
+    /// Speed [m/s] at which the centers part at the end of the step.
     pub separation_speed: f64,
     /// Velocity [m/s] of j's side of the disc relative to i's at the end of the step, tangential:
     /// v_j - v_i - (a_i w_i + a_j w_j) x n, without its part along n.
@@ -146,9 +146,9 @@ pub struct BeamPair {
 pub struct BeamLoad {
     /// Force on i; on j the opposite.
     pub force: Vec3,
-    /// Moment on i about its centre.
+    /// Moment on i about its center.
     pub moment_i: Vec3,
-    /// Moment on j about its centre.
+    /// Moment on j about its center.
     pub moment_j: Vec3,
     /// Tension over tensile strength: breaks at 1.
     pub tensile_use: f64,
@@ -195,7 +195,7 @@ struct Modes {
 }
 
 impl Beam {
-    /// A bond without load between two grains of these radii [m] whose centres are `distance` [m] apart
+    /// A bond without load between two grains of these radii [m] whose centers are `distance` [m] apart
     /// along the unit vector `normal` from i to j.
     pub fn new_state(&self, radius_i: f64, radius_j: f64, distance: f64, normal: Vec3) -> BeamState {
         BeamState {
@@ -271,7 +271,7 @@ impl Beam {
         load.add(pair, tension, shear, moment);
     }
 
-    /// Elastic energy [J] of a bond whose grains' centres are `distance` [m] apart.
+    /// Elastic energy [J] of a bond whose grains' centers are `distance` [m] apart.
     pub fn energy(&self, state: &BeamState, distance: f64) -> f64 {
         let modes = self.modes(state);
         let stretch = distance - state.length;

@@ -48,7 +48,7 @@ use crate::contact::{PairConstants, Touch};
 use crate::math::Pace;
 use crate::units::{AreaStiffness, Pressure};
 
-/// K_nb E^pb A towards the partner, and K_rb |v_t| A dt along the slip, while E >= E*.
+/// K_nb E^pb A toward the partner, and K_rb |v_t| A dt along the slip, while E >= E*.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StrainBond {
@@ -96,7 +96,7 @@ impl StrainBond {
     }
 
     /// How fast the bond is at this overlap: its attraction, or its tangential part, which carries the step as that of
-    /// `regularised` does.
+    /// `regularized` does.
     pub fn pace(&self, touch: &Touch) -> Pace {
         if !self.acts(touch) {
             return Pace::NONE;

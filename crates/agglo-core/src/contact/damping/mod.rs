@@ -1,4 +1,4 @@
-//! Dissipation along the line of centres.
+//! Dissipation along the line of centers.
 
 mod restitution;
 mod viscous_area;

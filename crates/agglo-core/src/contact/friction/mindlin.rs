@@ -327,7 +327,7 @@ mod tests {
         let start = oblique.approach(Vec3::new(-v_n, v_t, 0.0));
         let end = oblique.integrate(start, 5e-9, |_, _| {});
         let relative = end.velocities[1] - end.velocities[0];
-        // The line of centres turns by v_t times the contact time over 2 R, some 2e-4; that and δ/R bound the error.
+        // The line of centers turns by v_t times the contact time over 2 R, some 2e-4; that and δ/R bound the error.
         let n = (end.positions[1] - end.positions[0]).normalized();
         let tangent = Vec3::AXES[2].cross(n);
         let expected = v_t - 0.092 * 2.0 * v_n;

@@ -1,4 +1,4 @@
-//! Linear spring along the line of centres.
+//! Linear spring along the line of centers.
 //!
 //! # Equation
 //! ```text

@@ -1,4 +1,4 @@
-//! Elastic laws along the line of centres; what a law takes away is the business of [`super::damping`].
+//! Elastic laws along the line of centers; what a law takes away is the business of [`super::damping`].
 
 mod hertz;
 mod hooke;

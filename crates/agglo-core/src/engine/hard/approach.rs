@@ -12,7 +12,7 @@ const ROUNDING: f64 = 1e-12;
 /// A pair on its way.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Approach {
-    /// From the first centre to the second [m].
+    /// From the first center to the second [m].
     between: Vec3,
     /// Velocity of the second relative to the first [m/s].
     relative: Vec3,
@@ -32,7 +32,7 @@ impl Approach {
         Self { between, relative, reach: a.radius + b.radius, closing: -between.dot(relative) }
     }
 
-    /// Square of the distance of the centres [m²].
+    /// Square of the distance of the centers [m²].
     #[inline]
     pub fn distance_squared(&self) -> f64 {
         self.between.norm_squared()
@@ -40,7 +40,7 @@ impl Approach {
 
     /// Time [s] that the way takes at the present speed of approach, [B] 6.14; infinite for spheres that part, by their gap.
     ///
-    /// With the distance of the centres it is the printed formula, which does not ask whether they part.
+    /// With the distance of the centers it is the printed formula, which does not ask whether they part.
     #[inline]
     pub fn time_left(&self, distance: Distance) -> f64 {
         match distance {

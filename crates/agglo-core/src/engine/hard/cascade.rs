@@ -20,7 +20,7 @@ const WAITS: &str =
 struct Candidate {
     /// For how long it has been touching [s].
     touching: f64,
-    /// Centres [m], the one that comes first in space first.
+    /// Centers [m], the one that comes first in space first.
     centers: [Vec3; 2],
     contact: Contact,
     /// How often its spheres had changed.

@@ -14,7 +14,7 @@ fn speeds(simulation: &Simulation) -> Vec<Vec3> {
     simulation.snapshot().grains.velocity
 }
 
-/// 1728 spheres of a lattice that fly to and fro against their neighbours, all at one speed: half of them meet half of
+/// 1728 spheres of a lattice that fly to and fro against their neighbors, all at one speed: half of them meet half of
 /// them at the same moment, again and again, and each time all turn round.
 #[test]
 fn a_lattice_in_step() {

@@ -33,7 +33,7 @@ pub(super) struct Encounter {
     pub time: f64,
     /// The two as they were before.
     pub bodies: [Body; 2],
-    /// From the first centre to the second [m].
+    /// From the first center to the second [m].
     pub distance: Vec3,
     /// Its direction.
     pub normal: Vec3,
@@ -284,7 +284,7 @@ impl Cloud {
         let (kept, gone, to_gone) = if self.is_first(a, b) { (a, b, distance) } else { (b, a, -distance) };
         let event = self.note(EventKind::Merge, encounter, outcome);
         let [one, other] = [kept, gone].map(|at| self.body(at as usize));
-        // From the centre of the one that stays, so that a large volume costs no digits.
+        // From the center of the one that stays, so that a large volume costs no digits.
         let (both, center) = merged([&one, &other], [Vec3::ZERO, to_gone]);
         let spheres = &mut self.state.spheres;
         let parents = [kept, gone].map(|at| spheres.bulk[at as usize]);

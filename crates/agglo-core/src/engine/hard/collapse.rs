@@ -18,7 +18,7 @@
 //!
 //! # Compared with others
 //! Luding and McNamara make every bounce elastic of which a partner bounced less than t_c before. That takes first bounces of
-//! one moment for a collapse: those of a merged sphere, which comes to lie over its neighbours, and those of a row that touches.
+//! one moment for a collapse: those of a merged sphere, which comes to lie over its neighbors, and those of a row that touches.
 //! Here they lose what the laws say, as they do in the limit t_c -> 0.
 
 use std::collections::BTreeMap;

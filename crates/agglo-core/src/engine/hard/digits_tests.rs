@@ -35,7 +35,7 @@ fn error_of(mut simulation: Simulation) -> SimError {
     panic!("it goes on for ever");
 }
 
-/// Two of 1 nm that fly 2 m towards one another, head-on and past the middle by 0.6 of the sum of their radii: they meet once,
+/// Two of 1 nm that fly 2 m toward one another, head-on and past the middle by 0.6 of the sum of their radii: they meet once,
 /// when they should, and fly on as the closed form says.
 #[test]
 fn small_spheres_meet_over_a_long_way() {
@@ -136,7 +136,7 @@ fn row(places: &[f64]) -> Vec<Grain> {
 /// and a remedy that is one.
 #[test]
 fn spheres_without_room_are_told() {
-    // Places in metres: gaps of 1e-17 m between walls; three that touch through a face; one between two walls.
+    // Places in meters: gaps of 1e-17 m between walls; three that touch through a face; one between two walls.
     let cases: [(&str, f64, &[f64], &[&str]); 4] = [
         ("reflecting", 0.8, &[0.1, 0.3, 0.5, 0.7], &["grain", "and"]),
         ("periodic", 0.6, &[0.1, 0.3, 0.5], &["grains ", " and "]),

@@ -56,7 +56,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::Settings;
-use super::homogenised::{Homogenised, homogenise};
+use super::homogenized::{Homogenized, homogenize};
 use super::simulation::{Grown, Simulation};
 use crate::domain::Volume;
 use crate::engine::SimError;
@@ -124,7 +124,7 @@ pub struct MicroGrains {
     pub velocities: Vec<Vec3>,
     /// Temperatures [n] [K].
     pub temperatures: Vec<f64>,
-    /// Centres [n, 3] [m]; if empty, grains are placed at random without overlap, under the scenario's seed.
+    /// Centers [n, 3] [m]; if empty, grains are placed at random without overlap, under the scenario's seed.
     pub positions: Vec<Vec3>,
     /// Numbers of materials [n], in the order of their names; if empty, all are of the first one.
     pub materials: Vec<u32>,
@@ -226,7 +226,7 @@ impl Microscale {
         &self,
         state: &MicroState,
         duration: f64,
-    ) -> Result<(MicroState, Homogenised), EmbeddedError> {
+    ) -> Result<(MicroState, Homogenized), EmbeddedError> {
         if !(duration.is_finite() && duration > 0.0) {
             return Err(EmbeddedError::Duration(duration));
         }
@@ -246,7 +246,7 @@ impl Microscale {
             reference_radius: state.reference_radius,
             step: state.step.wrapping_add(1),
         };
-        let means = homogenise(&simulation, &next, duration);
+        let means = homogenize(&simulation, &next, duration);
         Ok((next, means))
     }
 }

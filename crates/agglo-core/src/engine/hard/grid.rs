@@ -1,6 +1,6 @@
 //! The cells that spheres are filed in: levels of cells for spheres of different size, nested in one another.
 //!
-//! A sphere lies in the finest level whose cells are as wide as it is. Two spheres that touch lie in neighbouring cells
+//! A sphere lies in the finest level whose cells are as wide as it is. Two spheres that touch lie in neighboring cells
 //! of the coarser of their two levels, so each sphere knows whom it may meet from the 27 cells about its own in its own
 //! level and in every coarser one. A coarse cell is made of whole finer ones, two along each axis, or three where one would
 //! be left over, up to a single cell that is the volume: a sphere that leaves a coarse cell leaves a fine one too.
@@ -467,7 +467,7 @@ impl Grid {
         cells(0) * cells(1) * cells(2)
     }
 
-    /// Visits the spheres of a level whose centres may lie in a block between two corners [m].
+    /// Visits the spheres of a level whose centers may lie in a block between two corners [m].
     pub fn visit_within(&self, number: usize, block: [Vec3; 2], mut visit: impl FnMut(u32, [i8; 3])) {
         let level = &self.levels[number];
         let range = |axis: usize| self.range(level, axis, block);

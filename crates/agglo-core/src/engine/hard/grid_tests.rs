@@ -53,7 +53,7 @@ fn images(boundary: Boundary) -> Vec<[i8; 3]> {
 
 /// Who touches whom, in which image, by brute force; each must be seen from the finer one of the two, and once only.
 #[test]
-fn neighbours_are_those_of_brute_force() {
+fn neighbors_are_those_of_brute_force() {
     let mut touching = 0;
     for boundary in BOUNDARIES {
         for (count, spread, seed) in [(2, 1.0, 1), (9, 1.0, 2), (60, 1.0, 3), (400, 1.0, 4), (60, 3.0, 5)] {
@@ -124,7 +124,7 @@ fn block(place: Vec3, reach: f64) -> [Vec3; 2] {
     [place - corner, place + corner]
 }
 
-/// Everyone of a level whose centre is within reach along each axis, once per image.
+/// Everyone of a level whose center is within reach along each axis, once per image.
 #[test]
 fn searches_within_a_reach() {
     for boundary in BOUNDARIES {

@@ -10,7 +10,7 @@ use super::spans::Span;
 /// Cells of a block, which share a word of bits.
 const BLOCK: usize = 64;
 
-/// Cells are this much wider than the spheres that they are for, so that rounding cannot let a neighbour slip.
+/// Cells are this much wider than the spheres that they are for, so that rounding cannot let a neighbor slip.
 pub const SLACK: f64 = 1.0 + 1e-9;
 
 /// Nobody's velocities: above the highest and below the lowest.
@@ -105,7 +105,7 @@ impl Level {
     #[inline]
     pub fn fetch_words(&self, flat: u32) {
         let block = flat as usize / BLOCK;
-        // The nearer neighbour along y and z; along x it shares the line.
+        // The nearer neighbor along y and z; along x it shares the line.
         let beside = |axis: usize| {
             let stride = self.strides[axis] as usize;
             if (flat >> (2 * axis)) & 2 == 0 { block.wrapping_sub(stride) } else { block + stride }
@@ -162,7 +162,7 @@ impl Level {
         self.occupied[flat as usize / BLOCK] >> (flat as usize % BLOCK) & 1 == 1
     }
 
-    /// What a coordinate adds to the number of a cell. Cells are numbered in blocks of 4 x 4 x 4, so that neighbours
+    /// What a coordinate adds to the number of a cell. Cells are numbered in blocks of 4 x 4 x 4, so that neighbors
     /// are near one another in memory.
     #[inline(always)]
     pub fn part(&self, axis: usize, along: u32) -> u32 {

@@ -13,7 +13,7 @@ mod event_driven;
 mod events;
 mod frame;
 mod grid;
-mod homogenised;
+mod homogenized;
 mod level;
 
 mod near;
@@ -45,7 +45,7 @@ mod test_clouds;
 pub use cloud::{Change, Cloud, CloudState, Contact, Surroundings};
 pub use embedded::{EmbeddedError, MicroGrains, MicroState, Microscale};
 pub use events::{Descent, EventKind, GrainEvent};
-pub use homogenised::Homogenised;
+pub use homogenized::Homogenized;
 pub use settings::{Driver, Settings};
 pub use simulation::{Clock, Grown, Simulation, SimulationState, Snapshot};
 pub use spheres::{Bulk, Sphere, Spheres};

@@ -135,7 +135,7 @@ impl Near {
         self.spacing
     }
 
-    /// Takes note that spheres moved up to `drift` [m], two of them up to `closer` [m] towards one another.
+    /// Takes note that spheres moved up to `drift` [m], two of them up to `closer` [m] toward one another.
     pub fn moved(&mut self, drift: f64, closer: f64) {
         self.drift += drift;
         self.slack -= closer;

@@ -1,4 +1,4 @@
-//! Each hard sphere's nearest neighbour, by the distance of the centres.
+//! Each hard sphere's nearest neighbor, by the distance of the centers.
 
 use crate::domain::{Boundary, Volume};
 use crate::math::Vec3;
@@ -7,10 +7,10 @@ use super::cloud::Contact;
 use super::near::Near;
 use super::spheres::Spheres;
 
-/// A neighbour.
+/// A neighbor.
 #[derive(Clone, Copy, Debug)]
 struct Neighbor {
-    /// Square of the distance of the centres [m²].
+    /// Square of the distance of the centers [m²].
     distance_squared: f64,
     place: u32,
     shift: Vec3,
@@ -18,7 +18,7 @@ struct Neighbor {
 
 const NOBODY: Neighbor = Neighbor { distance_squared: f64::INFINITY, place: u32::MAX, shift: Vec3::ZERO };
 
-/// The nearest neighbours of all.
+/// The nearest neighbors of all.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Nearest {
     of: Vec<Neighbor>,
@@ -26,7 +26,7 @@ pub(super) struct Nearest {
 }
 
 impl Nearest {
-    /// Finds everybody's nearest neighbour; of several at the same distance the one that comes first in space.
+    /// Finds everybody's nearest neighbor; of several at the same distance the one that comes first in space.
     pub fn find(&mut self, spheres: &Spheres, near: &Near, volume: &Volume) {
         self.of.clear();
         self.of.resize(spheres.places(), NOBODY);
@@ -90,7 +90,7 @@ impl Nearest {
         }
     }
 
-    /// All pairs of a sphere and its nearest neighbour.
+    /// All pairs of a sphere and its nearest neighbor.
     pub fn contacts(&self) -> &[Contact] {
         &self.contacts
     }

@@ -389,7 +389,7 @@ fn spheres_nearly_as_wide_as_the_volume() {
     }
 }
 
-/// Centres go through faces, edges and corners of the volume at the very moment of an impact, to rounding.
+/// Centers go through faces, edges and corners of the volume at the very moment of an impact, to rounding.
 #[test]
 fn impacts_at_the_moment_of_crossing_a_face() {
     let speed = [10.0, 7.0, 3.0];

@@ -1,9 +1,9 @@
 //! Room for the pieces of agglomerates that break.
 //!
-//! Pieces of a ball need more room than the ball. They are put at random places about its centre, one after the
+//! Pieces of a ball need more room than the ball. They are put at random places about its center, one after the
 //! other, largest first, in a region that grows until there is room clear of all other spheres. They all have the
-//! velocity of the parent after the impact, so momentum and kinetic energy are those of the parent; their centre of
-//! mass may lie a little off its centre.
+//! velocity of the parent after the impact, so momentum and kinetic energy are those of the parent; their center of
+//! mass may lie a little off its center.
 
 use crate::impact::Outcome;
 use crate::math::Vec3;
@@ -77,7 +77,7 @@ pub fn find_room(
     Some(found)
 }
 
-/// Spheres near partner `k` that pieces must keep clear of: (centre, radius), as seen from its place.
+/// Spheres near partner `k` that pieces must keep clear of: (center, radius), as seen from its place.
 fn taken_near(
     cloud: &Cloud,
     encounter: &Encounter,

@@ -1,7 +1,7 @@
 //! When two spheres meet, and whom a sphere meets next.
 //!
 //! # Equation
-//! With d the distance of the centres, u the relative velocity and s the sum of the radii, b = d·u and c = d² - s²,
+//! With d the distance of the centers, u the relative velocity and s the sum of the radii, b = d·u and c = d² - s²,
 //! $$ t = \frac{c}{-b + \sqrt{u^2 s^2 - (d \times u)^2}} \quad (b < 0,\; u s > |d \times u|) $$          (E1)
 //! the smaller root of |d + u t| = s, written so that nothing cancels: the textbook's b² - u² c is the same number, but
 //! loses s² where the way is 1e8 times the radii. Spheres that overlap and approach meet at once; those that overlap and
@@ -281,7 +281,7 @@ impl View {
     /// The block in which are all that can be met within a time [s], between two corners [m].
     #[inline]
     fn block(&self, ahead: f64) -> [Vec3; 2] {
-        // A little more than can be travelled, for rounding.
+        // A little more than can be traveled, for rounding.
         let side =
             |closing: Vec3| (Vec3::new(self.reach, self.reach, self.reach) + closing * ahead) * (1.0 + 1e-9);
         [self.place - side(self.closing[0]), self.place + side(self.closing[1])]

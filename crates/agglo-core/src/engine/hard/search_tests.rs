@@ -33,8 +33,8 @@ fn grazing() {
 #[test]
 fn touching_overlapping_and_at_rest() {
     for distance in [[2.0, 0.0, 0.0], [1.5, 0.1, -0.3], [1e-9, 0.0, 0.0]] {
-        let towards = distance.map(|along: f64| -3.0 * along);
-        assert_eq!(meet(distance, towards, 2.0), 0.0);
+        let toward = distance.map(|along: f64| -3.0 * along);
+        assert_eq!(meet(distance, toward, 2.0), 0.0);
         assert_eq!(meet(distance, distance, 2.0), f64::INFINITY, "they part");
         assert_eq!(meet(distance, [0.0; 3], 2.0), f64::INFINITY, "at rest");
     }

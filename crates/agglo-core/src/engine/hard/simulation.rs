@@ -297,7 +297,7 @@ impl Simulation {
         &mut self.cloud
     }
 
-    /// Goes on towards `until` [s], or the end if that is sooner. The event-driven engine stops exactly there, or before
+    /// Goes on toward `until` [s], or the end if that is sooner. The event-driven engine stops exactly there, or before
     /// after some thousand events; the time-stepped one makes one step, of a length that does not depend on `until`.
     ///
     /// # Errors

@@ -15,7 +15,7 @@ use crate::particles::{Particles, Row};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[repr(C, align(64))]
 pub struct Sphere {
-    /// Centre at `time` [m].
+    /// Center at `time` [m].
     pub position: Vec3,
     /// Velocity [m/s].
     pub velocity: Vec3,
@@ -26,7 +26,7 @@ pub struct Sphere {
 }
 
 impl Sphere {
-    /// Centre [m] at a time [s].
+    /// Center [m] at a time [s].
     #[inline]
     pub fn at(&self, time: f64) -> Vec3 {
         self.position + self.velocity * (time - self.time)

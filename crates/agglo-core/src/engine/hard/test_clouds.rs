@@ -67,7 +67,7 @@ pub fn advance_to(simulation: &mut Simulation, until: f64) {
 }
 
 /// Grains wholly inside the cube that do not overlap, radii from `largest` [m] down to `largest`/`ratio`, evenly by their
-/// logarithm; each component of a velocity up to 20 m/s, and `inwards` [1/s] times the place towards the middle.
+/// logarithm; each component of a velocity up to 20 m/s, and `inwards` [1/s] times the place toward the middle.
 pub fn crowd(n: usize, largest: f64, ratio: f64, inwards: f64, seed: u64) -> Vec<Grain> {
     let mut stream = Stream::new(seed, Purpose::Sampling, 0);
     let mut grains: Vec<Grain> = Vec::new();

@@ -14,8 +14,8 @@
 //! |--------|----------------------------------|------|------------------------------------------------------------|
 //! | f      | `fraction`                       | 1    | part of the shortest time of approach that a step takes    |
 //! | Δt     | `dt`, `Clock::last_step`         | s    | length of the step                                         |
-//! | g      | `distance` (`gap`)               | m    | way to go: the gap, or with `centers` the centre distance  |
-//! | c      | `closing` over the distance      | m/s  | speed of approach along the line of centres, below 0 for pairs that part |
+//! | g      | `distance` (`gap`)               | m    | way to go: the gap, or with `centers` the center distance  |
+//! | c      | `closing` over the distance      | m/s  | speed of approach along the line of centers, below 0 for pairs that part |
 //! | b      | `radius`                         | m    | radius                                                     |
 //!
 //! What happens in a step, in this order:
@@ -42,11 +42,11 @@
 //! then counts as touching.
 //!
 //! # Compared with others
-//! [B] prints the distance of the centres (`distance = "centers"`), with which spheres run into one another up to the
-//! depth that a step is long, or pass by unseen; and each sphere's nearest neighbour only (`pairs = "nearest"`), with
+//! [B] prints the distance of the centers (`distance = "centers"`), with which spheres run into one another up to the
+//! depth that a step is long, or pass by unseen; and each sphere's nearest neighbor only (`pairs = "nearest"`), with
 //! which a sphere may run into its second nearest, and what a merged sphere touches waits for the next step. Neither
 //! converges as f becomes small, unless `longest_step` becomes small too. With `nearest` the length looks at nearest
-//! neighbours only, as printed.
+//! neighbors only, as printed.
 //!
 //! # Example
 //! ```
@@ -98,7 +98,7 @@ pub struct Steps {
     cascade: Cascade,
     /// Unless velocities changed.
     speeds: Option<Speeds>,
-    /// Whether the nearest neighbours are those of the spheres as they are.
+    /// Whether the nearest neighbors are those of the spheres as they are.
     nearest_is_known: bool,
 }
 
@@ -107,7 +107,7 @@ impl Steps {
     pub fn new(options: &TimeStepped) -> Self {
         Self {
             options: options.clone(),
-            // Found by trial with a thousand spheres: nearest neighbours are farther away than the first to touch.
+            // Found by trial with a thousand spheres: nearest neighbors are farther away than the first to touch.
             near: Near::new(if options.pairs == Pairs::All { 0.2 } else { 0.6 }),
             nearest: Nearest::default(),
             cascade: Cascade::default(),

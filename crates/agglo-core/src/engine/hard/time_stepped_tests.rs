@@ -87,12 +87,12 @@ fn merging_goes_on_within_the_step() {
     simulation.advance(1.0).unwrap();
     let one = simulation.snapshot();
     assert_eq!(one.primaries, [3]);
-    // A third of the velocity, three times the volume, at the centre of mass after 10 ns.
+    // A third of the velocity, three times the volume, at the center of mass after 10 ns.
     assert_near_vector!(one.grains.velocity[0], Vec3::new(0.0, -1.0, 0.0), 1e-15, "in m/s");
     assert_near!(one.grains.radius[0], 3.0_f64.cbrt() * 1e-3, 1e-17, "in m");
     assert_near_vector!(one.grains.position[0], Vec3::new(0.0, 0.7e-3 - 1e-8, 0.0), 1e-17, "in m");
 
-    // With nearest neighbours only, the merged sphere waits for the next step.
+    // With nearest neighbors only, the merged sphere waits for the next step.
     let sticky = scenario("open", "pairs = \"nearest\"", STICKY, 1.0);
     let mut simulation = start(&sticky, &grains);
     simulation.advance(1.0).unwrap();
@@ -331,7 +331,7 @@ fn steps_are_as_long_as_all_pairs_allow() {
 }
 
 #[test]
-fn nearest_neighbours_against_brute_force() {
+fn nearest_neighbors_against_brute_force() {
     for boundary in ["periodic", "antipodal", "open"] {
         for n in [2, 3, 40, 200] {
             let scenario = scenario(boundary, "", ELASTIC, 1.0);

@@ -66,7 +66,7 @@ pub enum Distance {
     /// The gap between the surfaces.
     #[default]
     Gap,
-    /// The distance of the centres, of pairs that part too, as [B] 6.14 prints.
+    /// The distance of the centers, of pairs that part too, as [B] 6.14 prints.
     Centers,
 }
 
@@ -77,6 +77,6 @@ pub enum Pairs {
     /// All that touch.
     #[default]
     All,
-    /// Each grain's nearest neighbour, as in [B].
+    /// Each grain's nearest neighbor, as in [B].
     Nearest,
 }

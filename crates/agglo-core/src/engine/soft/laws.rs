@@ -35,7 +35,7 @@ pub struct Laws {
 pub struct SingleLoad {
     /// Force [N].
     pub force: Vec3,
-    /// Moment about the centre [N m].
+    /// Moment about the center [N m].
     pub moment: Vec3,
 }
 
@@ -155,7 +155,7 @@ impl Laws {
                 Damping::Restitution(_) => "contact.damping.restitution",
             }));
             names.extend(laws.friction.as_ref().map(|law| match law {
-                Friction::Regularised(_) => "contact.friction.regularised",
+                Friction::Regularized(_) => "contact.friction.regularized",
                 Friction::Mindlin(_) => "contact.friction.mindlin",
             }));
         }
@@ -175,9 +175,9 @@ impl Laws {
     /// Warnings that hold for the whole run: published laws that do not do what their names say.
     pub fn standing_warnings(&self) -> Vec<&'static str> {
         let mut warnings = Vec::new();
-        if let Some(ContactLaws { friction: Some(Friction::Regularised(_)), .. }) = &self.contact {
+        if let Some(ContactLaws { friction: Some(Friction::Regularized(_)), .. }) = &self.contact {
             warnings.push(
-                "contact.friction.regularised: the stick force carries the time step (halving the step halves it), so \
+                "contact.friction.regularized: the stick force carries the time step (halving the step halves it), so \
                  the answer does not converge",
             );
         }

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::contact::pass::ContactRates;
 use crate::math::{Vec3, parallel::Split};
 
-/// Force [N] and moment about the centre [N m] on every grain; [n] each.
+/// Force [N] and moment about the center [N m] on every grain; [n] each.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Loads {
     /// Forces [N].

@@ -85,7 +85,7 @@ medium_velocity = ["100*y*cos(1e6*t)", "0.02*sin(2e6*t)", "0 m/s"]
 electric_field = ["-3e12*x", "-3e12*y + 1e5*sin(1e6*t)", "-3e12*z"]
 magnetic_flux_density = ["0 T", "0 T", "1e7 T"]
 [fields.magnetic]
-magnetisability = "1e-9 J/T2"
+magnetizability = "1e-9 J/T2"
 magnetic_flux_density = ["1 T", "0 T", "1e4*z"]
 [fields.near_field]
 cutoff = "100 um"

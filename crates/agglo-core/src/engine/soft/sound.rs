@@ -95,7 +95,7 @@ pub(super) fn sound_flight(flight: &Flight, settings: &Settings, n: usize) -> Re
         let bounces = ray.bounces < u32::MAX / 2;
         ensure(hit && bounces && (ray.pulse as usize) < pulses, || "ray: an index is too large".to_owned())?;
         flying[ray.pulse as usize] += 1;
-        let numbers = [ray.travelled, ray.power, ray.first_power, ray.area];
+        let numbers = [ray.traveled, ray.power, ray.first_power, ray.area];
         let holds = ray.origin.is_finite() && numbers.iter().all(|value| value.is_finite() && *value >= 0.0);
         // Directions are unit vectors but for rounding.
         ensure(holds && (ray.direction.norm() - 1.0).abs() < 1e-6, || "ray: not a ray".to_owned())?;

@@ -23,7 +23,7 @@
 //!
 //! # Valid when
 //! The iteration contracts: Δt² k/m well below one for the stiffest contact. The tolerance bounds the error of the
-//! iteration, not that of the time discretisation: `largest_step` bounds the latter.
+//! iteration, not that of the time discretization: `largest_step` bounds the latter.
 //!
 //! # Compared with others
 //! Velocity-dependent forces, moments and the memory of contacts iterate with the rest. The loads at the start of

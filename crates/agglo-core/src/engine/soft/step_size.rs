@@ -141,7 +141,7 @@ impl Fast {
 /// Whether a law of contact grows with the area of contact, without a bound of its own.
 fn is_by_area(laws: &ContactLaws) -> bool {
     matches!(laws.damping, Some(Damping::ViscousArea(_)))
-        || matches!(laws.friction, Some(Friction::Regularised(_)))
+        || matches!(laws.friction, Some(Friction::Regularized(_)))
 }
 
 /// Places of the grains that make a partner's contact fastest: the smallest and largest of each material, and the

@@ -75,8 +75,8 @@ fn contacts_by_area() {
     let with = |law: &str| paces_at("19 um", 1e-9, &format!("{HOOKE}{law}")).contact;
     let viscous = "[contact.damping.viscous_area]\ncoefficient = \"1e8 Pa s/m\"\n";
     assert_pace(with(viscous), normal, 1e8 * area / (0.5 * MASS), "viscous_area");
-    let friction = "[contact.friction.regularised]\nstiffness = \"1e12 Pa/m\"\nstatic_friction = 0.4\ndynamic_friction = 0.3\n";
-    assert_pace(with(friction), across, 0.0, "regularised");
+    let friction = "[contact.friction.regularized]\nstiffness = \"1e12 Pa/m\"\nstatic_friction = 0.4\ndynamic_friction = 0.3\n";
+    assert_pace(with(friction), across, 0.0, "regularized");
     let bond = "[bonds.strain_bond]\nstiffness = \"1 kPa\"\nexponent = 2.0\ntangential_stiffness = \"1e12 Pa/m\"\n\
                 threshold_strain = 0.001\n";
     assert_pace(with(bond), normal + across, 0.0, "strain_bond");
@@ -94,7 +94,7 @@ fn forces_on_single_grains() {
     // A difference over a hundredth of the radius, rounded.
     assert_close!(found.square, 3.0_f64.sqrt() * 0.2 / MASS, 1e-9);
     assert_eq!(found.rate, 0.0);
-    let field = "[fields.magnetic]\nmagnetisability = \"1e-9 J/T2\"\n\
+    let field = "[fields.magnetic]\nmagnetizability = \"1e-9 J/T2\"\n\
                  magnetic_flux_density = [\"1 T\", \"0 T\", \"1e4*z\"]\n";
     let found = paces(field).magnetic;
     assert!((found.square / (0.2 / MASS) - 1.0).abs() < 1e-4 && found.rate == 0.0, "{found:?}");

@@ -19,7 +19,7 @@ pub(super) const LEAF: usize = 1024;
 /// A motion that is tried before it is committed.
 #[derive(Clone, Debug, Default)]
 pub struct Trial {
-    /// Centres [m].
+    /// Centers [m].
     pub position: Vec<Vec3>,
     /// Velocities [m/s].
     pub velocity: Vec<Vec3>,
@@ -33,7 +33,7 @@ pub struct Trial {
     pub contact: ContactRates,
 }
 
-/// Grains, laws, neighbours, and loads.
+/// Grains, laws, neighbors, and loads.
 #[derive(Debug)]
 pub struct System {
     /// The grains, at the last committed step.

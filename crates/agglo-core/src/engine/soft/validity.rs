@@ -36,7 +36,7 @@ pub fn of_drag(laws: &Laws, grains: &Particles, time: f64) -> Option<&'static st
     (0..grains.len()).any(is_above).then_some(warning)
 }
 
-/// A warning where no grains are bonded by a law that bonds neighbours at the start.
+/// A warning where no grains are bonded by a law that bonds neighbors at the start.
 pub fn of_bonds(law: Option<&Bonds>, network: &Network) -> Option<&'static str> {
     match law {
         Some(Bonds::Beam(law)) if network.made_at_start() == 0 && law.forming_strain.is_none() => Some(

@@ -13,7 +13,7 @@
 //! |--------|-------------------------|------|------------------------------------------------|
 //! | q      | `charge`                | C    | charge of a grain; like charges repel          |
 //! | ε_r    | `relative_permittivity` | -    | of the medium: 1 in vacuum, 80 in water        |
-//! | d      | `distance`              | m    | of the centres                                 |
+//! | d      | `distance`              | m    | of the centers                                 |
 //!
 //! # Valid when
 //! Charge is spread evenly over each grain and stays there; induced charges and screening by ions are left
@@ -58,7 +58,7 @@ impl Coulomb {
         self.energy(a, b, distance) / distance
     }
 
-    /// Size of the gradient of the force [N/m] at a distance [m]: along the line of centres, where it is largest.
+    /// Size of the gradient of the force [N/m] at a distance [m]: along the line of centers, where it is largest.
     #[inline]
     pub fn gradient(&self, a: &Source, b: &Source, distance: f64) -> f64 {
         2.0 * self.force(a, b, distance).abs() / distance

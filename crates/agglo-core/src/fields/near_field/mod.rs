@@ -26,7 +26,7 @@ use crate::units::Length;
 pub struct NearField {
     /// The law.
     pub law: NearFieldLaw,
-    /// Distance of centres beyond which it is left out; all pairs if left out.
+    /// Distance of centers beyond which it is left out; all pairs if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cutoff: Option<Length>,
     /// Largest error of the forces (root mean square, over that of all pairs) that the cut-off may cause at the start.
@@ -64,7 +64,7 @@ pub struct Source {
 }
 
 impl NearFieldLaw {
-    /// Repulsion [N] of two grains at a distance of centres [m].
+    /// Repulsion [N] of two grains at a distance of centers [m].
     #[inline]
     pub fn force(&self, a: &Source, b: &Source, distance: f64) -> f64 {
         match self {
@@ -83,7 +83,7 @@ impl NearFieldLaw {
         }
     }
 
-    /// Size of the gradient of the force [N/m], or a bound on it, at a distance of centres [m].
+    /// Size of the gradient of the force [N/m], or a bound on it, at a distance of centers [m].
     pub fn gradient(&self, a: &Source, b: &Source, distance: f64) -> f64 {
         match self {
             Self::PowerPair(law) => law.gradient(a, b, distance),
@@ -117,13 +117,13 @@ impl NearFieldLaw {
 }
 
 impl NearField {
-    /// Repulsion [N] of two grains at a distance of centres [m]; 0 beyond the cut-off.
+    /// Repulsion [N] of two grains at a distance of centers [m]; 0 beyond the cut-off.
     #[inline]
     pub fn force(&self, a: &Source, b: &Source, distance: f64) -> f64 {
         if self.is_beyond(distance) { 0.0 } else { self.law.force(a, b, distance) }
     }
 
-    /// How fast two grains are at a distance of centres [m], by the gradient of the force; at closest approach where
+    /// How fast two grains are at a distance of centers [m], by the gradient of the force; at closest approach where
     /// that is to come.
     pub fn pace(&self, a: &Source, b: &Source, distance: f64) -> Pace {
         if self.is_beyond(distance) {

@@ -17,7 +17,7 @@
 //! | a2, b2 | `repulsion`, `repulsion_exponent`   | SI, - | second term                                |
 //! | x      | `scaling`             |      | mass [kg], surface [m²], volume [m³] or charge [C] of a grain |
 //! | c      | `polarity`            | -    | 1 or -1; unlike signs turn both terms round               |
-//! | d      | `distance`            | m    | of the centres                                            |
+//! | d      | `distance`            | m    | of the centers                                            |
 //!
 //! # Valid when
 //! Coefficients are empirical. With b <= 1 the energy has no zero at infinity: it is taken zero at d = 1 m for
@@ -116,7 +116,7 @@ impl PowerPair {
         self.scale(a, b) * (repulsion - attraction)
     }
 
-    /// Bound on the gradient of the force [N/m] at a distance [m], along the line of centres and across it.
+    /// Bound on the gradient of the force [N/m] at a distance [m], along the line of centers and across it.
     pub fn gradient(&self, a: &Source, b: &Source, distance: f64) -> f64 {
         let term = |size: f64, exponent: f64| {
             size.abs() * exponent.abs().max(1.0) * inverse_power(distance, exponent + 1.0)

@@ -17,7 +17,7 @@
 //! |--------|----------------|------|----------------------------------------------------------|
 //! | A      | `hamaker`      | J    | Hamaker constant of the two grains through the medium    |
 //! | g0     | `smallest_gap` | m    | cap: closest approach of the surfaces, some 0.165-0.4 nm |
-//! | d      | `distance`     | m    | of the centres                                           |
+//! | d      | `distance`     | m    | of the centers                                           |
 //!
 //! # Valid when
 //! Gaps below the wavelengths of retardation, about 10-100 nm; smooth spheres.
@@ -145,7 +145,7 @@ mod tests {
         assert_close!(step, -held * (cap - 2.9e-6), 1e-8);
         let jump = LAW.energy(&a, &b, cap + 1e-16) / LAW.energy(&a, &b, cap - 1e-16) - 1.0;
         assert!(jump.abs() < 1e-6, "{jump}");
-        // Nanometre grains: a difference over a gap of 1 nm would drown in the rounding of micrometres.
+        // Nanometre grains: a difference over a gap of 1 nm would drown in the rounding of micrometers.
         let gap = 1e-9;
         let (small_a, small_b) = (grain(1e-9), grain(2e-9));
         let energy = |g| -LAW.energy(&small_a, &small_b, 3e-9 + g);

@@ -58,7 +58,7 @@ pub fn write_grains(
     frame.write(path)
 }
 
-/// Writes bonds at `time` [s] as lines between centres of grains. `pairs` [m, 2] are places in memory; `fields` have one
+/// Writes bonds at `time` [s] as lines between centers of grains. `pairs` [m, 2] are places in memory; `fields` have one
 /// value per bond [m].
 ///
 /// Points are all grains in the order of their names, with these in `id`; lines have the names of what they join in

@@ -3,7 +3,7 @@
 use super::folder::Folder;
 use crate::report::chart::{Axis, Chart, Dimension, Kind, Series};
 use crate::report::sheet::Sheet;
-use crate::search::optimiser::Method;
+use crate::search::optimizer::Method;
 use crate::text::{column, readable};
 
 /// How many of the best make a mean, where the method does not say how many parents it has.
@@ -205,7 +205,7 @@ fn parallel(folder: &Folder, searched: &Sheet) -> Option<Chart> {
     }
     let (costs, goals, signs) = (folder.costs(), folder.goals(), folder.signs());
     let parameters = folder.parameters().into_iter().filter_map(|name| dimension(searched, name, name));
-    // A study without objectives is coloured by the first of its outcomes.
+    // A study without objectives is colored by the first of its outcomes.
     let first = folder.outcomes().first().map(|name| (*name).to_owned());
     let shown: Vec<(String, String, f64)> = if costs.is_empty() {
         first.iter().map(|name| (name.clone(), name.clone(), 1.0)).collect()

@@ -7,7 +7,7 @@ use crate::report::Figures;
 use crate::report::chart::{Axis, Chart, Kind};
 
 /// What is to be large, so that each cost has another sign than its value, with a limit.
-const SEARCH: &str = "version = 1\nseed = 5\nbase.template = \"reacting\"\n[[objectives]]\nmaximise = \"n_f\"\n\
+const SEARCH: &str = "version = 1\nseed = 5\nbase.template = \"reacting\"\n[[objectives]]\nmaximize = \"n_f\"\n\
     [[limits]]\nformula = \"impacts\"\nat_most = 3000\n[[parameters]]\nname = \"v\"\n\
     key = \"grains.0.velocity_spread.uniform.bounds.0\"\nrange.log = { lower = \"20 m/s\", upper = \"200 m/s\" }\n";
 const HARDNESS: &str = "[[parameters]]\nname = \"hardness\"\nkey = \"materials.grain.hardness\"\n\
@@ -281,7 +281,7 @@ fn series_of_the_front_stand_under_their_names() {
         "excluded": 0, "noise": { "start_deviation": null, "starts_mean": null, "significant_difference": null }, "wall_s": 1.0,
     })
     .to_string();
-    let text = SEARCH.replace("[[limits]]", "[[objectives]]\nminimise = \"impacts\"\n[[limits]]");
+    let text = SEARCH.replace("[[limits]]", "[[objectives]]\nminimize = \"impacts\"\n[[limits]]");
     let files = [("evaluations.csv", evaluations), ("summary.json", summary.as_str())];
     let report = report_of(&format!("{text}{HARDNESS}[method.genetic]\n"), &files);
     let chart = chart(&report, "front");

@@ -123,8 +123,8 @@ impl Folder {
     fn objectives(&self) -> impl Iterator<Item = (&str, bool)> {
         let known = self.campaign.iter().flat_map(|campaign| &campaign.objectives);
         known.map(|objective| match objective {
-            Objective::Minimise(formula) => (formula.as_str(), false),
-            Objective::Maximise(formula) => (formula.as_str(), true),
+            Objective::Minimize(formula) => (formula.as_str(), false),
+            Objective::Maximize(formula) => (formula.as_str(), true),
         })
     }
 

@@ -12,7 +12,7 @@ title = "Which cloud sticks best?"
 seed = 5
 base.template = "reacting"
 [[objectives]]
-minimise = "growth_deficit"
+minimize = "growth_deficit"
 [[parameters]]
 name = "v"
 key = "grains.0.velocity_spread.uniform.bounds.0"
@@ -136,7 +136,7 @@ fn two_costs_make_a_front() {
         SEARCH.replace("[method.published_genetic]\nparents = 2\noffspring = 2\n", "[method.genetic]\n");
     let text = text.replace(
         "[[parameters]]\nname = \"v\"",
-        "[[objectives]]\nmaximise = \"n_f\"\n[[parameters]]\nname = \"v\"",
+        "[[objectives]]\nmaximize = \"n_f\"\n[[parameters]]\nname = \"v\"",
     );
     fs::write(folder.path().join("search.toml"), text).unwrap();
     let evaluations = "\
@@ -188,7 +188,7 @@ fn limits_that_are_missed_are_marked_and_signs_are_their_own() {
     let folder = search();
     let put = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
     let limit = "[[limits]]\nformula = \"impacts\"\nat_most = 3\n[[parameters]]\nname = \"v\"";
-    let text = SEARCH.replace("minimise = \"growth_deficit\"", "maximise = \"n_f\"");
+    let text = SEARCH.replace("minimize = \"growth_deficit\"", "maximize = \"n_f\"");
     put("search.toml", &text.replacen("[[parameters]]\nname = \"v\"", limit, 1));
     put(
         "evaluations.csv",

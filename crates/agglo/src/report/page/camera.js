@@ -5,7 +5,7 @@ class Camera {
     Object.assign(this, { azimuth: 0.6, height: 0.35, target: [0, 0, 0], size: 1, distance: 1 });
   }
 
-  // Looks at a ball of this centre and radius from as far as shows all of it.
+  // Looks at a ball of this center and radius from as far as shows all of it.
   fit({ center, radius }) {
     this.target = [...center];
     this.size = 2 * radius || 1;

@@ -1,5 +1,5 @@
-// Colours, as the data of the page give them: perceptually even maps for numbers, colours that the colour-blind can tell apart for
-// names, colours with dashes for lines.
+// Colors, as the data of the page give them: perceptually even maps for numbers, colors that the color-blind can tell apart for
+// names, colors with dashes for lines.
 
 const REPORT = JSON.parse(document.getElementById("report").textContent);
 const MAPS = Object.fromEntries(Object.entries(REPORT.palette.maps).map(([name, stops]) => [name, stops.map(parseColor)]));
@@ -11,7 +11,7 @@ function parseColor(text) {
   return [0, 2, 4].map((at) => parseInt(text.slice(at, at + 2), 16) / 255);
 }
 
-// The colour [r, g, b] of a part in [0, 1] in a map.
+// The color [r, g, b] of a part in [0, 1] in a map.
 function mapped(map, part) {
   const stops = MAPS[map];
   const place = Math.min(Math.max(part, 0), 1) * (stops.length - 1);
@@ -23,12 +23,12 @@ function named(number) {
   return NAMED[number % NAMED.length];
 }
 
-// What is neutral and stands out from a stage of that colour.
+// What is neutral and stands out from a stage of that color.
 function stageInk(stage) {
   return stage[1] > 0.5 ? [0.1, 0.1, 0.1] : [0.95, 0.95, 0.95];
 }
 
-// The heaviest cluster has the first colour for itself.
+// The heaviest cluster has the first color for itself.
 function clusterColor(cluster) {
   return NAMED[cluster === 0 ? 0 : 1 + ((cluster - 1) % (NAMED.length - 1))];
 }

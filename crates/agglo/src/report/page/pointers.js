@@ -3,17 +3,17 @@
 // `changed(byHand)` is called after the camera moved, `picked(event)` at a click.
 function followPointers(canvas, camera, changed, picked) {
   const fingers = new Map();
-  let travelled = 0;
+  let traveled = 0;
   canvas.addEventListener("pointerdown", (event) => {
     fingers.set(event.pointerId, event);
     canvas.setPointerCapture(event.pointerId);
-    travelled = 0;
+    traveled = 0;
   });
   canvas.addEventListener("pointermove", (event) => {
     const before = fingers.get(event.pointerId);
     if (!before) return;
     const [dx, dy] = [event.clientX - before.clientX, event.clientY - before.clientY];
-    travelled += Math.hypot(dx, dy);
+    traveled += Math.hypot(dx, dy);
     const other = [...fingers.values()].find((finger) => finger.pointerId !== event.pointerId);
     let moved = true;
     if (other) camera.zoom(spread(before, other) / Math.max(spread(event, other), 1));
@@ -26,7 +26,7 @@ function followPointers(canvas, camera, changed, picked) {
     changed(moved);
   });
   const lift = (event) => {
-    if (fingers.delete(event.pointerId) && event.type === "pointerup" && travelled < 5) picked(event);
+    if (fingers.delete(event.pointerId) && event.type === "pointerup" && traveled < 5) picked(event);
   };
   canvas.addEventListener("pointerup", lift);
   canvas.addEventListener("pointercancel", lift);

@@ -1,6 +1,6 @@
 // The replay: frames, the scene, and the controls around them.
 
-// Brighter than any colour: the scene draws it as a mark.
+// Brighter than any color: the scene draws it as a mark.
 const CHOSEN = [2, 2, 2];
 
 class Replay {
@@ -192,7 +192,7 @@ class Replay {
     legend.append(element("b", figure(low)), bar, element("b", figure(high)));
   }
 
-  // The colours of the first names; there are more names than colours, and these come again.
+  // The colors of the first names; there are more names than colors, and these come again.
   showNames(legend) {
     const isCluster = this.column.name === "cluster";
     const last = Math.min(this.column.high, isCluster ? 3 : NAMED.length - 1);

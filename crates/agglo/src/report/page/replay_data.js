@@ -42,7 +42,7 @@ class Frames {
     return all.filter((frame) => this.values(frame, "id").includes(name));
   }
 
-  // Centres [3 n], radii [n] (times `part`, to be drawn smaller) and names [n] of the grains.
+  // Centers [3 n], radii [n] (times `part`, to be drawn smaller) and names [n] of the grains.
   grains(frame, part) {
     const names = this.values(frame, "id");
     return {

@@ -30,7 +30,7 @@ void main() {
   float key = max(dot(normal, normalize(vec3(-0.4, 0.7, 0.6))), 0.0);
   float fill = 0.5 + 0.5 * dot(normal, vec3(0.3, -0.4, 0.6));
   float rim = pow(1.0 - max(dot(normal, -sight), 0.0), 3.0);
-  // A marked grain is white and has a black ring, which no map of colours has.
+  // A marked grain is white and has a black ring, which no map of colors has.
   float facing = dot(normal, -sight);
   bool marked = tint.r > 1.5;
   vec4 clip = projection * vec4(point, 1.0);
@@ -68,7 +68,7 @@ class Scene {
     gl.enable(gl.DEPTH_TEST);
   }
 
-  // Spheres [4 n]: centre and radius, with colours [3 n].
+  // Spheres [4 n]: center and radius, with colors [3 n].
   setSpheres(spheres, colors) {
     fill(this.gl, this.buffers.sphere, spheres);
     this.setColors(colors);
@@ -79,7 +79,7 @@ class Scene {
     fill(this.gl, this.buffers.color, colors);
   }
 
-  // Lines by their ends [6 n] with a colour for each end [6 n].
+  // Lines by their ends [6 n] with a color for each end [6 n].
   setLines(ends, colors) {
     fill(this.gl, this.buffers.end, ends);
     fill(this.gl, this.buffers.lineColor, colors);

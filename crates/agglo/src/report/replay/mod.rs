@@ -25,7 +25,7 @@ pub struct Plan {
     pub times: Vec<String>,
     /// Where the arrays of each frame are.
     pub frames: Vec<FramePlan>,
-    /// What grains can be coloured by.
+    /// What grains can be colored by.
     pub columns: Vec<Column>,
     /// The first choice of those.
     pub color_by: String,

@@ -184,7 +184,7 @@ fn numbers_that_cannot_be_true_are_found() {
 }
 
 #[test]
-fn grains_that_grow_are_coloured_by_size_first() {
+fn grains_that_grow_are_colored_by_size_first() {
     let (folder, paths) = folder(2, 5);
     assert_eq!(replay(&paths).unwrap().plan.color_by, "temperature");
     let mut grown = grains(5, 1);

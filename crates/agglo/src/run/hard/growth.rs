@@ -15,7 +15,7 @@
 //! | b      | `mean_radius`          | m     | number mean; b_0 at the start                        |
 //! | b*     | `united_radius`        | m     | radius of one sphere of all the solid                |
 //! | Π      | `cost`                 | -     | 0 for one sphere, near 1 for many                    |
-//! | θ      | `granular_temperature` | m²/s² | number mean about the centre of mass's velocity V     |
+//! | θ      | `granular_temperature` | m²/s² | number mean about the center of mass's velocity V     |
 //!
 //! # Valid when
 //! There is at least one grain; without any, all figures are 0.
@@ -69,7 +69,7 @@ pub struct Growth {
     pub lowest_temperature: f64,
     /// Highest temperature [K].
     pub highest_temperature: f64,
-    /// Velocity of the centre of mass [m/s].
+    /// Velocity of the center of mass [m/s].
     pub mean_velocity: Vec3,
     /// Mean speed [m/s].
     pub mean_speed: f64,

@@ -228,10 +228,10 @@ fn put(state: &mut Json) {
     state["truncation"] = json!({ "forces": 0.21, "energy": 0.23 });
     state["warnings"]["counts"] = json!({ "one": 14, "two": 16 });
     state["pulses"]["launched"] = json!(3);
-    let rays = RAYS.map(|(pulse, origin, direction, travelled, power)| {
+    let rays = RAYS.map(|(pulse, origin, direction, traveled, power)| {
         json!({
             "origin": vector(Vec3::from(origin)), "direction": vector(Vec3::from(direction)),
-            "travelled": travelled, "power": power, "first_power": 20.0, "area": 1e-6,
+            "traveled": traveled, "power": power, "first_power": 20.0, "area": 1e-6,
             "last_hit": 0, "bounces": 1, "pulse": pulse,
         })
     });

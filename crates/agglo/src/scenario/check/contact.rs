@@ -69,8 +69,8 @@ fn damping(check: &mut Check, laws: &ContactLaws) {
 
 fn friction(check: &mut Check, scenario: &Scenario, laws: &ContactLaws) {
     match &laws.friction {
-        Some(Friction::Regularised(law)) => {
-            let key = "contact.friction.regularised";
+        Some(Friction::Regularized(law)) => {
+            let key = "contact.friction.regularized";
             check.not_negative(&format!("{key}.stiffness"), law.stiffness);
             coefficients(check, key, law.static_friction, Some(law.dynamic_friction));
         }

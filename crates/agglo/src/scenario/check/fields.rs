@@ -50,7 +50,7 @@ pub(crate) fn fault_of_cutoff(law: &NearField, largest: f64) -> Option<String> {
 fn near_field(check: &mut Check, scenario: &Scenario, law: &NearField) {
     let largest = scenario.grains.iter().map(|group| group.size.largest()).fold(0.0, f64::max);
     if let Some(message) = fault_of_cutoff(law, largest) {
-        check.fail_with("fields.near_field.cutoff", message, "it counts from centre to centre");
+        check.fail_with("fields.near_field.cutoff", message, "it counts from center to center");
     }
     check.above_zero("fields.near_field.truncation", law.truncation);
     match &law.law {

@@ -149,7 +149,7 @@ fn friction(check: &mut Check, scenario: &Scenario, key: &str, mixture: &Mixture
     }
     let of_law = match law {
         Some(Friction::Mindlin(law)) => (law.static_friction, law.dynamic_friction),
-        Some(Friction::Regularised(law)) => (law.static_friction, Some(law.dynamic_friction)),
+        Some(Friction::Regularized(law)) => (law.static_friction, Some(law.dynamic_friction)),
         None => return,
     };
     let at_rest = mixture.static_friction.unwrap_or(of_law.0);

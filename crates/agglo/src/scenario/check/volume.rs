@@ -67,7 +67,7 @@ fn can_be_told(check: &mut Check, key: &str, group: &GrainGroup, volume: &Volume
     }
 }
 
-/// Whether a centre may be there: anywhere within faces that grains pass, a radius away from faces that reflect them.
+/// Whether a center may be there: anywhere within faces that grains pass, a radius away from faces that reflect them.
 fn holds(volume: &Volume, [lower, upper]: [Vec3; 2], radius: f64) -> bool {
     let margin = match volume.boundary {
         Boundary::Periodic | Boundary::Antipodal => 0.0,
@@ -109,7 +109,7 @@ fn inside(check: &mut Check, key: &str, group: &GrainGroup, volume: &Volume) {
     }
 }
 
-/// Grains lie wholly inside their region, so centres keep a radius away from its surface.
+/// Grains lie wholly inside their region, so centers keep a radius away from its surface.
 fn region(check: &mut Check, key: &str, region: &Region, group: &GrainGroup, volume: &Volume) {
     let radius = group.size.smallest();
     let margin = Vec3::new(radius, radius, radius);

@@ -155,7 +155,7 @@ fn shares(terms: &[Vec<f64>], drawn: &[usize], dimensions: usize) -> Shares {
     Shares { mean, variance, indices: (0..2 * dimensions).map(share).collect() }
 }
 
-/// Quantile of sorted numbers, linear between neighbours; not a number if there are none.
+/// Quantile of sorted numbers, linear between neighbors; not a number if there are none.
 fn quantile(sorted: &[f64], part: f64) -> f64 {
     let Some(last) = sorted.len().checked_sub(1) else { return f64::NAN };
     let place = part * last as f64;

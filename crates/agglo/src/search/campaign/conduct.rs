@@ -17,7 +17,7 @@ use super::watch::{Now, Watch};
 use super::{CampaignEnding, CampaignError};
 use crate::folder::{CampaignFolder, FolderError};
 use crate::record::{RecordError, atomic};
-use crate::search::optimiser::{Optimiser, Point};
+use crate::search::optimizer::{Optimizer, Point};
 use crate::search::pool::{self, Finished, Halt, Outcome, Pool, Seeds, Task};
 use crate::search::{Candidate, Ensemble, Fitness, Model};
 
@@ -184,7 +184,7 @@ impl<'a, M: Model> Conductor<'a, M> {
     }
 
     fn stages(&mut self, mut course: Course<'_>, wall_s: &dyn Fn() -> f64) -> Result<CampaignSummary, Stop> {
-        let mut recommended = self.ask_and_tell(Stage::Search, course.optimiser.as_mut())?;
+        let mut recommended = self.ask_and_tell(Stage::Search, course.optimizer.as_mut())?;
         self.refuse_hopeless(1)?;
         let start =
             recommended.clone().or_else(|| self.archive.best().map(|best| best.candidate.point.clone()));
@@ -220,20 +220,20 @@ impl<'a, M: Model> Conductor<'a, M> {
         Ok(summary)
     }
 
-    /// Evaluates what the optimiser asks until it asks no more; returns what it recommends.
-    fn ask_and_tell(&mut self, stage: Stage, optimiser: &mut dyn Optimiser) -> Result<Option<Point>, Stop> {
+    /// Evaluates what the optimizer asks until it asks no more; returns what it recommends.
+    fn ask_and_tell(&mut self, stage: Stage, optimizer: &mut dyn Optimizer) -> Result<Option<Point>, Stop> {
         loop {
-            let points = optimiser.ask();
+            let points = optimizer.ask();
             if points.is_empty() {
-                return Ok(optimiser.recommended());
+                return Ok(optimizer.recommended());
             }
             let candidates = points.iter().map(|point| self.model.candidate(point)).collect();
             let fitnesses = self.generation(stage, candidates)?;
             if fitnesses.len() < points.len() {
                 // The time is up; what was evaluated counts, but part of a generation teaches nothing.
-                return Ok(optimiser.recommended());
+                return Ok(optimizer.recommended());
             }
-            optimiser.tell(&fitnesses);
+            optimizer.tell(&fitnesses);
             self.refuse_hopeless(HOPELESS_FROM)?;
         }
     }

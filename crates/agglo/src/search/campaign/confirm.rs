@@ -12,7 +12,7 @@ use super::course::Course;
 use super::records::{Ranked, error_of};
 use super::summary::{Best, CampaignSummary, FrontPoint, Named, Spent};
 use crate::record::RecordError;
-use crate::search::optimiser::Point;
+use crate::search::optimizer::Point;
 use crate::search::{Axis, Candidate, Model};
 
 /// Where the best candidate stands in the archive.
@@ -77,7 +77,7 @@ impl<M: Model> Conductor<'_, M> {
         if let Some(new) = recommended.filter(|new| new.violation == 0.0)
             && candidates.iter().all(|(known, _)| known.values != new.values)
         {
-            // The optimiser's own choice, which it need not have evaluated, goes before the last of the others.
+            // The optimizer's own choice, which it need not have evaluated, goes before the last of the others.
             candidates.truncate(course.confirm.candidates as usize - 1);
             let search = self.archive.evaluations.iter().position(|one| one.candidate.values == new.values);
             candidates.push((new, search));

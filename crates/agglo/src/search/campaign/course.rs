@@ -6,11 +6,11 @@ use super::CampaignError;
 use super::archive::{Evaluation, Stage};
 use super::summary::{CampaignSummary, Goal, LimitKept};
 use crate::folder::CampaignFolder;
-use crate::search::optimiser::Optimiser;
+use crate::search::optimizer::Optimizer;
 use crate::search::{Axis, Candidate, Confirm, Ensemble};
 
 /// Begins the improvement of the best point.
-pub type Polish<'a> = dyn Fn(&[f64]) -> Box<dyn Optimiser> + 'a;
+pub type Polish<'a> = dyn Fn(&[f64]) -> Box<dyn Optimizer> + 'a;
 
 /// What is done in the folder once all is evaluated, before the summary is written. It may find its own work done, and
 /// it breaks off where the second argument does.
@@ -27,7 +27,7 @@ pub struct Course<'a> {
     pub seed: u64,
     /// Worker threads; at least 1.
     pub threads: usize,
-    /// Whether its optimiser is a plan.
+    /// Whether its optimizer is a plan.
     pub is_study: bool,
     /// The parameters, in the order of a candidate's values.
     pub parameters: Vec<Axis>,
@@ -36,7 +36,7 @@ pub struct Course<'a> {
     /// How many random starts a candidate gets.
     pub ensemble: Ensemble,
     /// What proposes the points.
-    pub optimiser: Box<dyn Optimiser>,
+    pub optimizer: Box<dyn Optimizer>,
     /// Candidates that each stage is allowed; empty if that is not known.
     pub planned: Vec<(Stage, u64)>,
     /// Wall time [s] that the whole campaign is to end in; none for as long as it takes.

@@ -1,6 +1,6 @@
 //! A whole search or study: proposals, random starts, confirmation of the best, tables and summary in one folder.
 //!
-//! A campaign is the same to the last bit for any number of threads, and resumed or not. Its optimiser is a function of
+//! A campaign is the same to the last bit for any number of threads, and resumed or not. Its optimizer is a function of
 //! its seed and of what it was told; decisions look at the starts in their order; and going on with a campaign means
 //! beginning it anew with the starts that are known from its journal.
 

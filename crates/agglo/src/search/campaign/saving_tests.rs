@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use super::tests::{self, Setup, conducted_with, results, rows, whole};
 use super::*;
-use crate::search::optimiser::{Genetic, Method, Random};
+use crate::search::optimizer::{Genetic, Method, Random};
 use crate::search::test_models::Analytic;
 
 /// Eleven by eleven whole numbers: of 200 points many come again, and are not run again.

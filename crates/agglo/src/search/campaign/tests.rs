@@ -10,7 +10,7 @@ use std::time::Duration;
 use super::*;
 use crate::folder::FolderError;
 use crate::record::RecordError;
-use crate::search::optimiser::{Method, PublishedGenetic, Random};
+use crate::search::optimizer::{Method, PublishedGenetic, Random};
 use crate::search::test_models::Analytic;
 use crate::search::{Axis, Confirm, Ensemble, Fixed, RunningMean, Scale, Until};
 
@@ -80,7 +80,7 @@ pub(super) fn conducted_with(
         parameters: ["x", "y"].map(axis).to_vec(),
         objectives: vec![Goal { formula: "value".to_owned(), is_to_be_large: false }; goals],
         ensemble: setup.ensemble.clone(),
-        optimiser: method.start(2, goals, setup.seed),
+        optimizer: method.start(2, goals, setup.seed),
         planned: vec![
             (Stage::Search, method.evaluations() as u64),
             (Stage::Polish, 5),

@@ -14,7 +14,7 @@ use crate::folder::{CampaignFolder, FolderError};
 use crate::record::{RecordError, door};
 use crate::run::{self, Ending, RunError};
 use crate::scenario::{LoadError, Scenario};
-use crate::search::optimiser::{Method, NelderMead, Optimiser};
+use crate::search::optimizer::{Method, NelderMead, Optimizer};
 use crate::search::{Base, Campaign, Confirm, Problem, Range, Scalar};
 
 /// Conducts a campaign on `threads` threads in the folder `dir`; `base` is the folder that its files are relative to.
@@ -116,7 +116,7 @@ fn go_on(
     let campaign = Campaign::load(&folder.campaign()).map_err(unreadable)?;
     let problem = Problem::new(&campaign, dir)?;
     let is_search = campaign.plan.is_none();
-    let polish = |point: &[f64]| -> Box<dyn Optimiser> {
+    let polish = |point: &[f64]| -> Box<dyn Optimizer> {
         let simplex = campaign.polish.clone().unwrap_or_default();
         let from = Method::NelderMead(NelderMead { start: point.to_vec(), ..simplex });
         from.start(point.len(), 1, campaign.seed)
@@ -129,7 +129,7 @@ fn go_on(
         parameters: problem.axes().to_vec(),
         objectives: problem.objectives().map(|(formula, large)| goal(formula, large)).collect(),
         ensemble: campaign.ensemble.clone(),
-        optimiser: optimiser(&campaign, &problem),
+        optimizer: optimizer(&campaign, &problem),
         planned: planned(&campaign, &problem),
         budget_s: campaign.budget.as_ref().map(|budget| budget.time.si()),
         polish: campaign.polish.as_ref().map(|_| &polish as &Polish<'_>),
@@ -183,7 +183,7 @@ fn levels(problem: &Problem) -> Vec<Option<usize>> {
 }
 
 /// What proposes the points of a search or study; its file has been checked.
-fn optimiser(campaign: &Campaign, problem: &Problem) -> Box<dyn Optimiser> {
+fn optimizer(campaign: &Campaign, problem: &Problem) -> Box<dyn Optimizer> {
     if let Some(plan) = &campaign.plan {
         return plan.start(&levels(problem), campaign.seed);
     }

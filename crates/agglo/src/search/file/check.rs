@@ -5,7 +5,7 @@ use std::path::Path;
 use super::{Campaign, Constraint, Limit};
 use crate::math::formula;
 use crate::scenario::Fault;
-use crate::search::optimiser::Method;
+use crate::search::optimizer::Method;
 use crate::search::{Axis, Model, Problem, Until, columns};
 use crate::text::readable;
 
@@ -24,7 +24,7 @@ pub(super) fn faults(campaign: &Campaign, folder: &Path) -> Vec<Fault> {
         Ok(problem) if faults.is_empty() => {
             faults.extend(table_columns(&problem));
             faults.extend(plan(campaign, &problem));
-            faults.extend(centre(campaign, &problem));
+            faults.extend(center(campaign, &problem));
         }
         Ok(_) => {}
         Err(more) => faults.extend(more.iter().cloned()),
@@ -289,10 +289,10 @@ fn plan(campaign: &Campaign, problem: &Problem) -> Vec<Fault> {
 }
 
 /// The scenario in the middle of the box must be sound; a fault stands at the parameter that sets its key, if one does.
-fn centre(campaign: &Campaign, problem: &Problem) -> Vec<Fault> {
-    let centre = problem.centre();
-    let Err(faults) = problem.scenario(&centre) else { return Vec::new() };
-    let settings = problem.settings(&centre).join(" ");
+fn center(campaign: &Campaign, problem: &Problem) -> Vec<Fault> {
+    let center = problem.center();
+    let Err(faults) = problem.scenario(&center) else { return Vec::new() };
+    let settings = problem.settings(&center).join(" ");
     let place = |fault: &Fault| {
         let owner =
             campaign.parameters.iter().position(|parameter| parameter.key.as_ref() == Some(&fault.key));

@@ -11,7 +11,7 @@ pub use read::campaign_schema;
 pub use scalar::Scalar;
 
 use super::ensemble::Ensemble;
-use super::optimiser::{Method, NelderMead};
+use super::optimizer::{Method, NelderMead};
 use super::plan::Plan;
 use crate::units::Time;
 
@@ -149,9 +149,9 @@ pub struct Constraint {
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Objective {
     /// To be small.
-    Minimise(String),
+    Minimize(String),
     /// To be large.
-    Maximise(String),
+    Maximize(String),
 }
 
 /// What the mean outcome of a candidate must keep to.

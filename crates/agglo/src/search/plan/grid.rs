@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::coordinate;
-use crate::search::optimiser::Point;
+use crate::search::optimizer::Point;
 
 /// Every combination of the parameters' values; the last parameter changes fastest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::coordinate;
-use crate::search::optimiser::Point;
+use crate::search::optimizer::Point;
 
 /// The first values of all parameters together, then the second ones, and so on: lists of choices that are equally long.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]

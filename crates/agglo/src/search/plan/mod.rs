@@ -18,7 +18,7 @@ pub use refinement::Refinement;
 pub use sobol_indices::SobolIndices;
 
 use super::Fitness;
-use super::optimiser::{Optimiser, Point};
+use super::optimizer::{Optimizer, Point};
 use crate::math::rng::{Purpose, Stream};
 
 /// Most evaluations of a study.
@@ -67,7 +67,7 @@ impl Plan {
     }
 
     /// Something that proposes all points at once and then is done; `levels` as in [`Plan::points`].
-    pub fn start(&self, levels: &[Option<usize>], seed: u64) -> Box<dyn Optimiser> {
+    pub fn start(&self, levels: &[Option<usize>], seed: u64) -> Box<dyn Optimizer> {
         Box::new(Laid { left: self.points(levels, seed), asked: Vec::new(), best: None })
     }
 
@@ -104,7 +104,7 @@ fn coordinate(number: usize, levels: usize) -> f64 {
     (number as f64 + 0.5) / levels as f64
 }
 
-/// What random numbers of a plan are for; apart from those of the optimisers.
+/// What random numbers of a plan are for; apart from those of the optimizers.
 #[derive(Clone, Copy)]
 #[repr(u32)]
 enum Draw {
@@ -123,7 +123,7 @@ struct Laid {
     best: Option<(Point, Fitness)>,
 }
 
-impl Optimiser for Laid {
+impl Optimizer for Laid {
     fn ask(&mut self) -> Vec<Point> {
         self.asked = std::mem::take(&mut self.left);
         self.asked.clone()

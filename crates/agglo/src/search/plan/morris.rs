@@ -28,7 +28,7 @@
 //! let plan = Plan::Morris(Morris { trajectories: 3, levels: 4 });
 //! let points = plan.points(&[None, None], 1);
 //! assert_eq!(points.len(), 9);
-//! // Neighbours in a trajectory differ in one coordinate, by 2/3.
+//! // Neighbors in a trajectory differ in one coordinate, by 2/3.
 //! let moved: Vec<f64> = points[0].iter().zip(&points[1]).map(|(a, b)| (a - b).abs()).filter(|d| *d > 0.0).collect();
 //! assert!(moved.len() == 1 && (moved[0] - 2.0 / 3.0).abs() < 1e-15);
 //! ```
@@ -38,7 +38,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Draw, stream};
 use crate::math::rng::Stream;
-use crate::search::optimiser::Point;
+use crate::search::optimizer::Point;
 
 /// Steps of one parameter at a time, along trajectories from random places.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

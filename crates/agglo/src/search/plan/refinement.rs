@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::coordinate;
-use crate::search::optimiser::Point;
+use crate::search::optimizer::Point;
 
 /// One parameter whose choices stand from coarse to fine: rays, step sizes, grains.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -35,7 +35,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Draw, stream};
-use crate::search::optimiser::{Method, Point, Sobol};
+use crate::search::optimizer::{Method, Point, Sobol};
 
 /// Shares of the outcome's variance, for each parameter alone and with all others.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -1,4 +1,4 @@
-//! Optimisers: they propose points and are told how good these are.
+//! Optimizers: they propose points and are told how good these are.
 //!
 //! They know nothing of scenarios, of threads or of time. A search is resumed by asking and telling again.
 
@@ -32,11 +32,11 @@ pub type Point = Vec<f64>;
 pub type Fault = (&'static str, String);
 
 /// Proposes points and learns how good they are. What it asks is a function of its seed and of what it was told.
-pub trait Optimiser: Send {
+pub trait Optimizer: Send {
     /// Points to be evaluated next; none if the search is over.
     fn ask(&mut self) -> Vec<Point>;
 
-    /// How good the points of the last [`Optimiser::ask`] are, in their order.
+    /// How good the points of the last [`Optimizer::ask`] are, in their order.
     fn tell(&mut self, fitnesses: &[Fitness]);
 
     /// The point that it would choose now; with noise that need not be the one with the lowest cost seen.
@@ -71,8 +71,8 @@ impl Default for Method {
 const MOST: usize = 100_000_000;
 
 impl Method {
-    /// An optimiser over `dimensions` parameters for `objectives` costs; its parameters have no faults.
-    pub fn start(&self, dimensions: usize, objectives: usize, seed: u64) -> Box<dyn Optimiser> {
+    /// An optimizer over `dimensions` parameters for `objectives` costs; its parameters have no faults.
+    pub fn start(&self, dimensions: usize, objectives: usize, seed: u64) -> Box<dyn Optimizer> {
         match self {
             Self::CmaEs(parameters) => Box::new(parameters.start(dimensions, seed)),
             Self::Genetic(parameters) => Box::new(parameters.start(dimensions, objectives, seed)),
@@ -124,7 +124,7 @@ impl Method {
     }
 }
 
-/// What a stream of an optimiser's random numbers is for.
+/// What a stream of an optimizer's random numbers is for.
 #[derive(Clone, Copy)]
 #[repr(u32)]
 enum Part {

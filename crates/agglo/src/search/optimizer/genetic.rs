@@ -5,7 +5,7 @@
 //! c_1,2 = ((a + b) ∓ β |b - a|)/2        p(β) = (η + 1) β^η/2 for β <= 1, (η + 1) β^-(η+2)/2 above
 //! y = x + δ                              p(δ) = (η + 1)(1 - |δ|)^η/2, |δ| <= 1
 //! ```
-//! each cut at the bounds and normalised again. One generation: parents are winners of tournaments of two; a pair is
+//! each cut at the bounds and normalized again. One generation: parents are winners of tournaments of two; a pair is
 //! crossed with `crossover` probability, each of its coordinates with probability 1/2; each coordinate of a child mutates
 //! with probability 1/d, and one at least if the child is the copy of a parent. The best of parents and children survive.
 //!
@@ -35,12 +35,12 @@
 //! # Example
 //! ```
 //! use agglo::search::Fitness;
-//! use agglo::search::functions::minimise;
-//! use agglo::search::optimiser::{Genetic, Method};
+//! use agglo::search::functions::minimize;
+//! use agglo::search::optimizer::{Genetic, Method};
 //! // Near to 0 and near to 1 at once: every point between is on the front.
 //! let mut search = Method::Genetic(Genetic { generations: 20, ..Default::default() }).start(1, 2, 1);
 //! let costs = |x: f64| Fitness::new(vec![x.powi(2), (1.0 - x).powi(2)]);
-//! let knee = minimise(search.as_mut(), 2000, |point, _| costs(point[0])).expect("points were told");
+//! let knee = minimize(search.as_mut(), 2000, |point, _| costs(point[0])).expect("points were told");
 //! assert!((knee[0] - 0.5).abs() < 0.05);
 //! ```
 
@@ -53,7 +53,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use self::variation::{cross, mutate, mutate_coordinate};
-use super::{Candidate, Fault, Optimiser, Part, Point, candidates, stream, uniform_point};
+use super::{Candidate, Fault, Optimizer, Part, Point, candidates, stream, uniform_point};
 use crate::math::rng::Stream;
 use crate::search::Fitness;
 
@@ -80,7 +80,7 @@ impl Default for Genetic {
 }
 
 impl Genetic {
-    pub(super) fn start(&self, dimensions: usize, objectives: usize, seed: u64) -> impl Optimiser + use<> {
+    pub(super) fn start(&self, dimensions: usize, objectives: usize, seed: u64) -> impl Optimizer + use<> {
         Search {
             parameters: self.clone(),
             dimensions,
@@ -166,7 +166,7 @@ impl Search {
     }
 }
 
-impl Optimiser for Search {
+impl Optimizer for Search {
     fn ask(&mut self) -> Vec<Point> {
         if self.generation > self.parameters.generations {
             return Vec::new();
@@ -210,7 +210,7 @@ impl Optimiser for Search {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::search::functions::{Noisy, TestFunction, minimise};
+    use crate::search::functions::{Noisy, TestFunction, minimize};
 
     /// With parents kept the lowest cost never rises, and the bowl's bottom is found.
     #[test]
@@ -218,7 +218,7 @@ mod tests {
         let noisy = Noisy { function: TestFunction::Sphere, sigma: 0.0, seed: 1 };
         let parameters = Genetic { generations: 150, ..Default::default() };
         let mut search = parameters.start(10, 1, 1);
-        let best = minimise(&mut search, 10_000, |point, n| {
+        let best = minimize(&mut search, 10_000, |point, n| {
             assert_all!(point.iter(), |x| (0.0..=1.0).contains(x));
             noisy.fitness(point, n)
         });
@@ -327,7 +327,7 @@ mod tests {
             mating: stream(1, Part::Mating),
             parameters,
         };
-        minimise(&mut search, 30_000, |point, _| zdt1(point));
+        minimize(&mut search, 30_000, |point, _| zdt1(point));
         let mut front: Vec<[f64; 2]> = search
             .parents
             .iter()

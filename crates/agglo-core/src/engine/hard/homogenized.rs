@@ -37,7 +37,7 @@ use crate::particles::Particles;
 
 /// The grains of a control volume after a macroscale step, and what happened in it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Homogenised {
+pub struct Homogenized {
     /// Length of the step [s].
     #[serde(rename = "duration_s")]
     pub duration: f64,
@@ -102,7 +102,7 @@ pub struct Homogenised {
 }
 
 /// Means of the state at the end of a simulation of `duration` [s], and what happened in it.
-pub(super) fn homogenise(simulation: &Simulation, state: &MicroState, duration: f64) -> Homogenised {
+pub(super) fn homogenize(simulation: &Simulation, state: &MicroState, duration: f64) -> Homogenized {
     let (grains, balance) = (&state.grains, simulation.balance());
     let cloud = &simulation.cloud().state;
     let volume = simulation.cloud().volume.volume();
@@ -113,7 +113,7 @@ pub(super) fn homogenise(simulation: &Simulation, state: &MicroState, duration: 
     let mean_radius = grains.radius.iter().sum::<f64>() / number;
     let cubes: f64 = grains.radius.iter().map(|radius| radius.powi(3)).sum();
     let rate = |events: u64| events as f64 / (volume * duration);
-    Homogenised {
+    Homogenized {
         duration,
         grains: grains.len() as u64,
         mass,

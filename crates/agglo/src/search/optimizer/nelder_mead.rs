@@ -6,7 +6,7 @@
 //! x_e = c + χ (c - x_w)      expansion, χ = 1 + 2/d
 //! x_o = c + γ (c - x_w)      contraction outside, γ = 3/4 - 1/(2 d)
 //! x_i = c - γ (c - x_w)      contraction inside
-//! x_k = x_b + s (x_k - x_b)  all shrink towards the best, s = 1 - 1/d
+//! x_k = x_b + s (x_k - x_b)  all shrink toward the best, s = 1 - 1/d
 //! ```
 //! with d = 2 in χ, γ and s for a single parameter. Beyond the bounds lies the mirror image of the unit cube. It stops
 //! when the costs of the simplex scatter (standard deviation) by no more than their standard errors (root of the mean
@@ -22,18 +22,18 @@
 //!
 //! # Example
 //! ```
-//! use agglo::search::functions::{Noisy, TestFunction, minimise};
-//! use agglo::search::optimiser::{Method, NelderMead};
+//! use agglo::search::functions::{Noisy, TestFunction, minimize};
+//! use agglo::search::optimizer::{Method, NelderMead};
 //! let valley = Noisy { function: TestFunction::Rosenbrock, sigma: 0.0, seed: 1 };
 //! let polish = NelderMead { start: vec![0.3, 0.35], evaluations: 400, ..Default::default() };
-//! let best = minimise(Method::NelderMead(polish).start(2, 1, 1).as_mut(), 400, |point, n| valley.fitness(point, n));
+//! let best = minimize(Method::NelderMead(polish).start(2, 1, 1).as_mut(), 400, |point, n| valley.fitness(point, n));
 //! assert!(TestFunction::Rosenbrock.at(&best.expect("points were told")) < 1e-8);
 //! ```
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Candidate, Fault, Optimiser, Point, mirrored, start_faults};
+use super::{Candidate, Fault, Optimizer, Point, mirrored, start_faults};
 use crate::search::Fitness;
 
 /// A simplex smaller than this part of the ranges has converged.
@@ -61,7 +61,7 @@ impl Default for NelderMead {
 }
 
 impl NelderMead {
-    pub(super) fn start(&self, dimensions: usize) -> impl Optimiser + use<> {
+    pub(super) fn start(&self, dimensions: usize) -> impl Optimizer + use<> {
         Search::new(self.clone(), dimensions)
     }
 
@@ -156,8 +156,8 @@ impl Search {
         let [_, _, shrinkage] = self.factors();
         let best = self.simplex[0].point.clone();
         self.stage = Stage::Simplex;
-        let towards = |point: &Point| best.iter().zip(point).map(|(b, x)| b + shrinkage * (x - b)).collect();
-        self.asked = self.simplex[1..].iter().map(|candidate| towards(&candidate.point)).collect();
+        let toward = |point: &Point| best.iter().zip(point).map(|(b, x)| b + shrinkage * (x - b)).collect();
+        self.asked = self.simplex[1..].iter().map(|candidate| toward(&candidate.point)).collect();
         self.simplex.truncate(1);
     }
 
@@ -216,7 +216,7 @@ impl Search {
     }
 }
 
-impl Optimiser for Search {
+impl Optimizer for Search {
     fn ask(&mut self) -> Vec<Point> {
         let left = self.parameters.evaluations.saturating_sub(self.evaluations);
         if left == 0 || self.has_converged() {
@@ -253,7 +253,7 @@ impl Optimiser for Search {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::search::functions::{Noisy, TestFunction, minimise};
+    use crate::search::functions::{Noisy, TestFunction, minimize};
 
     /// Gao and Han: the adaptive simplex reaches the lowest point of the sphere in 10 dimensions.
     #[test]
@@ -261,7 +261,7 @@ mod tests {
         let parameters =
             NelderMead { start: vec![0.6; 10], evaluations: 3000, tolerance: 1e-14, ..Default::default() };
         let noisy = Noisy { function: TestFunction::Sphere, sigma: 0.0, seed: 1 };
-        let best = minimise(&mut parameters.start(10), 3000, |point, n| noisy.fitness(point, n)).unwrap();
+        let best = minimize(&mut parameters.start(10), 3000, |point, n| noisy.fitness(point, n)).unwrap();
         assert!(TestFunction::Sphere.at(&best) < 1e-10, "{}", TestFunction::Sphere.at(&best));
     }
 
@@ -271,7 +271,7 @@ mod tests {
         let parameters = NelderMead { start: vec![0.51; 4], evaluations: 5000, ..Default::default() };
         let noisy = Noisy { function: TestFunction::Sphere, sigma: 0.5, seed: 1 };
         let mut evaluations = 0;
-        minimise(&mut parameters.start(4), 5000, |point, n| {
+        minimize(&mut parameters.start(4), 5000, |point, n| {
             evaluations = n + 1;
             noisy.fitness(point, n)
         });
@@ -282,7 +282,7 @@ mod tests {
     #[test]
     fn stays_within_the_bounds() {
         let parameters = NelderMead { start: vec![0.9; 3], evaluations: 600, ..Default::default() };
-        let best = minimise(&mut parameters.start(3), 600, |point, _| {
+        let best = minimize(&mut parameters.start(3), 600, |point, _| {
             assert_all!(point.iter(), |x| (0.0..=1.0).contains(x));
             Fitness::new(vec![-point.iter().sum::<f64>()])
         })

@@ -18,7 +18,7 @@
 //!
 //! # Example
 //! ```
-//! use agglo::search::optimiser::{Method, Sobol};
+//! use agglo::search::optimizer::{Method, Sobol};
 //! let mut search = Method::Sobol(Sobol { points: 32 }).start(3, 1, 1);
 //! // Each of 32 equal slices of each axis holds one point.
 //! let mut slices: Vec<u32> = search.ask().iter().map(|point| (32.0 * point[2]) as u32).collect();
@@ -30,7 +30,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::random::BATCH;
-use super::{Candidate, Fault, Optimiser, Part, Point, candidates, keep_best, stream};
+use super::{Candidate, Fault, Optimizer, Part, Point, candidates, keep_best, stream};
 use crate::search::Fitness;
 
 /// Degree, inner coefficients a_1 ... a_(s-1) as bits, and m_1 ... m_s of dimensions 2, 3 ...
@@ -86,7 +86,7 @@ impl Default for Sobol {
 }
 
 impl Sobol {
-    pub(super) fn start(&self, dimensions: usize, seed: u64) -> impl Optimiser + use<> {
+    pub(super) fn start(&self, dimensions: usize, seed: u64) -> impl Optimizer + use<> {
         let mut shifts = stream(seed, Part::Points);
         let shift = (0..dimensions).map(|_| (shifts.uniform() * 2.0_f64.powi(53)) as u64).collect();
         Search {
@@ -153,7 +153,7 @@ struct Search {
     best: Option<Candidate>,
 }
 
-impl Optimiser for Search {
+impl Optimizer for Search {
     fn ask(&mut self) -> Vec<Point> {
         let count = self.left.min(BATCH);
         self.left -= count;

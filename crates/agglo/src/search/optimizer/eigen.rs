@@ -10,7 +10,7 @@ const SWEEPS: usize = 60;
 /// Turns `matrix` `[d, d]` into a diagonal one and `vectors` `[d, d]` into its eigenvectors, one a column.
 ///
 /// `vectors` holds an orthonormal basis on entry, which is turned along: `matrix` is seen in that basis.
-pub(super) fn diagonalise(matrix: &mut [f64], vectors: &mut [f64], dimensions: usize) {
+pub(super) fn diagonalize(matrix: &mut [f64], vectors: &mut [f64], dimensions: usize) {
     for _ in 0..SWEEPS {
         let mut turned = false;
         for p in 0..dimensions {
@@ -78,7 +78,7 @@ mod tests {
         }
         let original = matrix.clone();
         let mut vectors = identity(d);
-        diagonalise(&mut matrix, &mut vectors, d);
+        diagonalize(&mut matrix, &mut vectors, d);
         let mut values: Vec<f64> = matrix.iter().step_by(d + 1).copied().collect();
         for (k, value) in values.iter().enumerate() {
             for i in 0..d {

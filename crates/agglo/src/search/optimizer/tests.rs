@@ -1,7 +1,7 @@
 //! What all methods have in common.
 
 use super::*;
-use crate::search::functions::{Noisy, TestFunction, minimise};
+use crate::search::functions::{Noisy, TestFunction, minimize};
 
 fn methods(evaluations: usize) -> Vec<Method> {
     vec![
@@ -22,7 +22,7 @@ fn asked(method: &Method, seed: u64) -> Vec<Point> {
     let mut points = Vec::new();
     let mut search = method.start(4, 1, seed);
     let corner = |point: &[f64]| point.iter().map(|x| (1.0 - x).powi(2)).sum::<f64>();
-    let best = minimise(search.as_mut(), 1000, |point, _| {
+    let best = minimize(search.as_mut(), 1000, |point, _| {
         points.push(point.to_vec());
         Fitness::new(vec![corner(point)])
     });
@@ -48,7 +48,7 @@ fn the_seed_decides_and_bounds_are_kept() {
 #[test]
 fn failures_alone_do_no_harm() {
     for method in methods(200) {
-        minimise(method.start(3, 1, 1).as_mut(), 200, |_, _| Fitness::failed());
+        minimize(method.start(3, 1, 1).as_mut(), 200, |_, _| Fitness::failed());
     }
 }
 
@@ -105,7 +105,7 @@ fn median(method: &Method, noisy: Noisy, seeds: u64) -> f64 {
     let mut values: Vec<f64> = (0..seeds)
         .map(|seed| {
             let noisy = Noisy { seed, ..noisy };
-            let best = minimise(method.start(10, 1, seed).as_mut(), 2000, |point, n| noisy.fitness(point, n));
+            let best = minimize(method.start(10, 1, seed).as_mut(), 2000, |point, n| noisy.fitness(point, n));
             noisy.function.at(&best.unwrap())
         })
         .collect();

@@ -1,6 +1,6 @@
 use super::*;
 use crate::math::rng::Purpose;
-use crate::search::functions::{Noisy, TestFunction, minimise};
+use crate::search::functions::{Noisy, TestFunction, minimize};
 
 /// A random rotation: orthonormal columns from random directions.
 fn rotation(dimensions: usize) -> Vec<Vec<f64>> {
@@ -23,7 +23,7 @@ fn evaluations_on_ellipsoid(seed: u64) -> u64 {
     let rows = rotation(10);
     let mut reached = u64::MAX;
     let parameters = CmaEs { evaluations: 20_000, population: Some(10), ..Default::default() };
-    minimise(&mut parameters.start(10, seed), 20_000, |point, n| {
+    minimize(&mut parameters.start(10, seed), 20_000, |point, n| {
         let along = |row: &Vec<f64>| row.iter().zip(point).map(|(a, x)| a * (x - 0.4)).sum::<f64>();
         let value: f64 = rows
             .iter()
@@ -80,7 +80,7 @@ fn noise_makes_generations_larger() {
 #[test]
 fn failures_are_survived() {
     let mut search = CmaEs { evaluations: 3000, ..Default::default() }.start(3, 1);
-    let best = minimise(&mut search, 3000, |point, n| match n {
+    let best = minimize(&mut search, 3000, |point, n| match n {
         0..50 => Fitness::failed(),
         _ if point[0] > 0.7 => Fitness::failed(),
         _ if point[1] < 0.5 => Fitness { violation: 0.5 - point[1], ..Fitness::new(vec![0.0]) },
@@ -101,7 +101,7 @@ fn restarts_find_lower_valleys() {
     let value = |restarts, seed| {
         let noisy = Noisy { function: TestFunction::Rastrigin, sigma: 0.0, seed: 1 };
         let mut search = CmaEs { evaluations: 60_000, restarts, ..Default::default() }.start(5, seed);
-        let best = minimise(&mut search, 60_000, |point, n| noisy.fitness(point, n)).unwrap();
+        let best = minimize(&mut search, 60_000, |point, n| noisy.fitness(point, n)).unwrap();
         TestFunction::Rastrigin.at(&best)
     };
     let lost: Vec<u64> = (0..10).filter(|seed| value(0, *seed) > 0.9).collect();

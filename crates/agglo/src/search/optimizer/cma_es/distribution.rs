@@ -1,7 +1,7 @@
 //! The normal distribution that CMA-ES draws from, and how it learns; numbers are those of the tutorial's appendix A.
 
 use crate::math::rng::Stream;
-use crate::search::optimiser::eigen;
+use crate::search::optimizer::eigen;
 
 /// Constants that belong to a population and a number of dimensions: the tutorial's table 1.
 #[derive(Clone, Debug)]
@@ -153,7 +153,7 @@ impl Distribution {
         self.decompose();
     }
 
-    /// B and D from C: the old basis nearly diagonalises the new C, so few rotations are needed.
+    /// B and D from C: the old basis nearly diagonalizes the new C, so few rotations are needed.
     fn decompose(&mut self) {
         let d = self.mean.len();
         let Self { covariance, basis, work, .. } = self;
@@ -166,7 +166,7 @@ impl Distribution {
                 work[l * d + k] = image.iter().zip(basis.chunks_exact(d)).map(|(y, b)| y * b[l]).sum();
             }
         }
-        eigen::diagonalise(work, basis, d);
+        eigen::diagonalize(work, basis, d);
         for (k, scale) in self.scales.iter_mut().enumerate() {
             *scale = work[k * d + k].max(0.0).sqrt();
         }

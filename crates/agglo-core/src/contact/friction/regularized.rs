@@ -1,4 +1,4 @@
-//! Regularised friction without memory.
+//! Regularized friction without memory.
 //!
 //! # Equation
 //! ```text
@@ -29,8 +29,8 @@
 //!
 //! # Example
 //! ```
-//! use agglo::contact::{PairConstants, friction::Regularised};
-//! let law = Regularised {
+//! use agglo::contact::{PairConstants, friction::Regularized};
+//! let law = Regularized {
 //!     stiffness: agglo::units::Quantity(1e7), static_friction: 0.4, dynamic_friction: 0.3,
 //! };
 //! let (area, speed, dt) = (1e-3, 1e-2, 1e-4);
@@ -49,7 +49,7 @@ use crate::units::AreaStiffness;
 /// Stick force K v A dt up to static friction, then dynamic friction.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Regularised {
+pub struct Regularized {
     /// Tangential compliance constant K.
     pub stiffness: AreaStiffness,
     /// Static friction coefficient.
@@ -58,7 +58,7 @@ pub struct Regularised {
     pub dynamic_friction: f64,
 }
 
-impl Regularised {
+impl Regularized {
     /// Size of the friction force [N] along the relative tangential velocity, from the contact's `area`
     /// [m²], the slip speed [m/s], the step [s] and the normal force [N]. All of its work is lost.
     #[inline]
@@ -85,8 +85,8 @@ mod tests {
     use super::*;
     use crate::units::Quantity;
 
-    const LAW: Regularised =
-        Regularised { stiffness: Quantity(1e7), static_friction: 0.4, dynamic_friction: 0.3 };
+    const LAW: Regularized =
+        Regularized { stiffness: Quantity(1e7), static_friction: 0.4, dynamic_friction: 0.3 };
 
     /// The limit lies at μ_s, and what follows at μ_d; the step stands in the stick force.
     #[test]

@@ -46,11 +46,11 @@
 //!
 //! # Example
 //! ```
-//! use agglo::search::functions::{Noisy, TestFunction, minimise};
-//! use agglo::search::optimiser::{CmaEs, Method};
+//! use agglo::search::functions::{Noisy, TestFunction, minimize};
+//! use agglo::search::optimizer::{CmaEs, Method};
 //! let bowl = Noisy { function: TestFunction::Sphere, sigma: 0.0, seed: 1 };
 //! let mut search = Method::CmaEs(CmaEs { evaluations: 2000, ..Default::default() }).start(5, 1, 1);
-//! let best = minimise(search.as_mut(), 2000, |point, n| bowl.fitness(point, n)).expect("points were told");
+//! let best = minimize(search.as_mut(), 2000, |point, n| bowl.fitness(point, n)).expect("points were told");
 //! assert!(TestFunction::Sphere.at(&best) < 1e-10);
 //! ```
 
@@ -63,7 +63,7 @@ use serde::{Deserialize, Serialize};
 
 use self::distribution::{Distribution, Draw, Rates};
 use super::{
-    Candidate, Fault, Optimiser, Part, Point, keep_best, mirrored, start_faults, stream, uniform_point,
+    Candidate, Fault, Optimizer, Part, Point, keep_best, mirrored, start_faults, stream, uniform_point,
 };
 use crate::math::rng::Stream;
 use crate::search::Fitness;
@@ -117,7 +117,7 @@ impl Default for CmaEs {
 }
 
 impl CmaEs {
-    pub(super) fn start(&self, dimensions: usize, seed: u64) -> impl Optimiser + use<> {
+    pub(super) fn start(&self, dimensions: usize, seed: u64) -> impl Optimizer + use<> {
         Search::new(self.clone(), dimensions, seed)
     }
 
@@ -283,7 +283,7 @@ fn noise_part(fitnesses: &[Fitness]) -> Option<f64> {
     Some(noise / variance)
 }
 
-impl Optimiser for Search {
+impl Optimizer for Search {
     fn ask(&mut self) -> Vec<Point> {
         let population = self.rates.weights.len();
         if self.stage == Stage::Over || self.left() == 0 {

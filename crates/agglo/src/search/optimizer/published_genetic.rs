@@ -1,4 +1,4 @@
-//! The published genetic algorithm: ranked strings mate with their neighbours, parents are kept, the box shrinks.
+//! The published genetic algorithm: ranked strings mate with their neighbors, parents are kept, the box shrinks.
 //!
 //! # Equation
 //! ```text
@@ -11,7 +11,7 @@
 //! 4. the K best mate in ranked pairs, first with second, third with fourth and so on, two offspring each;
 //! 5. the others are dropped.
 //!
-//! After every `rescale_every` generations the box from which new strings are drawn is centred on the best string and
+//! After every `rescale_every` generations the box from which new strings are drawn is centered on the best string and
 //! its edges are `shrink` times as long; what sticks out of the original box is cut off. Offspring lie between parents
 //! and need no bounds.
 //!
@@ -37,7 +37,7 @@
 //!
 //! # Example
 //! ```
-//! use agglo::search::optimiser::{Method, PublishedGenetic};
+//! use agglo::search::optimizer::{Method, PublishedGenetic};
 //! let mut search = Method::PublishedGenetic(PublishedGenetic::default()).start(10, 1, 1);
 //! assert_eq!(search.ask().len(), 20);
 //! ```
@@ -45,7 +45,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Candidate, Fault, Optimiser, Part, Point, candidates, stream, uniform_point};
+use super::{Candidate, Fault, Optimizer, Part, Point, candidates, stream, uniform_point};
 use crate::math::rng::Stream;
 use crate::search::Fitness;
 
@@ -74,7 +74,7 @@ impl Default for PublishedGenetic {
 }
 
 impl PublishedGenetic {
-    pub(super) fn start(&self, dimensions: usize, seed: u64) -> impl Optimiser + use<> {
+    pub(super) fn start(&self, dimensions: usize, seed: u64) -> impl Optimizer + use<> {
         Search {
             parameters: self.clone(),
             generation: 0,
@@ -149,7 +149,7 @@ impl Search {
     }
 }
 
-impl Optimiser for Search {
+impl Optimizer for Search {
     fn ask(&mut self) -> Vec<Point> {
         let parameters = &self.parameters;
         if self.generation > parameters.generations {
@@ -233,7 +233,7 @@ mod tests {
     }
 
     #[test]
-    fn offspring_lie_between_ranked_neighbours() {
+    fn offspring_lie_between_ranked_neighbors() {
         let mut parents: Vec<Point> = Vec::new();
         generations(NOISY, 30, |points, _, search| {
             for (child, pair) in points.iter().zip(parents.chunks_exact(2).flat_map(|pair| [pair, pair])) {

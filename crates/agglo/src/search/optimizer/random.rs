@@ -2,11 +2,11 @@
 //!
 //! # Example
 //! ```
-//! use agglo::search::functions::{TestFunction, minimise, Noisy};
-//! use agglo::search::optimiser::{Method, Random};
+//! use agglo::search::functions::{TestFunction, minimize, Noisy};
+//! use agglo::search::optimizer::{Method, Random};
 //! let bowl = Noisy { function: TestFunction::Sphere, sigma: 0.0, seed: 1 };
 //! let mut search = Method::Random(Random { points: 1000 }).start(1, 1, 7);
-//! let best = minimise(search.as_mut(), 1000, |point, n| bowl.fitness(point, n)).expect("1000 points");
+//! let best = minimize(search.as_mut(), 1000, |point, n| bowl.fitness(point, n)).expect("1000 points");
 //! // The nearest of 1000 points is 1/2000 from the middle on average, further than ten times that in e^-10 of all cases.
 //! assert!((best[0] - 0.5).abs() < 0.005);
 //! ```
@@ -14,7 +14,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Candidate, Fault, Optimiser, Part, Point, candidates, keep_best, stream, uniform_point};
+use super::{Candidate, Fault, Optimizer, Part, Point, candidates, keep_best, stream, uniform_point};
 use crate::math::rng::Stream;
 use crate::search::Fitness;
 
@@ -36,7 +36,7 @@ impl Default for Random {
 }
 
 impl Random {
-    pub(super) fn start(&self, dimensions: usize, seed: u64) -> impl Optimiser + use<> {
+    pub(super) fn start(&self, dimensions: usize, seed: u64) -> impl Optimizer + use<> {
         Search {
             left: self.points,
             dimensions,
@@ -59,7 +59,7 @@ struct Search {
     best: Option<Candidate>,
 }
 
-impl Optimiser for Search {
+impl Optimizer for Search {
     fn ask(&mut self) -> Vec<Point> {
         let count = self.left.min(BATCH);
         self.left -= count;

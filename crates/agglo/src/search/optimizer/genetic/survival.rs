@@ -1,7 +1,7 @@
 //! Who survives: the best, or the first fronts and of the last one that fits in part the least crowded.
 
 use super::Ranked;
-use crate::search::optimiser::Candidate;
+use crate::search::optimizer::Candidate;
 
 /// The best of one cost, best first.
 pub(super) fn best(mut all: Vec<Candidate>, count: usize) -> Vec<Ranked> {
@@ -53,7 +53,7 @@ fn fronts(all: &[Candidate]) -> Vec<usize> {
     places
 }
 
-/// Crowding distances within a front: sum over costs of the gap between neighbours, in units of the front's extent.
+/// Crowding distances within a front: sum over costs of the gap between neighbors, in units of the front's extent.
 fn crowd(front: &mut [Ranked]) {
     let costs = front.iter().map(|ranked| ranked.candidate.fitness.costs.len()).min().unwrap_or(0);
     for ranked in front.iter_mut() {
