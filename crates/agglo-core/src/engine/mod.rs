@@ -3,9 +3,9 @@
 mod error;
 pub mod hard;
 pub mod soft;
-pub(crate) mod sound;
 mod start;
 mod types;
+pub(crate) mod validate;
 mod warnings;
 
 pub use error::{Moment, SimError};

@@ -30,7 +30,7 @@
 //! The published sum counts the lost kinetic energy and, as δW, two thirds of its normal part again, for each partner;
 //! the reaction heat goes to each partner in full; and a partner's own ΔK depends on the velocity of the observer, so that it can
 //! even cool. Where it would cool to zero or below, the partner keeps its temperature, nothing is booked for it, and
-//! the impact counts as not converged. The sound balance is the same for every observer and makes no energy.
+//! the impact counts as not converged. The consistent balance is the same for every observer and makes no energy.
 //!
 //! # Example
 //! ```

@@ -286,13 +286,13 @@ fn names_and_warnings() {
     let published = laws(rule, [REACTIVE, TOUGH]);
     assert_eq!(published.standing_warnings().len(), 6);
     assert_eq!(published.names().len(), 5);
-    let sound = laws(HARDNESS, [REACTIVE, TOUGH]);
-    assert_empty!(sound.standing_warnings());
-    assert_false!(sound.cools(), "the laws cool");
-    assert_eq!(sound.names(), ["impact.restitution.hardness", "impact.sticking.merge"]);
+    let consistent = laws(HARDNESS, [REACTIVE, TOUGH]);
+    assert_empty!(consistent.standing_warnings());
+    assert_false!(consistent.cools(), "the laws cool");
+    assert_eq!(consistent.names(), ["impact.restitution.hardness", "impact.sticking.merge"]);
 }
 
-const SOUND: [&str; 4] = [
+const CONSISTENT: [&str; 4] = [
     "[impact.restitution.hardness]\n[impact.tangential]\nfriction = 0.3\n[impact.fragmentation]\n",
     "[impact.restitution.hardness]\nelastic_area = 0.3\nsticking_area = 0.8\nforce_over = \"compression\"\n\
      [impact.heat]\nshare = \"equal\"\n",
@@ -307,7 +307,7 @@ const PUBLISHED: [&str; 2] = [
 ];
 
 fn all_laws() -> Vec<ImpactLaws> {
-    SOUND.iter().chain(&PUBLISHED).map(|rule| laws(rule, [REACTIVE, TOUGH])).collect()
+    CONSISTENT.iter().chain(&PUBLISHED).map(|rule| laws(rule, [REACTIVE, TOUGH])).collect()
 }
 
 fn any_body() -> impl Strategy<Value = Body> {
@@ -356,7 +356,7 @@ proptest! {
             for (side, body) in bodies.iter().enumerate() {
                 prop_assert!((1..=body.primaries).contains(&outcome.pieces[side]));
             }
-            if number < SOUND.len() {
+            if number < CONSISTENT.len() {
                 let put_in = energy.normal + energy.tangential + energy.reaction;
                 prop_assert!(outcome.converged && energy.surface <= energy.normal + energy.tangential);
                 prop_assert!((energy.heat - (put_in - energy.surface)).abs() <= 1e-15 * put_in, "heat {number}");
@@ -395,7 +395,7 @@ proptest! {
         let turned = |v: Vec3| v.rotated_about(axis, angle);
         let moved = |v: Vec3| v + drift * 1e3;
         let with = |body: &Body, f: &dyn Fn(Vec3) -> Vec3| Body { velocity: f(body.velocity), ..*body };
-        for rule in SOUND {
+        for rule in CONSISTENT {
             let laws = laws(rule, [REACTIVE, TOUGH]);
             let plain = laws.impact([&one, &two], normal);
             let there = laws.impact([&with(&one, &turned), &with(&two, &turned)], turned(normal));

@@ -108,6 +108,6 @@ pub struct ImpactEnergy {
     pub reaction: f64,
     /// Energy of new surfaces, taken out.
     pub surface: f64,
-    /// Heat that warmed the pair. In the sound balance normal + tangential + reaction - surface; `published` differs.
+    /// Heat that warmed the pair. In the consistent balance normal + tangential + reaction - surface; `published` differs.
     pub heat: f64,
 }

@@ -19,7 +19,7 @@
 //! The reacting gas is adsorbed on the surfaces and all of it in the contact reacts, at every impact anew: it is never used up.
 //!
 //! # Compared with others
-//! [B] has one material; the mean of two is ours, so that a pair of one material has its own α. In the sound balance
+//! [B] has one material; the mean of two is ours, so that a pair of one material has its own α. In the consistent balance
 //! the pair shares δH; [B] 6.8 gives all of it to each partner. Its α of 1e13 J/m² and more heats grains to 1e9 K.
 //!
 //! # Example

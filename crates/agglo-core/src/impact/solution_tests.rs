@@ -91,9 +91,9 @@ fn fixed_point_as_printed() {
     let coupled = |more: &str| {
         laws(&format!("{HARDNESS}\n{areas}{more}"), [REACTIVE; 2]).impact([&one, &two], Vec3::AXES[0])
     };
-    let (plain, sound) = (coupled("solver.fixed_point = {}"), coupled(""));
+    let (plain, consistent) = (coupled("solver.fixed_point = {}"), coupled(""));
     assert_true!(plain.converged, "the law has found its solution");
-    assert_close!(plain.restitution, sound.restitution, 5e-4);
+    assert_close!(plain.restitution, consistent.restitution, 5e-4);
 }
 
 /// With the mean force over compression alone, as 4.14 has it, the work of 4.4-4.9 is 1 + e times as much, since its peak is

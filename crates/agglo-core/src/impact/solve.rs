@@ -212,7 +212,7 @@ impl<'a> Meeting<'a> {
         of(0).min(of(1))
     }
 
-    /// Of the softer partner, hot from the impact. In the sound balance surfaces part after that.
+    /// Of the softer partner, hot from the impact. In the consistent balance surfaces part after that.
     fn hardness_after(&self, trial: &Trial) -> f64 {
         let surfaces = match self.laws.heat.balance {
             Balance::Energy => [0.0; 2],

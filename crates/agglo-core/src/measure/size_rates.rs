@@ -47,7 +47,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::size_classes::{SizeClass, class_of};
-use crate::engine::sound::{Fault, MOST_COUNTED, ensure, finite, length};
+use crate::engine::validate::{Fault, MOST_COUNTED, ensure, finite, length};
 
 /// Numbers of primaries have 32 binary digits.
 const MOST_CLASSES: usize = 32;
@@ -106,7 +106,7 @@ impl SizeRates {
     ///
     /// # Errors
     /// What is wrong with them.
-    pub(crate) fn sound(&self, primaries: impl Iterator<Item = u32>) -> Result<(), Fault> {
+    pub(crate) fn validate(&self, primaries: impl Iterator<Item = u32>) -> Result<(), Fault> {
         let n = self.populations.len();
         ensure(n > 0 && n <= MOST_CLASSES, || format!("sizes: {n} classes"))?;
         length("sizes: pairs", self.pairs.len(), n * (n + 1) / 2)?;

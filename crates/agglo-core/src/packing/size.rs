@@ -87,17 +87,17 @@ pub struct SizeTable {
 impl Size {
     /// What is wrong with it, if anything.
     pub fn fault(&self) -> Option<String> {
-        let sound = |radius: &Length| radius.si().is_finite() && radius.si() > 0.0;
+        let valid = |radius: &Length| radius.si().is_finite() && radius.si() > 0.0;
         let ordered = |smallest: &Length, largest: &Length| {
-            (sound(smallest) && sound(largest) && smallest <= largest)
+            (valid(smallest) && valid(largest) && smallest <= largest)
                 .then_some(())
                 .ok_or("radii must be above zero and `smallest` not above `largest`")
         };
         let checked = match self {
-            Self::Constant(size) if sound(&size.radius) => Ok(()),
+            Self::Constant(size) if valid(&size.radius) => Ok(()),
             Self::Constant(_) => Err("the radius must be above zero"),
             Self::Uniform(size) => ordered(&size.smallest, &size.largest),
-            Self::Lognormal(size) if !sound(&size.median) => Err("the median must be above zero"),
+            Self::Lognormal(size) if !valid(&size.median) => Err("the median must be above zero"),
             Self::Lognormal(size)
                 if !size.geometric_deviation.is_finite() || size.geometric_deviation <= 1.0 =>
             {
@@ -105,7 +105,7 @@ impl Size {
             }
             Self::Lognormal(size) => ordered(&size.smallest, &size.largest),
             Self::Table(size) => size.checked(),
-            Self::LengthRatio(size) if sound(&Quantity(size.radius())) => Ok(()),
+            Self::LengthRatio(size) if valid(&Quantity(size.radius())) => Ok(()),
             Self::LengthRatio(_) => Err("the ratio, half_edge and count must be above zero"),
         };
         checked.err().map(str::to_owned)

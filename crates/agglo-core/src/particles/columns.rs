@@ -93,7 +93,7 @@ macro_rules! columns {
             ///
             /// # Errors
             /// The column that is wrong.
-            pub(crate) fn sound(&self) -> Result<(), String> {
+            pub(crate) fn validate(&self) -> Result<(), String> {
                 $(if self.$field.len() != self.id.len() {
                     return Err(format!("grains: {} has {} values", stringify!($field), self.$field.len()));
                 }

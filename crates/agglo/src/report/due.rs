@@ -61,10 +61,10 @@ fn table(folder: &Folder, place: &str, columns: &[&str]) -> Option<String> {
 
 /// Rows that were left out, and those with what is no finite number in a column of numbers.
 fn damaged(sheet: &Sheet) -> usize {
-    let is_sound = |(name, entry): (&String, &String)| {
+    let is_whole = |(name, entry): (&String, &String)| {
         WORDS.contains(&name.as_str()) || entry.parse().is_ok_and(f64::is_finite)
     };
-    let rows = sheet.rows.iter().filter(|row| !sheet.names.iter().zip(*row).all(is_sound));
+    let rows = sheet.rows.iter().filter(|row| !sheet.names.iter().zip(*row).all(is_whole));
     sheet.dropped + rows.count()
 }
 

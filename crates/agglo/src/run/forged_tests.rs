@@ -46,7 +46,7 @@ fn go_on<J: Job>(scenario: &Scenario, state: J::State<'_>) -> Result<(), SimErro
         }
         job.advance(job.time() + 1e-3 * scenario.time.end.si())?;
     }
-    job.summary(scenario, 0.0).sound(job.time()).map(drop)
+    job.summary(scenario, 0.0).validated(job.time()).map(drop)
 }
 
 /// What becomes of a checkpoint's bytes: whether it could be gone on with.

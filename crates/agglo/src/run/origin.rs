@@ -96,10 +96,10 @@ fn taken(scenario: &Scenario, path: &Path) -> Result<Origin, Trouble> {
         return Err(reason.into());
     }
     let time = saved.time();
-    let unsound = |error: SimError| error.to_string();
+    let refused = |error: SimError| error.to_string();
     let mut start = match saved {
-        AnySaved::Soft(saved) => Soft::resume(&past, saved.state).map_err(unsound)?.into_start(),
-        AnySaved::Hard(saved) => Hard::resume(&past, saved.state).map_err(unsound)?.into_start(),
+        AnySaved::Soft(saved) => Soft::resume(&past, saved.state).map_err(refused)?.into_start(),
+        AnySaved::Hard(saved) => Hard::resume(&past, saved.state).map_err(refused)?.into_start(),
     };
     hand_over_materials(&mut start.grains, &past, scenario)?;
     hand_over_bonds(&start, scenario)?;

@@ -62,7 +62,7 @@ fn sit<J: Job>(
         job.forget_events();
     }
     let summary = job.summary(scenario, sat_down.elapsed().as_secs_f64());
-    Ok(Ending::Finished(summary.sound(job.time()).map_err(RunError::Quiet)?))
+    Ok(Ending::Finished(summary.validated(job.time()).map_err(RunError::Quiet)?))
 }
 
 #[cfg(test)]

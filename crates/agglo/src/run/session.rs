@@ -194,7 +194,7 @@ impl<J: Job> Session<J> {
         let summary = self.job.summary(&self.scenario, self.wall_s()).that_went_on(&self.ends_before);
         let checkpoints = self.folder.checkpoints();
         let summary =
-            summary.sound(self.job.time()).map_err(|error| RunError::Step { error, checkpoints })?;
+            summary.validated(self.job.time()).map_err(|error| RunError::Step { error, checkpoints })?;
         let text = summary.to_json();
         self.notes.extend(self.recorder.merged());
         self.save()?;

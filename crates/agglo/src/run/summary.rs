@@ -32,7 +32,7 @@ impl Summary {
     ///
     /// # Errors
     /// [`SimError::FigureNotFinite`] with the first figure that is not; `time` [s] is when.
-    pub(super) fn sound(self, time: f64) -> Result<Self, SimError> {
+    pub(super) fn validated(self, time: f64) -> Result<Self, SimError> {
         match not_finite(&self) {
             Some(figure) => Err(SimError::FigureNotFinite { time, figure }),
             None => Ok(self),

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::engine::sound::{Fault, MOST_COUNTED, ensure};
+use crate::engine::validate::{Fault, MOST_COUNTED, ensure};
 use crate::impact::ImpactEnergy;
 use crate::math::Vec3;
 
@@ -42,7 +42,7 @@ impl Counts {
     ///
     /// # Errors
     /// That one is.
-    pub(super) fn sound(&self) -> Result<(), Fault> {
+    pub(super) fn validate(&self) -> Result<(), Fault> {
         let Self { impacts, bounces, merges, fragmentations, guarded, events, no_room, .. } = *self;
         let Self { overlapping, walls, iterations, not_converged, .. } = *self;
         let counts = [impacts, bounces, merges, fragmentations, guarded, events, no_room];
@@ -123,7 +123,7 @@ pub struct Balance {
     /// Heat of impacts [J].
     #[serde(rename = "heat_J")]
     pub heat: f64,
-    /// Heat that a published sum made out of nothing [J]; 0 in the sound balance.
+    /// Heat that a published sum made out of nothing [J]; 0 in the consistent balance.
     #[serde(rename = "unbalanced_J")]
     pub unbalanced: f64,
     /// Heat given to gas and surroundings [J].

@@ -25,7 +25,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::engine::sound::{Fault, ensure};
+use crate::engine::validate::{Fault, ensure};
 
 /// So many bounces of a pair in succession lose energy.
 const BEFORE: u32 = 4;
@@ -56,7 +56,7 @@ impl Collapse {
     ///
     /// # Errors
     /// What is wrong with it.
-    pub(super) fn sound(&self) -> Result<(), Fault> {
+    pub(super) fn validate(&self) -> Result<(), Fault> {
         let holds = |(names, succession): (&[u32; 2], &Succession)| {
             names[0] <= names[1] && succession.last.is_finite() && succession.bounces < u32::MAX / 2
         };

@@ -23,12 +23,12 @@ mod queue;
 mod search;
 mod settings;
 mod simulation;
-mod sound;
 mod spans;
 mod spheres;
 mod standstill;
 mod time_stepped;
 mod types;
+mod validate;
 mod walls;
 
 #[cfg(test)]

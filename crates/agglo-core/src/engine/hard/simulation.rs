@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::domain::Boundary;
 use crate::engine::soft::Limits;
-use crate::engine::sound::{Fault, MOST_COUNTED, ensure, finite};
+use crate::engine::validate::{Fault, MOST_COUNTED, ensure, finite};
 use crate::engine::{SimError, Start, Warnings};
 use crate::impact::ImpactLaws;
 use crate::math::Vec3;
@@ -67,7 +67,7 @@ impl SimulationState<'_> {
     ///
     /// # Errors
     /// What is wrong with it.
-    fn sound(&self, settings: &Settings) -> Result<(), Fault> {
+    fn validate(&self, settings: &Settings) -> Result<(), Fault> {
         let (clock, cloud) = (&self.clock, &*self.cloud);
         finite("clock", clock)?;
         let times = [clock.time, clock.last_step, self.contact_duration];
@@ -75,17 +75,17 @@ impl SimulationState<'_> {
             "clock: a time is below 0".to_owned()
         })?;
         ensure(clock.step < MOST_COUNTED, || "clock: too many steps".to_owned())?;
-        cloud.spheres.sound(settings.materials.len(), clock.time)?;
+        cloud.spheres.validate(settings.materials.len(), clock.time)?;
         let living = cloud.spheres.bulk.iter().filter(|bulk| bulk.lives()).map(|bulk| bulk.primaries);
         let primaries: u64 = living.clone().map(u64::from).sum();
         ensure(primaries == self.primaries_at_start && self.grains_at_start <= primaries, || {
             "there are other grains than at the start".to_owned()
         })?;
-        cloud.rates.sound(living)?;
-        cloud.collapse.sound()?;
+        cloud.rates.validate(living)?;
+        cloud.collapse.validate()?;
         finite("ledger", &cloud.books)?;
         finite("counts", &cloud.counts)?;
-        cloud.counts.sound()
+        cloud.counts.validate()
     }
 
     /// Where the simulation stands in time.
@@ -199,13 +199,13 @@ impl Simulation {
 
     fn restored(settings: Settings, state: SimulationState<'_>) -> Result<Self, SimError> {
         let forged = |reason| SimError::Forged { reason };
-        state.sound(&settings).map_err(forged)?;
+        state.validate(&settings).map_err(forged)?;
         let (end, options) = (settings.end, settings.driver.clone());
         let mut cloud = Self::cloud_of(settings, state.cloud.into_owned());
         cloud.contact_duration = state.contact_duration;
         let driver = match (&options, state.driver) {
             (settings::Driver::EventDriven(_), DriverState::Events(saved)) => {
-                saved.sound(&cloud, state.clock.time).map_err(forged)?;
+                saved.validate(&cloud, state.clock.time).map_err(forged)?;
                 Driver::Events(Box::new(Events::resume(&cloud, saved)))
             }
             (settings::Driver::TimeStepped(options), DriverState::Steps) => {

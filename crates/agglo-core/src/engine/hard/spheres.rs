@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::agenda::NONE;
 use crate::domain::resolution;
-use crate::engine::sound::{Fault, ensure, length};
+use crate::engine::validate::{Fault, ensure, length};
 use crate::math::Vec3;
 use crate::particles::{Particles, Row};
 
@@ -95,7 +95,7 @@ impl Spheres {
     ///
     /// # Errors
     /// What is wrong with them.
-    pub(super) fn sound(&self, materials: usize, time: f64) -> Result<(), Fault> {
+    pub(super) fn validate(&self, materials: usize, time: f64) -> Result<(), Fault> {
         length("spheres", self.bulk.len(), self.motion.len())?;
         ensure(!self.motion.is_empty() && self.motion.len() < NONE as usize, || {
             "there are no spheres".to_owned()

@@ -51,10 +51,10 @@
 //! # Example
 //! ```
 //! use agglo::engine::hard::{Distance, Pairs, TimeStepped};
-//! let sound = TimeStepped::default();
-//! assert_eq!((sound.distance, sound.pairs), (Distance::Gap, Pairs::All));
+//! let consistent = TimeStepped::default();
+//! assert_eq!((consistent.distance, consistent.pairs), (Distance::Gap, Pairs::All));
 //! // Two grains 1 mm apart that approach at 100 m/s: half the way takes 5 us.
-//! let half_way: f64 = sound.fraction * 1e-3 / 100.0;
+//! let half_way: f64 = consistent.fraction * 1e-3 / 100.0;
 //! assert!((half_way - 5e-6).abs() < 1e-18);
 //! ```
 
@@ -161,9 +161,9 @@ impl Steps {
         if cloud.volume.boundary == Boundary::Reflecting {
             dt = dt.min(walls::time_left(&cloud.state.spheres, &cloud.volume));
         }
-        let sound = self.options.pairs == Pairs::All && self.options.distance == Distance::Gap;
+        let consistent = self.options.pairs == Pairs::All && self.options.distance == Distance::Gap;
         let too_long = DEEPEST * 2.0 * speeds.smallest < speeds.apart * shortest;
-        if dt < shortest && sound && too_long {
+        if dt < shortest && consistent && too_long {
             return self.length_for_small(cloud, speeds, dt).min(longest);
         }
         dt.max(shortest).min(longest)

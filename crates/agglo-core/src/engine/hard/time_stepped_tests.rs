@@ -4,7 +4,7 @@ use crate::engine::hard::{Contact, Distance, Simulation, SimulationState};
 use crate::testing::Scenario;
 use crate::units::Quantity;
 
-const SOUND: &str = "shortest_step = \"10 ns\"";
+const CONSISTENT: &str = "shortest_step = \"10 ns\"";
 const ELASTIC: &str = "[impact.restitution.constant]\nrestitution = 1.0";
 const STICKY: &str = "[impact.restitution.constant]\nrestitution = 0.0";
 
@@ -82,7 +82,7 @@ fn merging_goes_on_within_the_step() {
         ([1e-3, 0.0, 0.0], [-1.0, 0.0, 0.0], 1e-3),
         ([0.0, 2.1e-3, 0.0], [0.0, -3.0, 0.0], 1e-3),
     ];
-    let sticky = scenario("open", SOUND, STICKY, 1.0);
+    let sticky = scenario("open", CONSISTENT, STICKY, 1.0);
     let mut simulation = start(&sticky, &grains);
     simulation.advance(1.0).unwrap();
     let one = simulation.snapshot();
@@ -105,7 +105,7 @@ fn merging_goes_on_within_the_step() {
 fn newtons_cradle_in_one_step() {
     let ball = |k: f64, speed: f64| ([k * 2e-3, 0.0, 0.0], [speed, 0.0, 0.0], 1e-3);
     let grains = [ball(-2.0, 7.0), ball(-1.0, 0.0), ball(0.0, 0.0), ball(1.0, 0.0)];
-    let mut simulation = start(&scenario("open", SOUND, ELASTIC, 1.0), &grains);
+    let mut simulation = start(&scenario("open", CONSISTENT, ELASTIC, 1.0), &grains);
     simulation.advance(1.0).unwrap();
     let after = simulation.snapshot().grains.velocity;
     // Three impacts that each round once.
@@ -123,7 +123,7 @@ fn a_pair_bounces_once_per_step() {
         ([-0.5e-3, 0.0, 0.0], [0.0, 0.0, 0.0], 0.5e-3),
         ([2e-3, 0.0, 0.0], [-2.0, 0.0, 0.0], 2e-3),
     ];
-    let mut simulation = start(&scenario("open", SOUND, ELASTIC, 1e-4), &grains);
+    let mut simulation = start(&scenario("open", CONSISTENT, ELASTIC, 1e-4), &grains);
     simulation.advance(1.0).unwrap();
     assert_eq!(simulation.cloud().state.counts.impacts, 2);
     assert_above!(simulation.cloud().state.warnings.counts().values().sum::<u64>(), 0);
@@ -142,7 +142,7 @@ fn a_pair_bounces_once_per_step() {
 fn walls_reflect_exactly() {
     let (radius, velocity) = (1e-3, [13.0, -7.0, 29.0]);
     let grains = [([1e-3, -2e-3, 3e-3], velocity, radius)];
-    let mut simulation = start(&scenario("reflecting", SOUND, ELASTIC, 0.01), &grains);
+    let mut simulation = start(&scenario("reflecting", CONSISTENT, ELASTIC, 0.01), &grains);
     let mut bounces = 0;
     let mut turns = agglo_testing::Turns::at_most(10_000_000, "the end of the run");
     while !simulation.is_finished() {
@@ -190,7 +190,7 @@ fn faces_of_a_periodic_volume_are_no_borders() {
     let grains =
         [([8e-3, 0.0, 9.9e-3], [10.0, 0.0, 0.0], 1e-3), ([-8e-3, 0.0, -9.9e-3], [-10.0, 0.0, 0.0], 1e-3)];
     for (boundary, impacts) in [("periodic", 1), ("antipodal", 0)] {
-        let mut simulation = start(&scenario(boundary, SOUND, ELASTIC, 0.3e-3), &grains);
+        let mut simulation = start(&scenario(boundary, CONSISTENT, ELASTIC, 0.3e-3), &grains);
         run(&mut simulation);
         assert_eq!(simulation.cloud().state.counts.impacts, impacts, "{boundary}");
         for place in &simulation.cloud().state.spheres.motion {
@@ -363,7 +363,7 @@ fn books_close() {
     let impact = "[impact]\nfragmentation = {}\n[impact.restitution.constant]\nrestitution = 0.0\n\
                   [impact.tangential]\nfriction = 0.2";
     for boundary in ["periodic", "reflecting", "antipodal", "open"] {
-        for engine in [SOUND, "pairs = \"nearest\"", "distance = \"centers\""] {
+        for engine in [CONSISTENT, "pairs = \"nearest\"", "distance = \"centers\""] {
             let mut simulation =
                 start(&scenario(boundary, engine, impact, 1e-3), &crowd(200, 1.2e-3, 2.0, 1));
             run(&mut simulation);
@@ -385,8 +385,12 @@ const LIVELY: &str = "[impact]\nfragmentation = {}\n[impact.restitution.constant
                       [impact.tangential]\nfriction = 0.2";
 
 /// Engines and laws that differ in all that a step does.
-const WAYS: [(&str, &str); 4] =
-    [(SOUND, ELASTIC), (SOUND, LIVELY), ("pairs = \"nearest\"", STICKY), ("distance = \"centers\"", STICKY)];
+const WAYS: [(&str, &str); 4] = [
+    (CONSISTENT, ELASTIC),
+    (CONSISTENT, LIVELY),
+    ("pairs = \"nearest\"", STICKY),
+    ("distance = \"centers\"", STICKY),
+];
 
 /// The order in memory decides nothing.
 #[test]

@@ -14,7 +14,6 @@ mod response;
 mod settings;
 mod simulation;
 mod skin;
-mod sound;
 pub mod staggered;
 pub mod step_size;
 #[cfg(test)]
@@ -25,6 +24,7 @@ mod truncation;
 #[cfg(test)]
 mod twist_tests;
 mod types;
+mod validate;
 mod validity;
 pub mod verlet;
 

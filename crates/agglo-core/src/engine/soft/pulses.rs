@@ -9,7 +9,7 @@ use crate::acoustics::fresnel::Interface;
 use crate::acoustics::{
     ALLOWANCE, Acoustics, Beam, Flight, Impedance, Medium, PulseCount, RayForce, Targets, Tracer,
 };
-use crate::engine::sound::{Fault, ensure, length};
+use crate::engine::validate::{Fault, ensure, length};
 use crate::engine::{Moment, SimError, Warnings};
 use crate::math::Vec3;
 use crate::particles::Particles;
@@ -17,8 +17,8 @@ use crate::units::Velocity;
 
 use super::loads::Supply;
 use super::settings::Settings;
-use super::sound::sound_flight;
 use super::system::System;
+use super::validate::validate_flight;
 
 /// A pulse that starts at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,14 +67,14 @@ impl PulseState {
     ///
     /// # Errors
     /// What is wrong with it.
-    pub(super) fn sound(&self, settings: &Settings, n: usize) -> Result<(), Fault> {
+    pub(super) fn validate(&self, settings: &Settings, n: usize) -> Result<(), Fault> {
         let times = [self.ray_time, self.mean_radius];
         ensure(times.iter().all(|value| value.is_finite() && *value >= 0.0), || {
             "pulses: not finite".to_owned()
         })?;
         let pulses = self.flight.pulses().len();
         length("pulses that have started", self.launched, pulses)?;
-        sound_flight(&self.flight, settings, n)?;
+        validate_flight(&self.flight, settings, n)?;
         let due = schedule(settings).len();
         ensure(self.launched <= due, || format!("{} pulses have started of {due}", self.launched))
     }

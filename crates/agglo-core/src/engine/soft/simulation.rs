@@ -213,7 +213,7 @@ impl Simulation {
     }
 
     fn restored(settings: &Settings, state: SimulationState<'_>) -> Result<Self, SimError> {
-        state.sound(settings).map_err(|reason| SimError::Forged { reason })?;
+        state.validate(settings).map_err(|reason| SimError::Forged { reason })?;
         let n = state.grains.len();
         let network = Network::restored(settings.beam(), state.bonds, state.bonds_made_at_start, n);
         let pulses = Pulses::resume(settings, state.pulses);

@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::engine::sound::{Fault, ensure};
+use crate::engine::validate::{Fault, ensure};
 
 /// Steps after which the step may grow to what the last two such windows asked for.
 const WINDOW: u64 = 500;
@@ -38,7 +38,7 @@ impl Tempo {
     ///
     /// # Errors
     /// What is wrong with it.
-    pub(super) fn sound(&self) -> Result<(), Fault> {
+    pub(super) fn validate(&self) -> Result<(), Fault> {
         let positive = |value: f64| value > 0.0 && !value.is_nan();
         let holds = positive(self.safety) && self.safety.is_finite() && positive(self.longest);
         ensure(holds && self.shortest.into_iter().all(positive), || "tempo: a step is not above 0".to_owned())
@@ -102,7 +102,7 @@ mod tests {
     #[test]
     fn forged_steps_are_told() {
         let whole = Tempo { safety: 0.125, longest: 1.0, shortest: [0.5, f64::INFINITY] };
-        assert_eq!(whole.sound(), Ok(()));
+        assert_eq!(whole.validate(), Ok(()));
         let forged = [
             Tempo { safety: 0.0, ..whole },
             Tempo { safety: f64::INFINITY, ..whole },
@@ -112,6 +112,6 @@ mod tests {
             Tempo { shortest: [1.0, -1.0], ..whole },
             Tempo { shortest: [1.0, f64::NAN], ..whole },
         ];
-        assert_all!(forged, |tempo| tempo.sound().is_err());
+        assert_all!(forged, |tempo| tempo.validate().is_err());
     }
 }

@@ -36,11 +36,11 @@ impl Scene {
     pub fn read(path: &Path, notes: &mut Vec<String>) -> Result<Self, RecordError> {
         let mut over = |kind: &str| {
             let path = beside(path, kind);
-            let read = path.is_file().then(|| sound(&path))?;
+            let read = path.is_file().then(|| valid(&path))?;
             read.map_err(|error| notes.push(format!("{kind} of a frame are left out: {error}"))).ok()
         };
         let (bonds, rays) = (over("bonds"), over("rays"));
-        let grains = sound(path)?;
+        let grains = valid(path)?;
         let lines = bonds.as_ref().map_or(0, |bonds| bonds.lines.len());
         let bonds = bonds.map(|bonds| between(&grains, &bonds)).unwrap_or_default();
         if bonds.len() < lines {
@@ -68,7 +68,7 @@ impl Scene {
 }
 
 /// Reads a frame whose numbers can be true.
-fn sound(path: &Path) -> Result<Frame, RecordError> {
+fn valid(path: &Path) -> Result<Frame, RecordError> {
     let frame = Frame::read(path)?;
     match fault(&frame) {
         Some(reason) => Err(RecordError::Damaged { path: path.to_owned(), reason }),

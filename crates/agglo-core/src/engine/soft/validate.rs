@@ -4,14 +4,14 @@ use super::settings::Settings;
 use super::simulation::SimulationState;
 use crate::acoustics::Flight;
 use crate::contact::network::Bond;
-use crate::engine::sound::{Fault, MOST_COUNTED, ensure, finite, finite_vectors, length};
+use crate::engine::validate::{Fault, MOST_COUNTED, ensure, finite, finite_vectors, length};
 use crate::neighbors::ray_grid::NO_SPHERE;
 use crate::particles::Particles;
 
 impl SimulationState<'_> {
     /// # Errors
     /// What is wrong with it.
-    pub(super) fn sound(&self, settings: &Settings) -> Result<(), Fault> {
+    pub(super) fn validate(&self, settings: &Settings) -> Result<(), Fault> {
         let clock = &self.clock;
         finite("clock", clock)?;
         let steps = [clock.step, clock.iterations, clock.rejected];
@@ -20,7 +20,7 @@ impl SimulationState<'_> {
         ensure(times.iter().all(|time| *time >= 0.0), || "clock: a time is below 0".to_owned())?;
         let grains = &*self.grains;
         let n = grains.len();
-        sound_grains(grains, settings)?;
+        validate_grains(grains, settings)?;
         for (what, loads) in [("forces", &self.loads.force), ("moments", &self.loads.moment)] {
             length(what, loads.len(), n)?;
             finite_vectors(what, loads)?;
@@ -32,23 +32,23 @@ impl SimulationState<'_> {
             finite("truncation", truncation)?;
         }
         if let Some(tempo) = &self.tempo {
-            tempo.sound()?;
+            tempo.validate()?;
         }
         for (a, b, spring) in &self.contacts {
             let holds = *a != *b && (*a as usize) < n && (*b as usize) < n;
             ensure(holds, || format!("contact of {a} and {b} of {n} grains"))?;
             finite("contact", spring)?;
         }
-        sound_bonds(&self.bonds, grains)?;
+        validate_bonds(&self.bonds, grains)?;
         ensure(self.bonds_made_at_start < MOST_COUNTED as usize, || "too many bonds".to_owned())?;
-        self.pulses.sound(settings, n)
+        self.pulses.validate(settings, n)
     }
 }
 
-fn sound_grains(grains: &Particles, settings: &Settings) -> Result<(), Fault> {
+fn validate_grains(grains: &Particles, settings: &Settings) -> Result<(), Fault> {
     let n = grains.len();
     ensure(n > 0, || "there are no grains".to_owned())?;
-    grains.sound()?;
+    grains.validate()?;
     let mut names = grains.id.clone();
     names.sort_unstable();
     ensure(names.iter().zip(0_u32..).all(|(name, due)| *name == due), || {
@@ -60,7 +60,7 @@ fn sound_grains(grains: &Particles, settings: &Settings) -> Result<(), Fault> {
 }
 
 /// Bonds stand in the order of the names that they join, the lower name first.
-fn sound_bonds(bonds: &[Bond], grains: &Particles) -> Result<(), Fault> {
+fn validate_bonds(bonds: &[Bond], grains: &Particles) -> Result<(), Fault> {
     for bond in bonds {
         let [a, b] = bond.ids;
         let places = bond.grains.map(|place| place as usize);
@@ -75,7 +75,7 @@ fn sound_bonds(bonds: &[Bond], grains: &Particles) -> Result<(), Fault> {
 }
 
 /// Rays in flight with their pulses, among `n` grains.
-pub(super) fn sound_flight(flight: &Flight, settings: &Settings, n: usize) -> Result<(), Fault> {
+pub(super) fn validate_flight(flight: &Flight, settings: &Settings, n: usize) -> Result<(), Fault> {
     let beams = settings.acoustics.as_ref().map_or(0, |acoustics| acoustics.beams.len());
     for pulse in flight.pulses() {
         finite("pulse", pulse)?;

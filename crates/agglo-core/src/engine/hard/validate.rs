@@ -1,7 +1,7 @@
 //! Whether what the event-driven engine remembered is what the spheres of a cloud can have come to.
 
 use crate::domain::Boundary;
-use crate::engine::sound::{Fault, ensure, finite, length};
+use crate::engine::validate::{Fault, ensure, finite, length};
 use crate::math::Vec3;
 
 use super::agenda::{Agenda, NONE};
@@ -20,7 +20,7 @@ impl EventsState<'_> {
     ///
     /// # Errors
     /// What is wrong with it.
-    pub(super) fn sound(&self, cloud: &Cloud, time: f64) -> Result<(), Fault> {
+    pub(super) fn validate(&self, cloud: &Cloud, time: f64) -> Result<(), Fault> {
         let spheres = &cloud.state.spheres;
         length("agendas", self.agendas.len(), spheres.places())?;
         finite("cells", &self.filed)?;
