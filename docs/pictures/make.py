@@ -28,7 +28,7 @@ from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy  # noqa: E402
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-DISPERSAL = "acoustic-dispersal-sound"
+DISPERSAL = "acoustic-dispersal"
 REACTING = "reacting-agglomeration"
 
 PULSES = 4
@@ -188,7 +188,7 @@ def scale_bar(axes, right, bottom):
     axes.text(right - 0.5, bottom + 0.07, "1 m", ha="center", va="bottom", fontsize=11)
 
 
-def dispersal(sound, flight, path):
+def dispersal(bonded, flight, path):
     """The agglomerate under the first pulse and after the first, second and fourth."""
     colors, norm = matplotlib.colormaps["cividis"], LogNorm(1, GRAINS)
     early, early_time = frame(flight, "grains", 0.5e-3)
@@ -196,7 +196,7 @@ def dispersal(sound, flight, path):
     # Grains drift apart after their pulse, so each state is that at the end of its half second.
     states = [(early, f"the first pulse on its way ({early_time * 1e3:.1f} ms)", rays)]
     for pulses, words in [(1, "after one pulse"), (2, "after two pulses"), (4, "after four pulses")]:
-        grains, time = frame(sound, "grains", pulses * PERIOD)
+        grains, time = frame(bonded, "grains", pulses * PERIOD)
         states.append((grains, f"{words} ({time:.1f} s)", None))
 
     figure, panels = plt.subplots(2, 2, figsize=(12, 11.0))
@@ -243,9 +243,9 @@ def since_pulse(rays, pulse):
     return (rays["time_s"][rows] - start) * 1e3, rows
 
 
-def rays_picture(sound, path):
+def rays_picture(bonded, path):
     """Reflections, rays in flight and the beam's power by direction after each pulse."""
-    rays = series(sound, "rays")
+    rays = series(bonded, "rays")
     figure, (left, middle, right) = plt.subplots(1, 3, figsize=(14, 4.6), constrained_layout=True)
     colors = [BLUE, VERMILION, GREEN, PURPLE]
     for pulse, (color, style) in enumerate(zip(colors, ["-", "--", "-.", ":"])):
@@ -284,9 +284,9 @@ def rays_picture(sound, path):
     save(figure, path, 110)
 
 
-def energy_picture(sound, path):
+def energy_picture(bonded, path):
     """Where the work of the rays is: stores and losses one upon another."""
-    energy = series(sound, "energy")
+    energy = series(bonded, "energy")
     layers = [
         ("motion of the grains", ["kinetic_J"], BLUE),
         ("spin", ["spin_J"], SKY),
@@ -399,13 +399,13 @@ def growth_picture(sets, early, whole, path):
 
 def dispersal_pictures(agglo, runs):
     """Runs the agglomerate under acoustic pulses and draws it."""
-    sound = run(agglo, runs / "sound", DISPERSAL, 'output.series="0.1 ms"')
+    bonded = run(agglo, runs / "bonded", DISPERSAL, 'output.series="0.1 ms"')
     flight = run(
         agglo, runs / "flight", DISPERSAL, 'time.end="1.5 ms"', 'output.frames="0.25 ms"', 'output.series="0.25 ms"'
     )
-    dispersal(sound, flight, HERE / "dispersal.png")
-    rays_picture(sound, HERE / "rays.png")
-    energy_picture(sound, HERE / "energy.png")
+    dispersal(bonded, flight, HERE / "dispersal.png")
+    rays_picture(bonded, HERE / "rays.png")
+    energy_picture(bonded, HERE / "energy.png")
 
 
 def reacting_pictures(agglo, runs):

@@ -3,16 +3,18 @@
 
     cargo build --release
     target/venv/bin/pip install -r docs/pictures/requirements.txt
-    target/venv/bin/python docs/studies/differences.py            # both; some minutes on two cores
+    target/venv/bin/python docs/studies/differences.py            # both; a minute
     target/venv/bin/python docs/studies/differences.py impacts    # this one only
 
 AGGLO names another program. Plots go to docs/pictures/validation/.
 """
 
+import tomllib
+
 import numpy as np
 
 import halving
-from validation import BLACK, BLUE, ORANGE, VERMILION, Run, draw, figure, save
+from validation import BLACK, BLUE, ORANGE, ROOT, VERMILION, Run, draw, figure, save
 
 # Hardness [Pa] and density [kg/m3] of the two spheres that meet.
 HARDNESS, DENSITY = 1e6, 2000.0
@@ -47,12 +49,12 @@ sticking = "never"
 
 
 def impacts():
-    """Restitution over the load of an impact: sound, and as printed."""
+    """Restitution over the load of an impact: consistent, and as printed."""
     made, axis = figure()
     loads = np.linspace(0.01, 1.15, 39)
     printed = 'force_over = "compression"\nsolver.fixed_point.most_iterations = {}'
     laws = [
-        ("sound: the root, 1 - √x", "", BLUE, "-", 2.0),
+        ("consistent: the root, 1 - √x", "", BLUE, "-", 2.0),
         ("4.14 as printed: force over compression alone", 'force_over = "compression"', BLACK, "--", 1.2),
         ("iterated as printed, 20 times", printed.format(20), VERMILION, ":", 1.8),
         ("iterated as printed, 21 times", printed.format(21), ORANGE, "-.", 1.5),
@@ -66,15 +68,14 @@ def impacts():
 
 
 def steps():
-    """What half the step changes in the two sample problems under sound."""
+    """What half the step changes in the two sample problems under sound: the stored measurement that the table tells of too."""
+    rows = tomllib.loads((ROOT / "docs/measured/values/halving.toml").read_text())["values"]["rows"]
     made, panels = figure(8.6, 3.7, 2)
-    for (name, (scenario, settings)), color in zip(halving.SCENARIOS.items(), (BLUE, VERMILION)):
-        parts = [1.0, 0.5, 0.25]
-        found = np.array([[halving.run(scenario, settings(part), seed) for seed in (1, 2, 3)] for part in parts])
+    for name, color in zip(halving.SCENARIOS, (BLUE, VERMILION)):
+        found = [row[2:] for row in rows if row[0] == name]
         for panel, column in zip(panels, (0, 2)):
-            means = found[:, :, column].mean(axis=1)
-            errors = found[:, :, column].std(axis=1, ddof=1) / np.sqrt(3)
-            panel.errorbar(parts, means, yerr=errors, fmt="o-", ms=5, capsize=3, color=color, label=name)
+            means, errors = zip(*[row[column] for row in found])
+            panel.errorbar([1.0, 0.5, 0.25], means, yerr=errors, fmt="o-", ms=5, capsize=3, color=color, label=name)
     for panel, label in zip(panels, ("dispersion degree", "kinetic energy [J]")):
         panel.set_xscale("log", base=2)
         panel.set(xlabel="step over that of the shipped scenario", ylabel=label, xticks=[1, 0.5, 0.25], xticklabels=["1", "1/2", "1/4"])

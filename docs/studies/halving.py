@@ -19,12 +19,12 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("AGGLO", ROOT / "target" / "release" / "agglo")
 SCENARIOS = {
-    "sound laws": (
-        "acoustic-dispersal-sound",
+    "consistent laws": (
+        "acoustic-dispersal",
         lambda part: [f"engine.verlet.safety={0.1 * part}"],
     ),
     "published laws": (
-        "acoustic-dispersal",
+        "acoustic-dispersal-published",
         lambda part: [
             f"acoustics.force.published_step.step_fraction={0.1 * part}",
             f"engine.staggered.largest_step={0.25 * part} ms",

@@ -22,9 +22,9 @@ PROGRAM = os.environ.get("AGGLO", ROOT / "target" / "release" / "agglo")
 PAPER = {1: 3.2292, 2: 2.0922, 3: 2.0394, 4: 2.0043, 5: 1.9964, 6: 1.9309}
 PUBLISHED = "reacting-agglomeration-published"
 
-# Each printed law alone in an otherwise sound model.
+# Each printed law alone in an otherwise consistent model.
 LAWS = {
-    "sound model": [],
+    "consistent model": [],
     "4.14: force over compression": ["impact.restitution.hardness.force_over=compression"],
     "box, 6 b: fixed point": ["impact.restitution.hardness.solver.fixed_point.most_iterations=100"],
     "4.17: friction without a bound": ["impact.tangential.limit=published"],
@@ -42,8 +42,8 @@ WEAK = ["materials.grain.surface_energy=3 kJ/m2"]
 AT_REST = ["grains.0.velocity=[\"0 m/s\",\"0 m/s\",\"0 m/s\"]"]
 PRINTED = ["impact.fragmentation.energy=published"]
 BREAKAGE = {
-    "sound, as shipped": WEAK,
-    "sound, seen by one who flies with the cloud": WEAK + AT_REST,
+    "consistent, as shipped": WEAK,
+    "consistent, seen by one who flies with the cloud": WEAK + AT_REST,
     "printed, as shipped": WEAK + PRINTED,
     "printed, seen by one who flies with the cloud": WEAK + PRINTED + AT_REST,
 }
@@ -79,8 +79,8 @@ def sets(starts):
     row("set", "radius ratio", "Π", "impacts", "merges", "printed, 20 iterations", "printed, 21 iterations", "paper")
     row(*["---"] * 8)
     for number, paper in PAPER.items():
-        sound = [run(f"reacting-set-{number}", [], seed) for seed in starts]
-        cells = [mean(sound, key) for key in ("radius_ratio", "growth_deficit", "impacts", "merges")]
+        consistent = [run(f"reacting-set-{number}", [], seed) for seed in starts]
+        cells = [mean(consistent, key) for key in ("radius_ratio", "growth_deficit", "impacts", "merges")]
         for most in (20, 21):
             settings = [*as_set(number), f"impact.restitution.hardness.solver.fixed_point.most_iterations={most}"]
             cells.append(mean([run(PUBLISHED, settings, seed) for seed in starts], "radius_ratio"))

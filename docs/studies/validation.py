@@ -332,7 +332,7 @@ def aggregation():
 
 def rays():
     """Reflections per ray are the grains' cross-sections over the beam's, on average over packings."""
-    text = (ROOT / "scenarios/acoustic-dispersal.toml").read_text()
+    text = (ROOT / "scenarios/acoustic-dispersal-published.toml").read_text()
     counts = np.array([125, 250, 500, 750, 1000, 1250, 1500, 1750, 2000])
     means, errors, segments = [], [], []
     for count in counts:
@@ -396,9 +396,9 @@ def order():
 
 
 def sets():
-    """Growth of the 2004 paper's six sets: sound, as printed, the paper."""
+    """Growth of the 2004 paper's six sets: consistent, as printed, the paper."""
     kinds = [
-        ("sound laws", None, BLUE, "o"),
+        ("consistent laws", None, BLUE, "o"),
         ("as printed, 20 iterations", 20, VERMILION, "s"),
         ("as printed, 21 iterations", 21, ORANGE, "^"),
     ]

@@ -80,7 +80,7 @@ pub(crate) enum Verb {
         /// The run's folder
         folder: PathBuf,
     },
-    /// Go on with a run from its newest sound checkpoint, or with a search or study
+    /// Go on with a run from its newest whole checkpoint, or with a search or study
     Resume(ResumeOrders),
 }
 

@@ -138,5 +138,5 @@ fn check(file: &Path, settings: Vec<String>, from: Option<&Path>) -> Result<(), 
     let scenario = source.scenario(&run::starting_from(settings, from)?)?;
     let plan = Plan::new(&scenario, &source.base)
         .map_err(|error| Failure::bad_input(format!("error: {}: {error}", source.shown)))?;
-    print(&format!("{} is sound\n{plan}", source.shown))
+    print(&format!("{} is valid\n{plan}", source.shown))
 }

@@ -89,7 +89,7 @@ pub(crate) fn check(source: &Source, settings: &[String]) -> Result<(), Failure>
         .map_err(|faults| Failure::bad_input(format!("error: {faults}")))?;
     campaign::refuse_too_large(&problem, threads(None))
         .map_err(|error| Failure::bad_input(format!("error: {}: {error}", source.shown)))?;
-    let mut parts = vec![format!("{} is sound", source.shown), columns(&rows(&campaign, &problem))];
+    let mut parts = vec![format!("{} is valid", source.shown), columns(&rows(&campaign, &problem))];
     let notes = problem.notes().into_iter().chain(problem.refused_ends());
     parts.extend(notes.map(|note| format!("note: {note}")));
     if let Ok(scenario) = problem.scenario(&problem.center()) {

@@ -69,7 +69,7 @@ fn grain_steps(bencher: Bencher, edge: u32) {
 /// The published sample problem from placement to its end, without files.
 #[divan::bench(sample_count = 3, sample_size = 1)]
 fn published_sample_problem(bencher: Bencher) {
-    let text = include_str!("../../../scenarios/acoustic-dispersal.toml");
+    let text = include_str!("../../../scenarios/acoustic-dispersal-published.toml");
     let scenario = Scenario::from_toml(text).unwrap_or_else(|faults| panic!("{faults}"));
     bencher.bench_local(|| {
         rayon::scope(|_| {

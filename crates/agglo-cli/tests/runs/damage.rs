@@ -32,7 +32,7 @@ fn a_damaged_checkpoint_is_named_and_the_one_before_is_used() {
 }
 
 #[test]
-fn without_a_sound_checkpoint_all_are_named_and_nothing_is_changed() {
+fn without_a_whole_checkpoint_all_are_named_and_nothing_is_changed() {
     let bench = Bench::with(STAGGERED);
     bench.stopped_after(150, &[]);
     let found = checkpoints(&bench.run());

@@ -255,7 +255,7 @@ fn what_does_not_fit_is_refused_by_name_and_nothing_is_written() {
         bytes[middle] ^= 1;
         fs::write(damaged.join("checkpoints").join(path.file_name().unwrap()), bytes).unwrap();
     }
-    of.refused(&damaged, &["no sound checkpoint", "checksum"]);
+    of.refused(&damaged, &["no whole checkpoint", "checksum"]);
     let good: Vec<PathBuf> = checkpoints(soft).into_iter().map(|(_, path)| path).collect();
     fs::copy(&good[0], damaged.join("checkpoints").join(good[0].file_name().unwrap())).unwrap();
     ended(of.run(&damaged, &["--no-report", "--set", "time.end=1.1 ms"]).output().unwrap(), 0);

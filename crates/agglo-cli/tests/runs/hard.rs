@@ -98,7 +98,7 @@ fn the_genealogy_leads_from_primaries_to_the_last_grains() {
     }
 }
 
-/// Every event has its energies and partners; kinds are counted in the summary. The sound balance: heat is what was
+/// Every event has its energies and partners; kinds are counted in the summary. The consistent balance: heat is what was
 /// lost and set free, to the rounding of four sums.
 #[test]
 fn events_add_up_to_the_summary() {

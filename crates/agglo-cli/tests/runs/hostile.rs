@@ -26,7 +26,7 @@ fn the_standard_input_is_a_scenario() {
     let folder = tempfile::tempdir().unwrap();
     for name in ["-", "/dev/stdin"] {
         let checked = ended(fed(folder.path(), &["check", name], EVENTS), 0);
-        assert!(said(&checked).contains("is sound"), "{}", said(&checked));
+        assert!(said(&checked).contains("is valid"), "{}", said(&checked));
     }
     ended(fed(folder.path(), &["run", "-", "--no-report", "--set", "time.end=0.1 ms"], EVENTS), 0);
     assert_there!(folder.path().join("out/stdin/summary.json"));
@@ -73,7 +73,7 @@ fn nothing_of_the_input_acts_on_the_terminal() {
     let name = file.display().to_string();
     fs::write(&file, EVENTS).unwrap();
     let checked = ended(agglo(&["check", &name]), 0);
-    assert!(said(&checked).contains("red\\u{1b}[31m.toml is sound"), "{}", said(&checked));
+    assert!(said(&checked).contains("red\\u{1b}[31m.toml is valid"), "{}", said(&checked));
     let acting =
         ["title = \"\\u001b[31m\"\nseed = \"a\u{202e}b\"\n", "\"a\\u001b[2Jb\" = 1\n", "\u{1b}[2J = 1\n"];
     for text in acting {
@@ -108,7 +108,7 @@ fn what_the_machine_cannot_hold_is_refused_with_figures() {
     let file = folder.path().join("my.toml");
     let name = file.display().to_string();
     let out = folder.path().join("run").display().to_string();
-    fs::write(&file, agglo(&["new", "acoustic"]).stdout).unwrap();
+    fs::write(&file, agglo(&["new", "acoustic-published"]).stdout).unwrap();
     let rays: Vec<String> = (0..64)
         .map(|_| {
             "[[acoustics.beams]]\nstart = [\"-1 m\", \"0 m\", \"0 m\"]\n\

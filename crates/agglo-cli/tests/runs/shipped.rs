@@ -162,7 +162,7 @@ fn verbs_know_hard_spheres() {
     }
     let bench = Bench::with(&said(&ended(agglo(&["new", "reacting"]), 0)));
     let plan = said(&ended(agglo(&["check", &bench.scenario()]), 0));
-    assert!(plan.contains("is sound") && plan.contains("impacts"), "{plan}");
+    assert!(plan.contains("is valid") && plan.contains("impacts"), "{plan}");
     let text = said(&ended(agglo(&["new", "reacting-published"]), 0));
     let bench = Bench::with(&text);
     let plan = said(&ended(agglo(&["check", &bench.scenario()]), 0));

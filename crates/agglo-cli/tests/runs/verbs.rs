@@ -20,7 +20,7 @@ fn every_shipped_scenario_passes_its_check_with_a_plan() {
         if path.extension().is_some_and(|extension| extension == "toml") && !is_campaign() {
             let checked = ended(agglo(&["check", path.to_str().unwrap()]), 0);
             let text = said(&checked);
-            for word in [" is sound", "grains", "memory"] {
+            for word in [" is valid", "grains", "memory"] {
                 assert!(text.contains(word), "no {word} in {text}");
             }
             // From impact to impact there are no steps.

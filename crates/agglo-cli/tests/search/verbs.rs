@@ -8,7 +8,7 @@ fn check_says_what_a_search_would_do() {
     let bench = Bench::with(SEARCH);
     let text = said(&ended(agglo(&["check", &bench.file("campaign.toml")]), 0));
     let wanted = [
-        "is sound",
+        "is valid",
         "20 m/s to 200 m/s, logarithmic  grains.0.velocity_spread.uniform.bounds.0",
         "100 kPa to 1 MPa",
         "published_genetic",

@@ -14,7 +14,7 @@ use crate::particles::Particles;
 /// ```
 /// use agglo::engine::soft::Simulation;
 /// use agglo::scenario::{Scenario, template};
-/// let text = template("acoustic").unwrap().text;
+/// let text = template("acoustic-published").unwrap().text;
 /// let first = Scenario::with_overrides(text, &["grains.0.placement.random.count=50", "acoustics.beams.0.rays=100"])?;
 /// let grains = agglo::packing::place(&first, std::path::Path::new(""))?;
 /// let mut simulation = Simulation::start(&first, grains)?;

@@ -78,7 +78,7 @@ impl RunFolder {
         if self.is_ours() { Ok(()) } else { Err(lost(&self.root)) }
     }
 
-    /// Whether it has a checkpoint, sound or not.
+    /// Whether it has a checkpoint, whole or not.
     pub fn has_checkpoint(&self) -> bool {
         std::fs::read_dir(self.checkpoints()).is_ok_and(|mut entries| entries.next().is_some())
     }
@@ -112,7 +112,7 @@ impl RunFolder {
         }
     }
 
-    /// The newest checkpoint, sound or not, where a path names a run's folder; else the path itself, which names one.
+    /// The newest checkpoint, whole or not, where a path names a run's folder; else the path itself, which names one.
     pub fn newest_state(path: &Path) -> PathBuf {
         let all = checkpoint::newest_first(&Self::at(path).checkpoints()).unwrap_or_default();
         all.into_iter().next().unwrap_or_else(|| path.to_owned())

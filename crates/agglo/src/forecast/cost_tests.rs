@@ -6,7 +6,7 @@ use crate::scenario::template;
 
 /// A run of 2 s with rows every 10 ms, 20 us while rays fly; frames every 50 ms and 0.5 ms.
 fn scenario() -> Scenario {
-    Scenario::from_toml(template("acoustic").unwrap().text).unwrap()
+    Scenario::from_toml(template("acoustic-published").unwrap().text).unwrap()
 }
 
 /// Two beams, of three and one pulse; their rays fly for 0.04 s and 0.03 s and are followed in 7 s and 11 s.

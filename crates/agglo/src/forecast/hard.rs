@@ -199,7 +199,7 @@ impl Threshold {
     }
 }
 
-/// Laws that are not sound, and what has no effect.
+/// Laws that do not converge, and what has no effect.
 pub(super) fn notes(notes: &mut Vec<String>, scenario: &Scenario) {
     if !scenario.engine.is_hard() {
         return;
@@ -224,7 +224,7 @@ pub(super) fn notes(notes: &mut Vec<String>, scenario: &Scenario) {
     }
     match scenario.volume.as_ref().map(|volume| volume.boundary) {
         Some(Boundary::Antipodal) => note(
-            "volume.boundary = antipodal: grains on two sides of a face do not see one another, and may enter into others; periodic is sound",
+            "volume.boundary = antipodal: grains on two sides of a face do not see one another, and may enter into others; periodic is consistent",
         ),
         Some(Boundary::Open) => {
             note("volume.boundary = open: grains that leave the volume do not come back");
@@ -258,7 +258,7 @@ fn published(note: &mut dyn FnMut(&str), laws: &Impact) {
     }
     if laws.heat.balance == Balance::Published {
         note(
-            "impact.heat.balance = published: a pair gets more heat than the energy it lost, and how much depends on the observer; the run's drift does not show it, its row \"false heat\" does; energy is sound",
+            "impact.heat.balance = published: a pair gets more heat than the energy it lost, and how much depends on the observer; the run's drift does not show it, its row \"false heat\" does; energy is consistent",
         );
     }
     if laws.fragmentation.as_ref().is_some_and(|law| law.energy == BreakingEnergy::Published) {

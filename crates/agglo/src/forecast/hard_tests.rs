@@ -196,7 +196,7 @@ fn forecasts_are_near_what_runs_give() {
 }
 
 #[test]
-fn the_published_model_is_told_from_the_sound_one() {
+fn the_published_model_is_told_from_the_consistent_one() {
     let plan = plan_of(PUBLISHED);
     for word in [
         "nearest",

@@ -254,16 +254,16 @@ mod tests {
 
     #[test]
     fn what_the_machine_cannot_hold_is_refused_with_figures() {
-        let shipped = demand("acoustic", &[]);
+        let shipped = demand("acoustic-published", &[]);
         assert_ok!(shipped.refuse_memory(&ROOM, 64));
         assert_ok!(shipped.refuse_disk(&ROOM));
-        let rays = demand("acoustic", &["acoustics.beams.0.rays=1000000000"]);
+        let rays = demand("acoustic-published", &["acoustics.beams.0.rays=1000000000"]);
         let words = rays.refuse_memory(&ROOM, 1).unwrap_err().to_string();
         assert!(words.contains("about 120 GB of memory") && words.contains("16 GB"), "{words}");
         let pulses = ["acoustics.beams.0.pulses.count=2147483648", "acoustics.beams.0.pulses.period=1e-15 s"];
-        assert_err!(demand("acoustic", &pulses).refuse_memory(&ROOM, 1));
+        assert_err!(demand("acoustic-published", &pulses).refuse_memory(&ROOM, 1));
         // Those after the end of the run do not count.
-        assert_ok!(demand("acoustic", &pulses[..1]).refuse_memory(&ROOM, 1));
+        assert_ok!(demand("acoustic-published", &pulses[..1]).refuse_memory(&ROOM, 1));
         let frames = demand("reacting", &["output.frames=1e-12 s"]);
         let words = frames.refuse_disk(&ROOM).unwrap_err().to_string();
         assert!(

@@ -16,12 +16,12 @@ fn template(name: &str) -> &'static str {
 /// The sample problem, worked out by hand: 2000 grains, four pulses of 10,000 rays, 150 MPa <-> 4.7e10 W.
 #[test]
 fn the_sample_problem() {
-    let plan = plan_of(template("acoustic"));
+    let plan = plan_of(template("acoustic-published"));
     assert_eq!((plan.grains, plan.rays_per_pulse, plan.pulses), (2000, 10_000, 4));
     // Grains scatter at 1/sqrt(2) of the speed at which they meet, and Stokes' drag takes it in 2 rho R²/(9 eta). While rays fly, as
     // long as those of the first pulse and for the way through the scattered grains, a frame every 0.5 ms, else every 50 ms. The program and
     // the report; grains in all frames; half the rays in those of flights; grains with three contacts each; rays.
-    let scenario = Scenario::from_toml(template("acoustic")).unwrap();
+    let scenario = Scenario::from_toml(template("acoustic-published")).unwrap();
     let pushes = push::all(&scenario, &crate::packing::place(&scenario, Path::new("")).unwrap());
     let viscosity = scenario.medium.viscosity.si();
     let stopping = 2.0 * 6000.0 * 0.05 * 0.05 / (9.0 * viscosity);
@@ -49,7 +49,7 @@ fn the_sample_problem() {
 /// no one harder than head-on.
 #[test]
 fn a_single_grain_is_hit_by_the_rays_that_its_cross_section_meets() {
-    let text = template("acoustic-sound")
+    let text = template("acoustic")
         .replace("count = 2000", "count = 1")
         .replace("region.sphere = { radius = \"1 m\" }", "region.sphere = { radius = \"0.1 m\" }")
         .replace("radius = \"5 cm\"", "radius = \"10 cm\"");
@@ -69,7 +69,7 @@ fn a_single_grain_is_hit_by_the_rays_that_its_cross_section_meets() {
 /// A grain of 1 m in a beam of 1 cm cannot be hit by more rays than there are.
 #[test]
 fn a_narrow_beam_hits_no_more_often_than_it_has_rays() {
-    let text = template("acoustic-sound")
+    let text = template("acoustic")
         .replace("count = 2000", "count = 1")
         .replace("radius = \"5 cm\"", "radius = \"1 m\"")
         .replace("radius = \"1 m\"\nrays = 10000", "radius = \"1 cm\"\nrays = 1000");
@@ -90,7 +90,7 @@ fn speeds_after_a_pulse_are_those_of_a_run() {
         "acoustics.beams.0.rays=3000",
         "acoustics.beams.0.pulses.count=1",
     ];
-    let scenario = Scenario::with_overrides(template("acoustic-sound"), &settings).unwrap();
+    let scenario = Scenario::with_overrides(template("acoustic"), &settings).unwrap();
     let grains = crate::packing::place(&scenario, Path::new("")).unwrap();
     let push = &push::all(&scenario, &grains)[0];
     let mut free = scenario.clone();
@@ -113,7 +113,7 @@ fn speeds_after_a_pulse_are_those_of_a_run() {
 /// Overlap of a Hertz impact against the energy balance m* v²/2 = (8/15) E* sqrt(R*) delta^(5/2).
 #[test]
 fn the_overlap_of_an_impact() {
-    let scenario = Scenario::from_toml(template("acoustic-sound")).unwrap();
+    let scenario = Scenario::from_toml(template("acoustic")).unwrap();
     let push = &push::all(&scenario, &crate::packing::place(&scenario, Path::new("")).unwrap())[0];
     let mass = 6000.0 * 4.0 / 3.0 * std::f64::consts::PI * 0.05_f64.powi(3);
     let overlap = push.strain.unwrap() * 0.1;
@@ -124,11 +124,11 @@ fn the_overlap_of_an_impact() {
 /// The same balance for the other laws: k δ²/2, and π R K δ^(p+2)/((p+2) (2R)^p) with p = 2 and K at 300 K.
 #[test]
 fn the_overlap_of_an_impact_of_other_laws() {
-    let hertz = template("acoustic-sound");
+    let hertz = template("acoustic");
     let start = hertz.find("[contact.normal.hertz]").unwrap();
     let end = hertz[start..].find("\n[").unwrap() + start;
     let [published, hooke] = [
-        template("acoustic").to_owned(),
+        template("acoustic-published").to_owned(),
         format!("{}[contact.normal.hooke]\nstiffness = \"1e7 N/m\"\n{}", &hertz[..start], &hertz[end..]),
     ];
     let mass = 6000.0 * 4.0 / 3.0 * std::f64::consts::PI * 0.05_f64.powi(3);
@@ -224,7 +224,7 @@ fn a_beam_that_misses_is_noted() {
 
 #[test]
 fn a_plan_says_what_has_no_effect() {
-    let text = template("acoustic").replace("end = \"2 s\"", "end = \"0.6 s\"");
+    let text = template("acoustic-published").replace("end = \"2 s\"", "end = \"0.6 s\"");
     let notes = plan_of(&text).notes;
     assert!(notes.iter().any(|note| note.contains("only 2 of 4 pulses")), "{notes:?}");
 }
@@ -268,7 +268,7 @@ fn what_is_tried_is_carried_on_to_the_end() {
 
 #[test]
 fn a_run_that_would_fail_says_so() {
-    let text = template("acoustic-sound").replace("largest_strain = 0.1", "");
+    let text = template("acoustic").replace("largest_strain = 0.1", "");
     let deep = text.replace("[time]", "[limits]\nstrain = 1e-9\n\n[time]");
     let plan = Plan::new(&Scenario::from_toml(&deep).unwrap(), Path::new("")).unwrap();
     assert_eq!((plan.seconds, plan.disk), (None, None));

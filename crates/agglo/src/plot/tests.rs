@@ -14,7 +14,7 @@ fn candidates(count: usize) -> (Vec<Axis>, Vec<Vec<f64>>, Vec<f64>) {
         Axis::new("density", "kg/m³"),
         Axis::new("hardness", "Pa").log(),
         Axis::new("capacity", "J/kg/K"),
-        Axis::choice("law", &["published", "sound"]),
+        Axis::choice("law", &["published", "consistent"]),
     ];
     let lows = [20.0, 0.4, 1e3, 1e5, 200.0, 0.0];
     let highs = [200.0, 0.8, 1e4, 1e6, 2000.0, 1.99];

@@ -83,15 +83,15 @@ pub fn keep_only(kept: &Path) -> Result<(), RecordError> {
         .try_for_each(|(_, path)| std::fs::remove_file(&path).map_err(RecordError::file("remove", &path)))
 }
 
-/// Reads the newest sound checkpoint in `dir`: the state, its step, and the newer ones that cannot be used.
+/// Reads the newest whole checkpoint in `dir`: the state, its step, and the newer ones that cannot be used.
 ///
 /// # Errors
-/// [`RecordError::NoCheckpoint`] where none is sound, [`RecordError::File`] where the folder cannot be read.
+/// [`RecordError::NoCheckpoint`] where none is whole, [`RecordError::File`] where the folder cannot be read.
 pub fn load_newest<T: DeserializeOwned>(dir: &Path) -> Result<(T, u64, Vec<Refused>), RecordError> {
     load_newest_that(dir, Ok)
 }
 
-/// As [`load_newest`]: the newest sound checkpoint that `accept` takes, and what it makes of it; it gives the reason where
+/// As [`load_newest`]: the newest whole checkpoint that `accept` takes, and what it makes of it; it gives the reason where
 /// it refuses one.
 ///
 /// # Errors
@@ -123,7 +123,7 @@ fn read<T: DeserializeOwned>(path: &Path) -> Result<(T, u64), String> {
     decode(&bytes)
 }
 
-/// The checkpoints in `dir`, newest first, sound or not.
+/// The checkpoints in `dir`, newest first, whole or not.
 ///
 /// # Errors
 /// [`RecordError::File`] where the folder cannot be read.
@@ -261,7 +261,7 @@ mod tests {
             assert_eq!(refused.len(), 1);
             assert_eq!(refused[0].path, newest);
             assert!(refused[0].reason.contains(words), "{}", refused[0]);
-            // The run goes on from step 1; the damaged one of the course given up must not push out sound ones.
+            // The run goes on from step 1; the damaged one of the course given up must not push out whole ones.
             save(dir.path(), 2, &state(2)).unwrap();
             assert_eq!(load_newest::<State>(dir.path()).unwrap().2, []);
         }
@@ -314,15 +314,15 @@ mod tests {
     /// Every single bit, not a sample: a CRC finds all single-bit errors.
     #[test]
     fn any_flipped_bit_is_refused() {
-        let sound = encode(3, &state(3)).unwrap();
-        assert_eq!(decode(&sound), Ok((state(3), 3)));
-        for bit in 0..8 * sound.len() {
-            let mut damaged = sound.clone();
+        let whole = encode(3, &state(3)).unwrap();
+        assert_eq!(decode(&whole), Ok((state(3), 3)));
+        for bit in 0..8 * whole.len() {
+            let mut damaged = whole.clone();
             damaged[bit / 8] ^= 1 << (bit % 8);
             assert!(decode::<State>(&damaged).is_err(), "bit {bit}");
         }
-        for length in 0..sound.len() {
-            assert!(decode::<State>(&sound[..length]).is_err(), "cut at {length}");
+        for length in 0..whole.len() {
+            assert!(decode::<State>(&whole[..length]).is_err(), "cut at {length}");
         }
     }
 

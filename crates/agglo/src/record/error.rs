@@ -77,7 +77,7 @@ pub enum RecordError {
         /// What is wrong with it.
         reason: String,
     },
-    /// No sound checkpoint.
+    /// No whole checkpoint.
     #[error("no usable checkpoint in {dir}{}", list(.refused), dir = .dir.display())]
     NoCheckpoint {
         /// The folder.

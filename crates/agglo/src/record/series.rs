@@ -255,9 +255,9 @@ mod tests {
         again.sync().unwrap();
         let mark = again.mark();
         Series::check(&path, &["time_s", "count"], mark).unwrap();
-        let sound = std::fs::read(&path).unwrap();
-        for at in 0..sound.len() {
-            let mut damaged = sound.clone();
+        let whole = std::fs::read(&path).unwrap();
+        for at in 0..whole.len() {
+            let mut damaged = whole.clone();
             damaged[at] = 0;
             std::fs::write(&path, &damaged).unwrap();
             let error = Series::check(&path, &["time_s", "count"], mark).unwrap_err().to_string();

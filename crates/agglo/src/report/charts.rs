@@ -14,7 +14,7 @@ const fn lines(
     Lines { table, id, title, about, label, unit, log: false, columns }
 }
 
-/// Heat that only the published balance makes; in the sound one it is round-off.
+/// Heat that only the published balance makes; in the consistent one it is round-off.
 const FALSE_HEAT: &str = "from nowhere (published balance)";
 
 /// Charts of soft spheres.

@@ -176,16 +176,16 @@ mod tests {
 
     #[test]
     fn the_laws_of_the_file_are_cited_and_no_others() {
-        let sound = laws("acoustic-sound");
+        let consistent = laws("acoustic");
         for law in
             ["hertz", "restitution", "mindlin", "beam", "drag", "beams", "ray_force", "fresnel", "verlet"]
         {
-            assert!(sound.contains(&law), "{law} is missing in {sound:?}");
+            assert!(consistent.contains(&law), "{law} is missing in {consistent:?}");
         }
         for law in ["strain_power", "staggered", "hooke", "constant", "hardness", "gravity"] {
-            assert!(!sound.contains(&law), "{law} is in {sound:?}");
+            assert!(!consistent.contains(&law), "{law} is in {consistent:?}");
         }
-        let scenario = Scenario::from_toml(template("acoustic-sound").unwrap().text).unwrap();
+        let scenario = Scenario::from_toml(template("acoustic").unwrap().text).unwrap();
         let all = citations(&scenario);
         let of_reflection = all.iter().find(|citation| citation.law == "fresnel").unwrap();
         assert!(of_reflection.source.contains("L. M. Brekhovskikh, Waves in"), "{}", of_reflection.source);
@@ -201,7 +201,7 @@ mod tests {
 
     #[test]
     fn every_source_is_said() {
-        for name in ["acoustic", "acoustic-sound", "microscale", "reacting", "reacting-published"] {
+        for name in ["acoustic", "acoustic-published", "microscale", "reacting", "reacting-published"] {
             let scenario = Scenario::from_toml(template(name).unwrap().text).unwrap();
             for citation in citations(&scenario) {
                 assert!(citation.source.len() > 10, "{}: {}", citation.law, citation.source);

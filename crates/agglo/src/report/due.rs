@@ -180,7 +180,7 @@ mod tests {
 
     #[test]
     fn a_run_without_sound_misses_no_rays() {
-        let text = template("acoustic").unwrap().text;
+        let text = template("acoustic-published").unwrap().text;
         let mut scenario = Scenario::from_toml(text).unwrap();
         let with =
             |scenario: &Scenario| notes(&Folder { scenario: Some(scenario.clone()), ..Folder::default() });

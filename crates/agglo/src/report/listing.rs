@@ -89,7 +89,7 @@ mod tests {
 
     #[test]
     fn defaults_are_marked_and_choices_are_not() {
-        let scenario = Scenario::from_toml(template("acoustic").unwrap().text).unwrap().resolved();
+        let scenario = Scenario::from_toml(template("acoustic-published").unwrap().text).unwrap().resolved();
         let text = scenario.to_toml().unwrap();
         let lines = listing(&Scenario::from_toml(&text).unwrap(), &text);
         let mark = |start: &str| lines.iter().find(|line| line.text.starts_with(start)).unwrap().is_default;

@@ -28,7 +28,7 @@ pub struct Found {
     pub refused: Vec<Refused>,
 }
 
-/// Reads the newest sound checkpoint that belongs to its folder; if wanted one from before the end of the run, where there
+/// Reads the newest whole checkpoint that belongs to its folder; if wanted one from before the end of the run, where there
 /// is such a one. Nothing is changed.
 ///
 /// # Errors
@@ -192,7 +192,7 @@ mod tests {
     #[test]
     fn keys_that_differ_are_named_with_both_values() {
         let of = |settings: &[&str]| {
-            Scenario::with_overrides(template("acoustic").unwrap().text, settings).unwrap()
+            Scenario::with_overrides(template("acoustic-published").unwrap().text, settings).unwrap()
         };
         let (run, other) = (of(&[]), of(&["seed=9", "time.end=3 s", "acoustics.beams.0.rays=77"]));
         assert_empty!(differences(&run, &run.clone()));

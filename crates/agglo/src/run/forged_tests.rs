@@ -98,7 +98,7 @@ fn nothing_panics(name: &str, settings: &[&str], steps: usize, cases: u32) {
 #[test]
 fn forged_states_of_soft_spheres_do_not_panic() {
     let settings = ["grains.0.placement.random.count=40", "acoustics.beams.0.rays=100", "time.end=0.01 s"];
-    nothing_panics("acoustic", &settings, 12, CASES);
+    nothing_panics("acoustic-published", &settings, 12, CASES);
 }
 
 #[test]

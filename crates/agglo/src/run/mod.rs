@@ -147,12 +147,12 @@ fn sit<J: Job>(
     started.inspect_err(|_| folder.abandon())?.carry_on(observer)
 }
 
-/// Goes on with the run in `dir` from its newest sound checkpoint.
+/// Goes on with the run in `dir` from its newest whole checkpoint.
 ///
 /// A run that has finished is left as it is, and its summary given again.
 ///
 /// # Errors
-/// [`RunError`] where there is no sound checkpoint, a step fails or a file cannot be written.
+/// [`RunError`] where there is no whole checkpoint, a step fails or a file cannot be written.
 pub fn resume(dir: &Path, observer: &mut Observer<'_>) -> Result<Ending, RunError> {
     if let Some(summary) = finished(dir) {
         return Ok(Ending::Finished(summary));

@@ -113,7 +113,7 @@ fn taken(scenario: &Scenario, path: &Path) -> Result<Origin, Trouble> {
     Ok(Origin { start, counts, earlier: Some(Earlier { checkpoint, groups, words }) })
 }
 
-/// The newest sound checkpoint of a run's folder, or one that was named.
+/// The newest whole checkpoint of a run's folder, or one that was named.
 fn read(path: &Path) -> Result<(AnySaved<'static>, PathBuf), String> {
     if !path.is_dir() {
         return Ok((checkpoint::load(path)?, path.to_owned()));
@@ -130,7 +130,7 @@ fn read(path: &Path) -> Result<(AnySaved<'static>, PathBuf), String> {
     if refused.is_empty() {
         return Err("it has no checkpoint".to_owned());
     }
-    Err(format!("it has no sound checkpoint: {}", refused.join("; ")))
+    Err(format!("it has no whole checkpoint: {}", refused.join("; ")))
 }
 
 /// Numbers of materials by their names in the new scenario. What grains are made of stays what it was.

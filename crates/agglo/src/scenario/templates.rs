@@ -17,14 +17,14 @@ pub struct Template {
 pub const TEMPLATES: &[Template] = &[
     Template {
         name: "acoustic",
-        title: "an acoustic pulse on an agglomerate, with the laws of the paper as printed",
+        title: "acoustic pulses on an agglomerate, with laws that converge and bonds that hold and break",
         text: include_str!("../../../../scenarios/acoustic-dispersal.toml"),
         is_campaign: false,
     },
     Template {
-        name: "acoustic-sound",
-        title: "the same agglomerate with laws that converge and bonds that hold and break",
-        text: include_str!("../../../../scenarios/acoustic-dispersal-sound.toml"),
+        name: "acoustic-published",
+        title: "the same agglomerate with the laws of the paper as printed",
+        text: include_str!("../../../../scenarios/acoustic-dispersal-published.toml"),
         is_campaign: false,
     },
     Template {

@@ -15,7 +15,7 @@ use serde_json::Value as Json;
 
 pub use figures::found;
 
-/// A scenario of text, which must be sound.
+/// A scenario of text, which must be valid.
 pub fn scenario(text: &str) -> Scenario {
     Scenario::from_toml(text).unwrap_or_else(|faults| panic!("{faults}\n{text}"))
 }

@@ -16,11 +16,11 @@ fn after_the_pulse(scenario: &str, settings: &[&str]) -> (f64, usize) {
     (simulation.stores().kinetic, simulation.system.network.bonds().len())
 }
 
-/// With the sound laws the impulse of a hit does not depend on the step. A crowd in which bonds break is chaotic: the
+/// With the consistent laws the impulse of a hit does not depend on the step. A crowd in which bonds break is chaotic: the
 /// energy of one start scatters by 2 %, so the means of four starts may differ by three times 2 % sqrt(2/4).
 #[test]
-fn sound_laws_do_not_depend_on_the_step() {
-    let scenario = include_str!("../../../../scenarios/acoustic-dispersal-sound.toml");
+fn consistent_laws_do_not_depend_on_the_step() {
+    let scenario = include_str!("../../../../scenarios/acoustic-dispersal.toml");
     let mean = |safety: &str| {
         let starts = (1..=4).map(|seed| {
             let settings = [format!("engine.verlet.safety={safety}"), format!("seed={seed}")];
@@ -38,7 +38,7 @@ fn sound_laws_do_not_depend_on_the_step() {
 /// since collisions take some of it and more of it where grains are faster.
 #[test]
 fn published_laws_do_not_converge() {
-    let scenario = include_str!("../../../../scenarios/acoustic-dispersal.toml");
+    let scenario = include_str!("../../../../scenarios/acoustic-dispersal-published.toml");
     let part = |fraction: &str| {
         let fraction = format!("acoustics.force.published_step.step_fraction={fraction}");
         after_the_pulse(scenario, &[fraction.as_str()]).0

@@ -124,7 +124,7 @@ fn faulty(faults: &Faults, text: &str) -> Verdict {
     refused(&faults.to_string())
 }
 
-/// A scenario's text: what is sound is written out and read back as the same.
+/// A scenario's text: what is valid is written out and read back as the same.
 pub fn scenario(_: &Bench, bytes: &[u8]) -> Verdict {
     let text = String::from_utf8_lossy(bytes);
     match Scenario::from_toml(&text) {
@@ -136,9 +136,9 @@ pub fn scenario(_: &Bench, bytes: &[u8]) -> Verdict {
     }
 }
 
-/// A setting of a scenario that is sound without it.
+/// A setting of a scenario that is valid without it.
 pub fn setting(_: &Bench, bytes: &[u8]) -> Verdict {
-    let (text, setting) = (seeds::sound(), String::from_utf8_lossy(bytes));
+    let (text, setting) = (seeds::valid(), String::from_utf8_lossy(bytes));
     match Scenario::with_overrides(text, &[setting]) {
         Ok(scenario) => {
             comes_back(&scenario);
@@ -150,13 +150,13 @@ pub fn setting(_: &Bench, bytes: &[u8]) -> Verdict {
 
 fn comes_back(scenario: &Scenario) {
     for scenario in [scenario, &scenario.resolved()] {
-        let written = scenario.to_toml().expect("a sound scenario has a text");
+        let written = scenario.to_toml().expect("a valid scenario has a text");
         let again = Scenario::from_toml(&written).unwrap_or_else(|faults| panic!("{faults}\n{written}"));
         assert!(again == *scenario, "it reads back as another:\n{written}");
     }
 }
 
-/// The plan of a scenario that is sound.
+/// The plan of a scenario that is valid.
 pub fn plan(_: &Bench, bytes: &[u8]) -> Verdict {
     let text = String::from_utf8_lossy(bytes);
     let Ok(scenario) = Scenario::from_toml(&text) else { return Err("no scenario".to_owned()) };
@@ -176,14 +176,14 @@ fn finite(plan: &Plan) {
     assert!(odd.is_none(), "a plan of no numbers:\n{said}");
 }
 
-/// A search or study: what is sound is written out and read back as the same.
+/// A search or study: what is valid is written out and read back as the same.
 pub fn campaign(_: &Bench, bytes: &[u8]) -> Verdict {
     let text = String::from_utf8_lossy(bytes);
     let campaign = match Campaign::from_toml(&text) {
         Ok(campaign) => campaign,
         Err(faults) => return faulty(&faults, &text),
     };
-    let written = campaign.to_toml().expect("a sound campaign has a text");
+    let written = campaign.to_toml().expect("a valid campaign has a text");
     let again = Campaign::from_toml(&written).unwrap_or_else(|faults| panic!("{faults}\n{written}"));
     assert!(again == campaign, "it reads back as another:\n{written}");
     Ok(())
@@ -192,7 +192,7 @@ pub fn campaign(_: &Bench, bytes: &[u8]) -> Verdict {
 /// A table of grains: planned first, as every run is, then placed.
 pub fn table(bench: &Bench, bytes: &[u8]) -> Verdict {
     let dir = bench.with("table", Path::new("table/grains.csv"), bytes);
-    let scenario = Scenario::load(&dir.join("scenario.toml")).expect("it is sound");
+    let scenario = Scenario::load(&dir.join("scenario.toml")).expect("it is valid");
     let placed = Plan::with(&scenario, &dir, LITTLE).and_then(|_| Ok(packing::place(&scenario, &dir)?));
     match placed {
         Ok(grains) => {
@@ -223,7 +223,7 @@ pub fn checkpoint(bench: &Bench, bytes: &[u8]) -> Verdict {
 
 /// The plan of a scenario that starts from a state.
 fn begun(dir: &Path) -> Verdict {
-    let scenario = Scenario::load(&dir.join("scenario.toml")).expect("it is sound");
+    let scenario = Scenario::load(&dir.join("scenario.toml")).expect("it is valid");
     match Plan::with(&scenario, dir, LITTLE) {
         Ok(plan) => {
             finite(&plan);

@@ -24,8 +24,8 @@ const SEARCH: &str = include_str!("search.toml");
 const TABLE: &str = "# four grains\nx_m,y_m,z_m,radius_m,vx_m_s,vy_m_s,vz_m_s,temperature_K\n\
     0,0,0,1e-3,0,0,0,300\n0.01,0,0,1e-3,0,-0.5,0,310\n0,1e-2,0,2e-3,0,0,0,300\n0,0,1e-2,1.5e-3,0.25,0,0,300\n";
 
-/// A scenario's text that is sound.
-pub fn sound() -> &'static str {
+/// A scenario's text that is valid.
+pub fn valid() -> &'static str {
     template("microscale").expect("it is there").text
 }
 
@@ -40,7 +40,7 @@ const FEW: [&str; 4] = [
 /// Makes the folders `stopped`, `finished` and `grown` of runs, `begun` and `begun-hard` of scenarios that start from a
 /// state, `search` and `ended` of searches, and `table`.
 pub fn make(place: &Path) {
-    let scenario = Scenario::with_overrides(sound(), &SMALL).unwrap_or_else(|faults| panic!("{faults}"));
+    let scenario = Scenario::with_overrides(valid(), &SMALL).unwrap_or_else(|faults| panic!("{faults}"));
     fs::create_dir_all(place.join("table")).expect("a folder");
     fs::write(place.join("table/grains.csv"), TABLE).expect("a file");
     let mut tabled = scenario.clone();

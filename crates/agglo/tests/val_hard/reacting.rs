@@ -125,7 +125,7 @@ fn study_of_the_published_choices() {
         };
         let hardness = "[impact.restitution.hardness]";
         let variants = [
-            ("sound", (*text).to_owned()),
+            ("consistent", (*text).to_owned()),
             ("antipodal faces", changed("\"periodic\"", "\"antipodal\"")),
             (
                 "force over compression",

@@ -244,8 +244,8 @@ fn fault(laws: &[&str]) -> Option<String> {
     let worst = simulation.ledger.worst;
     let warned = simulation.warnings.counts().keys().any(|text| text.contains("does not explain"));
     let is_published = laws.iter().any(|law| is_published(law));
-    let is_sound = warned == (worst > 1e-3) && (is_published || worst < 1e-3);
-    (!is_sound).then(|| format!("{laws:?}: unexplained {worst:e} in {} steps", simulation.clock().step))
+    let is_told = warned == (worst > 1e-3) && (is_published || worst < 1e-3);
+    (!is_told).then(|| format!("{laws:?}: unexplained {worst:e} in {} steps", simulation.clock().step))
 }
 
 fn assert_no_fault<'a>(cases: impl Iterator<Item = Vec<&'a str>>) {

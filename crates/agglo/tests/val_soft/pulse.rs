@@ -14,7 +14,8 @@ use crate::common;
 /// 60,450 ± 1,000 segments. Three standard deviations.
 #[test]
 fn val_zohdi_2016_first_pulse() {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/acoustic-dispersal.toml");
+    let file =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/acoustic-dispersal-published.toml");
     let text = std::fs::read_to_string(file).unwrap();
     let settings = ["acoustics.beams.0.pulses.count=1", "seed=3"];
     let scenario = Scenario::with_overrides(&text, &settings).unwrap_or_else(|faults| panic!("{faults}"));
@@ -46,7 +47,8 @@ fn val_zohdi_2016_first_pulse() {
 /// seeds these scatter by a fifth; a region of 1.6 m, a quarter of the cloud by then, counts 833 and 14.
 #[test]
 fn val_zohdi_2016_later_pulses_find_the_grains() {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/acoustic-dispersal.toml");
+    let file =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/acoustic-dispersal-published.toml");
     let text = std::fs::read_to_string(file).unwrap();
     let run = |settings: &[&str]| {
         let scenario = Scenario::with_overrides(&text, settings).unwrap_or_else(|faults| panic!("{faults}"));

@@ -71,7 +71,7 @@ fn a_run_resumed_at_any_moment_ends_in_the_same_state() {
 }
 
 /// Figures of the summary that are ratios of others, and false heat where the published sum makes some: without reaction the
-/// sound balance makes none.
+/// consistent balance makes none.
 #[test]
 fn ratios_of_the_summary() {
     let published = SCENARIO.replace("[impact.cooling]", "[impact.heat]\nbalance = \"published\"");

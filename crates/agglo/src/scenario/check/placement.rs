@@ -60,7 +60,7 @@ fn fill(check: &mut Check, key: &str, law: &Fill, size: &Size, scenario: &Scenar
     }
 }
 
-/// How many grains random addition is asked for, in which volume [m³] if that is sound.
+/// How many grains random addition is asked for, in which volume [m³] if that is valid.
 struct Amount {
     count: Option<u32>,
     solid_fraction: Option<f64>,
@@ -70,7 +70,7 @@ struct Amount {
     way_out: &'static str,
 }
 
-/// Whether the amount is sound.
+/// Whether the amount is valid.
 fn amount(check: &mut Check, key: &str, wanted: &Amount, size: &Size) -> bool {
     let before = check.faults.len();
     match (wanted.count, wanted.solid_fraction) {

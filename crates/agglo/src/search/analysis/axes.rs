@@ -37,8 +37,8 @@ mod tests {
         let rays = of(vec![choice("1000", Some(1e3)), choice("20000", Some(2e4))]);
         assert_empty!(parameter_axis(&rays).labels);
         assert_eq!(parameter_value(&rays, 1.0), 2e4);
-        let laws = of(vec![choice("published", None), choice("sound", None)]);
-        assert_eq!(parameter_axis(&laws).labels, ["published", "sound"]);
+        let laws = of(vec![choice("published", None), choice("consistent", None)]);
+        assert_eq!(parameter_axis(&laws).labels, ["published", "consistent"]);
         assert_eq!(parameter_value(&laws, 1.0), 1.0);
     }
 }

@@ -193,7 +193,7 @@ fn searched(objectives: usize) -> Evaluations {
         parameters: vec![
             Axis::new("speed", "m/s"),
             Axis::new("hardness", "Pa").log(),
-            Axis::choice("law", &["published", "sound"]),
+            Axis::choice("law", &["published", "consistent"]),
         ],
         objectives: [("growth_deficit", ""), ("energy", "J")][..objectives].iter().map(objective).collect(),
         measures: vec![Axis::new("radius_ratio", "")],
@@ -477,7 +477,7 @@ fn measures_stand_in_a_table() {
     evaluations.rows[0].values = vec![30.0, 2e5, 1.0];
     let expected = format!(
         "evaluation,speed_m_s,hardness_Pa,law,starts,radius_ratio,radius_ratio_standard_error,radius_ratio_standard_deviation\n\
-         0,30,200000,sound,3,3,{},{}\n",
+         0,30,200000,consistent,3,3,{},{}\n",
         (7.0_f64 / 3.0).sqrt(),
         7.0_f64.sqrt()
     );

@@ -288,7 +288,7 @@ fn plan(campaign: &Campaign, problem: &Problem) -> Vec<Fault> {
     plan.faults(&levels).into_iter().map(|(key, message)| Fault::new(place(key), message)).collect()
 }
 
-/// The scenario in the middle of the box must be sound; a fault stands at the parameter that sets its key, if one does.
+/// The scenario in the middle of the box must be valid; a fault stands at the parameter that sets its key, if one does.
 fn center(campaign: &Campaign, problem: &Problem) -> Vec<Fault> {
     let center = problem.center();
     let Err(faults) = problem.scenario(&center) else { return Vec::new() };
