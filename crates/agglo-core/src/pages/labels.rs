@@ -24,7 +24,7 @@ impl Engine {
 impl Page {
     /// Whose law it is.
     pub fn engine(&self) -> Engine {
-        if self.group.starts_with("impact") || self.group == "engine/hard" {
+        if self.group.starts_with("impact") || self.group.starts_with("engine/hard") {
             Engine::Hard
         } else {
             Engine::Soft

@@ -64,8 +64,8 @@ pages! {
     "follow" "acoustics" "follow" [];
     "staggered" "engine/soft" "staggered" [];
     "verlet" "engine/soft" "verlet" [];
-    "event_driven" "engine/hard" "event_driven" [];
-    "time_stepped" "engine/hard" "time_stepped" [];
+    "event_driven" "engine/hard/drive" "event_driven" [];
+    "time_stepped" "engine/hard/drive" "time_stepped" [];
     "ray_force" "acoustics" "ray_force" ["impulse" "published_step" "radiation_pressure"];
 }
 

@@ -1,6 +1,6 @@
 //! Single cases of the event-driven engine that a cloud at random may not come to.
 
-use super::test_clouds::{DENSITY, EVENTS, Grain, advance_to, particles, restitution, scenario, start};
+use super::test_systems::{DENSITY, EVENTS, Grain, advance_to, particles, restitution, scenario, start};
 use super::{Contact, Simulation};
 use crate::math::Vec3;
 use crate::units::Quantity;
@@ -185,7 +185,7 @@ fn first_bounces_of_one_moment_lose_energy() {
     let mut cases = vec![(row.clone(), restitution(0.9), "open"), (row, restitution(0.5), "open")];
     let soft = "[impact.restitution.hardness]";
     for seed in 0..20 {
-        cases.push((super::test_clouds::crowd(60, 2e-3, 2.0, 8e3, seed), soft.to_owned(), "periodic"));
+        cases.push((super::test_systems::crowd(60, 2e-3, 2.0, 8e3, seed), soft.to_owned(), "periodic"));
     }
     let mut over_others = 0;
     // Impacts and merges of the clouds, from event to event and step by step.
@@ -233,7 +233,7 @@ fn pieces_have_room() {
         (0..150).flat_map(|seed| [(seed, "periodic"), (seed, "reflecting"), (seed, "open")])
     {
         let n = 40 + seed as usize;
-        let mut grains = super::test_clouds::crowd(n, 1.3e-3, 3.0, 0.0, seed);
+        let mut grains = super::test_systems::crowd(n, 1.3e-3, 3.0, 0.0, seed);
         // In a corner, where it touches the walls, a small ball comes at it.
         let place = |along: f64| [along - 2e-5, -along + 1e-5, along - 1e-5];
         let parent: Grain = (place(0.01 - 1.4e-3), [300.0, 20.0, 10.0], 1.39e-3);

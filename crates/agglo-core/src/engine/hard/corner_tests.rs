@@ -1,7 +1,7 @@
 //! Corners of both engines: each of these tests is the only one that some spoiled engine does not pass.
 
 use super::Simulation;
-use super::test_clouds::{Grain, advance_to, particles, restitution, scenario, start};
+use super::test_systems::{Grain, advance_to, particles, restitution, scenario, start};
 use crate::math::Vec3;
 
 const EVENTS: &str = "[engine.event_driven]";

@@ -1,7 +1,7 @@
 //! Small spheres in large volumes, where numbers end, and spheres that have no room.
 
 use super::Simulation;
-use super::test_clouds::{Grain, advance_to, particles, restitution};
+use super::test_systems::{Grain, advance_to, particles, restitution};
 use crate::engine::SimError;
 use crate::testing::Scenario;
 

@@ -52,12 +52,13 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::Settings;
-use super::homogenized::{Homogenized, homogenize};
-use super::simulation::{Grown, Simulation};
+use super::grown::Grown;
+use super::micro_state::MicroState;
+use super::record::{Homogenized, homogenize};
+use super::simulation::Simulation;
 use crate::domain::Volume;
 use crate::engine::SimError;
 use crate::math::Vec3;
@@ -130,19 +131,6 @@ pub struct MicroGrains {
     pub materials: Vec<u32>,
     /// Primary grains that each is made of [n]; if empty, one each.
     pub primaries: Vec<u32>,
-}
-
-/// The grains of a control volume between two steps. Velocities and temperatures may be changed freely.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct MicroState {
-    /// The columns. Names stay with their grains; what comes out of a merge keeps the heavier partner's.
-    pub grains: Particles,
-    /// What they keep of their parts [n].
-    pub grown: Vec<Grown>,
-    /// Mean radius of the first state [m], which growth is measured by.
-    pub reference_radius: f64,
-    /// Steps made so far; random numbers of a step belong to it.
-    pub step: u32,
 }
 
 /// Laws and control volume of grains that are embedded in a flow.

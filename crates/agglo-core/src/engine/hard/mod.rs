@@ -1,35 +1,16 @@
 //! Hard spheres that impact, stick and break, in a control volume.
 
-mod agenda;
-mod approach;
-mod around;
-pub mod books;
-mod cascade;
-mod cells;
-mod cloud;
-mod collapse;
+mod collide;
+mod drive;
 mod embedded;
-mod event_driven;
-mod events;
-mod frame;
-mod grid;
-mod homogenized;
-mod level;
-
-mod near;
-mod nearest;
-mod pieces;
-mod queue;
+mod grown;
+mod micro_state;
+mod record;
 mod search;
 mod settings;
 mod simulation;
-mod spans;
 mod spheres;
-mod standstill;
-mod time_stepped;
 mod types;
-mod validate;
-mod walls;
 
 #[cfg(test)]
 mod cases_tests;
@@ -40,13 +21,16 @@ mod digits_tests;
 #[cfg(test)]
 mod oracle_tests;
 #[cfg(test)]
-mod test_clouds;
+mod test_systems;
 
-pub use cloud::{Change, Cloud, CloudState, Contact, Surroundings};
-pub use embedded::{EmbeddedError, MicroGrains, MicroState, Microscale};
-pub use events::{Descent, EventKind, GrainEvent};
-pub use homogenized::Homogenized;
+pub use collide::{Change, Cloud, CloudState};
+pub use drive::Clock;
+pub use embedded::{EmbeddedError, MicroGrains, Microscale};
+pub use grown::Grown;
+pub use micro_state::MicroState;
+pub use record::{Balance, Books, Counts, Descent, EventKind, Flows, GrainEvent, Homogenized, Stores};
+pub use search::{Contact, Surroundings};
 pub use settings::{Driver, Settings};
-pub use simulation::{Clock, Grown, Simulation, SimulationState, Snapshot};
+pub use simulation::{Simulation, SimulationState, Snapshot};
 pub use spheres::{Bulk, Sphere, Spheres};
 pub use types::{Distance, EventDriven, Pairs, TimeStepped};

@@ -3,7 +3,7 @@
 //! own state, so chaos amplifies nothing and every single event is held to its time, its pair and its outcome.
 
 use super::Simulation;
-use super::test_clouds::{BOUNDARIES, EVENTS, Grain, advance_to, crowd, restitution, scenario, start};
+use super::test_systems::{BOUNDARIES, EVENTS, Grain, advance_to, crowd, restitution, scenario, start};
 use crate::math::Vec3;
 
 /// Half the edge of the cube [m].

@@ -13,28 +13,14 @@ use crate::math::Vec3;
 use crate::measure::SizeRates;
 use crate::particles::{Material, Particles};
 
-use super::books::{self, Balance, Books, Counts};
-use super::cloud::{Cloud, CloudState};
-use super::collapse::Collapse;
-use super::event_driven::{Events, EventsState};
+use super::collide::{Cloud, CloudState, Collapse};
+use super::drive::{Clock, Events, EventsState, Steps};
+use super::grown::Grown;
+use super::record::{self, Balance, Books, Counts};
 use super::settings::{self, Settings};
 use super::spheres::Spheres;
-use super::time_stepped::Steps;
 
 const UNEXPLAINED: &str = "energy that the books of impacts do not explain is above 0.001 of all energy";
-
-/// Where the simulation stands in time.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Clock {
-    /// Simulated time [s].
-    pub time: f64,
-    /// What rounding has taken from the sum of the steps [s]; 0 for the event-driven engine.
-    pub lag: f64,
-    /// Events dealt with, or steps.
-    pub step: u64,
-    /// Length of the last step [s]; mean time between two impacts for the event-driven engine.
-    pub last_step: f64,
-}
 
 /// How the spheres are driven.
 #[derive(Clone, Debug)]
@@ -101,15 +87,6 @@ pub struct Snapshot {
     pub grains: Particles,
     /// How many primary grains each is made of [n].
     pub primaries: Vec<u32>,
-}
-
-/// What a grain that has grown keeps of its parts, which need not be of one material.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Grown {
-    /// How many primary grains it is made of.
-    pub primaries: u32,
-    /// Heat capacity of the whole grain [J/K].
-    pub heat_capacity: f64,
 }
 
 /// A simulation.
@@ -359,7 +336,7 @@ impl Simulation {
         let (spheres, time) = (&self.cloud.state.spheres, self.clock.time);
         let order = spheres.by_id();
         let mut pending = 0.0;
-        let stores = books::stores(spheres, &order, |at| {
+        let stores = record::stores(spheres, &order, |at| {
             let (temperature, given_off) = self.cloud.cooled(at as usize, time);
             pending += given_off;
             temperature
@@ -370,7 +347,7 @@ impl Simulation {
     /// Momentum [kg m/s] now.
     pub fn momentum(&self) -> Vec3 {
         let spheres = &self.cloud.state.spheres;
-        books::momentum(spheres, &spheres.by_id())
+        record::momentum(spheres, &spheres.by_id())
     }
 
     /// Momentum that walls do not explain, over the sum of the momenta's sizes at the start.

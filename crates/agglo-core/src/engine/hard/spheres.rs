@@ -5,11 +5,13 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::agenda::NONE;
 use crate::domain::resolution;
 use crate::engine::validate::{Fault, ensure, length};
 use crate::math::Vec3;
 use crate::particles::{Particles, Row};
+
+/// No sphere, no cell, no list.
+pub const NONE: u32 = u32::MAX;
 
 /// The motion of a sphere: where it was at its own time, and how fast it flies since.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -8,8 +8,7 @@ use std::path::Path;
 use serde_json::json;
 
 use super::*;
-use crate::engine::hard::books::{Counts, Stores};
-use crate::engine::hard::{Descent, EventKind, GrainEvent, Grown};
+use crate::engine::hard::{Counts, Descent, EventKind, GrainEvent, Grown, Stores};
 use crate::impact::ImpactEnergy;
 use crate::math::Vec3;
 use crate::record::frames::{FieldValues, Frame};

@@ -2,8 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::engine::hard::books::{Balance, Counts};
-use crate::engine::hard::{Clock, Descent, EventKind, GrainEvent, Simulation, Snapshot};
+use crate::engine::hard::{Balance, Clock, Counts, Descent, EventKind, GrainEvent, Simulation, Snapshot};
 use crate::math::Vec3;
 use crate::measure::size_classes;
 use crate::record::Cell;

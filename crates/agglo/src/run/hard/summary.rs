@@ -4,8 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::engine::hard::Simulation;
-use crate::engine::hard::books::{Balance, Counts};
+use crate::engine::hard::{Balance, Counts, Simulation};
 use crate::engine::soft::Limits;
 use crate::run::summary::{time_row, wall_row, warnings_row};
 use crate::scenario::Scenario;

@@ -1,0 +1,40 @@
+//! Two spheres at the moment at which they meet, and what became of them.
+
+use crate::engine::hard::search::Contact;
+use crate::impact::Body;
+use crate::math::Vec3;
+
+/// Two spheres at the moment at which they meet.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Encounter {
+    pub contact: Contact,
+    /// When [s].
+    pub time: f64,
+    /// The two as they were before.
+    pub bodies: [Body; 2],
+    /// From the first center to the second [m].
+    pub distance: Vec3,
+    /// Its direction.
+    pub normal: Vec3,
+    /// Speed of approach along it [m/s].
+    pub approach: f64,
+    /// Whether they are in one another already.
+    pub overlaps: bool,
+}
+
+/// What became of two spheres that met.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Change {
+    /// Both go on, with new velocities.
+    Bounced,
+    /// The first went on as both; the second is no more.
+    Merged {
+        /// Place of the sphere that is both now, larger and elsewhere.
+        kept: u32,
+        /// Empty place.
+        gone: u32,
+    },
+    /// One or both broke: [`Cloud::pieces`](super::Cloud::pieces) has the places of all pieces and of a partner that stayed whole, and the
+    /// places of both partners were given up or reused.
+    Broke,
+}
