@@ -148,8 +148,8 @@ def crate(mutant):
 
 
 def module(mutant):
-    """The folder of a mutant's file as the names of tests have it: "engine::soft" of engine/soft/pulses.rs."""
-    return "::".join(Path(mutant["file"]).parts[3:-1])
+    """The folder of a mutant's file as the names of tests have it, two deep: "engine::soft" of engine/soft/rays/pulses.rs."""
+    return "::".join(Path(mutant["file"]).parts[3:-1][:2])
 
 
 def tests_pass(crates, targets, names):

@@ -9,6 +9,7 @@
 //!
 //! Source: J. Amanatides and A. Woo, *A fast voxel traversal algorithm for ray tracing*, Eurographics (1987).
 
+mod span;
 #[cfg(test)]
 mod tests;
 mod walk;
@@ -16,10 +17,10 @@ mod walk;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::math::Vec3;
-use walk::Walk;
+use span::Sphere;
+use walk::{Cells, Walk};
 
-/// In place of a sphere's number: none.
-pub const NO_SPHERE: u32 = u32::MAX;
+pub use span::{NO_SPHERE, RaySpan, SphereHit};
 
 /// Cells per sphere that a new grid aims at; twice as many are allowed for awkward boxes.
 const CELLS_PER_SPHERE: f64 = 2.0;
@@ -32,30 +33,6 @@ const CLEAR_MARGIN: f64 = 1.005 * MARGIN;
 
 /// Counts the builds of all grids, so that no two have the same [`Clear::build`].
 static BUILDS: AtomicU64 = AtomicU64::new(0);
-
-/// A straight piece of a ray: points `origin + t direction` with `from <= t <= to`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RaySpan {
-    /// Where t is 0 [m].
-    pub origin: Vec3,
-    /// Unit vector.
-    pub direction: Vec3,
-    /// Smallest t [m], not below 0.
-    pub from: f64,
-    /// Largest t [m]; infinity allowed.
-    pub to: f64,
-    /// Sphere that is not to be hit; [`NO_SPHERE`] if all count.
-    pub skip: u32,
-}
-
-/// The nearest hit of a ray.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SphereHit {
-    /// Distance from the span's origin [m].
-    pub at: f64,
-    /// Number of the sphere.
-    pub sphere: u32,
-}
 
 /// How far a ray can fly unhindered while one build of a grid is valid. A shortcut, no part of any state: without
 /// it the same hits are found, only later; so all values are equal.
@@ -71,22 +48,13 @@ impl PartialEq for Clear {
     }
 }
 
-/// A sphere, packed for the exact test.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Sphere {
-    center: Vec3,
-    radius: f64,
-}
-
 /// The grid; see the module.
 #[derive(Clone, Debug)]
 pub struct RayGrid {
     rays_lower: Vec3,
     rays_upper: Vec3,
-    lower: Vec3,
     upper: Vec3,
-    cell: f64,
-    dims: [usize; 3],
+    cells: Cells,
     margin: f64,
     starts: Vec<u32>,
     entries: Vec<u32>,
@@ -97,45 +65,14 @@ pub struct RayGrid {
     build: u64,
 }
 
-impl RaySpan {
-    /// Where the ray first meets a sphere: now, if its point lies inside and heads inward; never, if outward.
-    #[inline]
-    fn meets(&self, sphere: Sphere) -> Option<f64> {
-        let from_center = self.origin - sphere.center;
-        let nearest = -from_center.dot(self.direction);
-        if nearest <= self.from {
-            return None;
-        }
-        // Both roots without cancellation; the offset form keeps far and small spheres exact.
-        let offset = from_center + self.direction * nearest;
-        let half_chord_squared = sphere.radius * sphere.radius - offset.norm_squared();
-        if half_chord_squared < 0.0 {
-            return None;
-        }
-        let outside = from_center.norm_squared() - sphere.radius * sphere.radius;
-        let entry = outside / (nearest + half_chord_squared.sqrt());
-        Some(entry.max(self.from))
-    }
-
-    /// Where the ray first touches a ball that a moving sphere may be anywhere in: unlike [`RaySpan::meets`] also on
-    /// its way out, since the sphere's own center may lie ahead.
-    #[inline]
-    fn touches(&self, ball: Sphere) -> Option<f64> {
-        let now = self.origin + self.direction * self.from - ball.center;
-        if now.norm_squared() <= ball.radius * ball.radius { Some(self.from) } else { self.meets(ball) }
-    }
-}
-
 impl RayGrid {
     /// An empty grid for rays that stay between these corners [m].
     pub fn new(rays_lower: Vec3, rays_upper: Vec3) -> Self {
         Self {
             rays_lower,
             rays_upper,
-            lower: rays_lower,
             upper: rays_lower,
-            cell: 0.0,
-            dims: [0; 3],
+            cells: Cells { lower: rays_lower, size: 0.0, dims: [0; 3] },
             margin: 0.0,
             starts: Vec::new(),
             entries: Vec::new(),
@@ -208,32 +145,32 @@ impl RayGrid {
             count += 1;
         }
         if count == 0 {
-            self.dims = [0; 3];
+            self.cells.dims = [0; 3];
             return;
         }
         let slack = Vec3::new(margin, margin, margin);
-        self.lower = lower.max(self.rays_lower - slack);
+        self.cells.lower = lower.max(self.rays_lower - slack);
         self.upper = upper.min(self.rays_upper + slack);
-        let extent = (self.upper - self.lower).to_array();
+        let extent = (self.upper - self.cells.lower).to_array();
         let wanted = CELLS_PER_SPHERE * f64::from(count);
-        self.cell = (extent.iter().product::<f64>() / wanted).cbrt();
-        if !(self.cell.is_finite() && self.cell > 0.0) {
+        self.cells.size = (extent.iter().product::<f64>() / wanted).cbrt();
+        if !(self.cells.size.is_finite() && self.cells.size > 0.0) {
             // A space that is no number, or has no volume, is one cell: it could be widened for ever.
-            (self.cell, self.dims) = (f64::MAX, [1; 3]);
+            (self.cells.size, self.cells.dims) = (f64::MAX, [1; 3]);
             return;
         }
         loop {
-            self.dims = extent.map(|length| (length / self.cell).ceil().max(1.0) as usize);
-            if self.dims.iter().map(|&count| count as f64).product::<f64>() <= 2.0 * wanted + 64.0 {
+            self.cells.dims = extent.map(|length| (length / self.cells.size).ceil().max(1.0) as usize);
+            if self.cells.dims.iter().map(|&count| count as f64).product::<f64>() <= 2.0 * wanted + 64.0 {
                 break;
             }
-            self.cell *= 1.25;
+            self.cells.size *= 1.25;
         }
     }
 
     /// Counting sort: a sphere goes into every cell that it touches; numbers ascend within a cell.
     fn sort_into_cells(&mut self, margin: f64) {
-        let cells = self.dims.iter().product::<usize>();
+        let cells = self.cells.dims.iter().product::<usize>();
         let mut starts = std::mem::take(&mut self.starts);
         let mut entries = std::mem::take(&mut self.entries);
         starts.clear();
@@ -268,7 +205,7 @@ impl RayGrid {
             let z_squared = self.gap(2, z, sphere.center.z).powi(2);
             for y in ys.0..=ys.1 {
                 let yz_squared = z_squared + self.gap(1, y, sphere.center.y).powi(2);
-                let row = self.dims[0] * (y + self.dims[1] * z);
+                let row = self.cells.dims[0] * (y + self.cells.dims[1] * z);
                 for x in xs.0..=xs.1 {
                     if yz_squared + self.gap(0, x, sphere.center.x).powi(2) <= reach * reach {
                         visit(row + x);
@@ -281,16 +218,16 @@ impl RayGrid {
     /// First and last cell along an axis within `reach` of a coordinate.
     fn cells_along(&self, axis: usize, center: f64, reach: f64) -> (usize, usize) {
         let cell = |coordinate: f64| {
-            let place = ((coordinate - self.lower[axis]) / self.cell).max(0.0) as usize;
-            place.min(self.dims[axis] - 1)
+            let place = ((coordinate - self.cells.lower[axis]) / self.cells.size).max(0.0) as usize;
+            place.min(self.cells.dims[axis] - 1)
         };
         (cell(center - reach), cell(center + reach))
     }
 
     /// Distance along an axis from a coordinate to a layer of cells; 0 inside.
     fn gap(&self, axis: usize, layer: usize, center: f64) -> f64 {
-        let low = self.lower[axis] + layer as f64 * self.cell;
-        (low - center).max(center - (low + self.cell)).max(0.0)
+        let low = self.cells.lower[axis] + layer as f64 * self.cells.size;
+        (low - center).max(center - (low + self.cells.size)).max(0.0)
     }
 
     /// The nearest sphere that the ray meets; of several at the same distance the one with the lowest number.
@@ -331,7 +268,7 @@ impl RayGrid {
     #[inline]
     fn first(&self, span: &RaySpan, test: impl Fn(usize) -> Option<f64>) -> Option<SphereHit> {
         let (enter, leave) = self.clip(span)?;
-        let mut walk = Walk::new(self, span, enter);
+        let mut walk = Walk::new(&self.cells, span, enter);
         let mut best = SphereHit { at: span.to, sphere: NO_SPHERE };
         loop {
             let first = self.starts[walk.cell] as usize;
@@ -355,19 +292,19 @@ impl RayGrid {
     /// The part of the span inside the grid's box.
     #[inline]
     fn clip(&self, span: &RaySpan) -> Option<(f64, f64)> {
-        if self.dims[0] == 0 {
+        if self.cells.dims[0] == 0 {
             return None;
         }
         let (mut enter, mut leave) = (span.from, span.to);
         for axis in 0..3 {
             let (o, d) = (span.origin[axis], span.direction[axis]);
             if d == 0.0 {
-                if o < self.lower[axis] || o > self.upper[axis] {
+                if o < self.cells.lower[axis] || o > self.upper[axis] {
                     return None;
                 }
                 continue;
             }
-            let (a, b) = ((self.lower[axis] - o) / d, (self.upper[axis] - o) / d);
+            let (a, b) = ((self.cells.lower[axis] - o) / d, (self.upper[axis] - o) / d);
             enter = enter.max(a.min(b));
             leave = leave.min(a.max(b));
         }

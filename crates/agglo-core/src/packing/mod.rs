@@ -11,15 +11,17 @@ mod random;
 mod room;
 mod size;
 mod velocity;
+mod watch;
 
 pub use error::{PackingError, SATURATION};
 pub use group::{GrainGroup, Groups, Spheres};
 pub use overlap::{Overlap, first_overlap};
-pub use place::{PlaceWatch, ReadTable, make_ready, place, place_groups, place_groups_watched};
+pub use place::{make_ready, place, place_groups, place_groups_watched};
 pub use placement::{Fill, GrainList, Lattice, LatticeKind, Placement, RandomAddition, Table, TableGrain};
 pub use random::fill_with;
 pub use size::{ConstantSize, LengthRatio, LognormalSize, Size, SizeTable, UniformSize};
 pub use velocity::{Maxwell, UniformSpread, VelocitySpread};
+pub use watch::{PlaceWatch, ReadTable};
 
 #[cfg(test)]
 mod hard_tests;

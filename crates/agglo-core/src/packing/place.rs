@@ -6,7 +6,8 @@ use super::error::PackingError;
 use super::overlap::{first_outside, first_overlap};
 use super::random::{self, Request};
 use super::room::Room;
-use super::{GrainGroup, GrainList, Groups, Placement, Spheres, Table, TableGrain, lattice};
+use super::watch::{PlaceWatch, ReadTable};
+use super::{GrainGroup, GrainList, Groups, Placement, Spheres, TableGrain, lattice};
 use crate::domain::{Boundary, Volume, resolution};
 use crate::math::Vec3;
 use crate::math::rng::{Purpose, Stream};
@@ -25,12 +26,6 @@ use crate::units::vector;
 pub fn place<'a>(groups: impl Into<Groups<'a>>, read: &mut ReadTable<'_>) -> Result<Particles, PackingError> {
     place_groups(groups, read).map(|(grains, _)| grains)
 }
-
-/// Whoever reads the tables of grains.
-pub type ReadTable<'a> = dyn FnMut(&Table) -> Result<Vec<TableGrain>, PackingError> + 'a;
-
-/// Asked now and then while grains are placed whether to go on.
-pub type PlaceWatch<'a> = dyn FnMut() -> ControlFlow<()> + 'a;
 
 /// As [`place`], with the number of grains of each group; those of a group follow one another.
 ///

@@ -1,4 +1,6 @@
-//! The design's folder table and the tree say the same, and crates depend on each other in one direction.
+//! The design's folder table and the tree say the same; crates, and files of the core, depend on each other in one direction.
+
+mod circles;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
