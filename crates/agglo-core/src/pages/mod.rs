@@ -62,8 +62,8 @@ pages! {
     "beams" "acoustics" "beam" [];
     "fresnel" "acoustics" "fresnel" [];
     "follow" "acoustics" "follow" [];
-    "staggered" "engine/soft" "staggered" [];
-    "verlet" "engine/soft" "verlet" [];
+    "staggered" "engine/soft/step" "staggered" [];
+    "verlet" "engine/soft/step" "verlet" [];
     "event_driven" "engine/hard/drive" "event_driven" [];
     "time_stepped" "engine/hard/drive" "time_stepped" [];
     "ray_force" "acoustics" "ray_force" ["impulse" "published_step" "radiation_pressure"];

@@ -103,7 +103,7 @@ mod tests {
         assert_eq!(found(5, &beam(9.9)), [""; 0]);
     }
 
-    /// Four equal charges cut off at 1.5 times their distance, as in `engine/soft/truncation.rs`: sqrt(250/2482) of the
+    /// Four equal charges cut off at 1.5 times their distance, as in `engine/soft/forces/truncation.rs`: sqrt(250/2482) of the
     /// forces is left out, and 3/13 of the energy is left.
     #[test]
     fn a_cutoff_is_measured() {

@@ -145,8 +145,9 @@ fn names(path: &[String], page: &Page) -> bool {
     // Bonds have a table of their own in a scenario, the engine's folders are not words of it, and a page may stand for
     // its own folder.
     let group = if page.group == "contact/bond" { "bonds" } else { page.group };
-    let mut group =
-        group.split('/').filter(|word| !matches!(*word, "soft" | "hard" | "drive") && *word != page.name);
+    let mut group = group
+        .split('/')
+        .filter(|word| !matches!(*word, "soft" | "hard" | "drive" | "step") && *word != page.name);
     named && group.all(|word| before.iter().any(|known| known == word))
 }
 

@@ -1,10 +1,11 @@
-//! Rest before the clock starts: contacts, bonds and fields act, motion is damped away.
+//! The start of a simulation, and rest before its clock starts: contacts, bonds and fields act, motion is damped away.
 
 use std::ops::ControlFlow;
 
 use crate::engine::{SimError, Start};
 use crate::math::Vec3;
 
+use super::forces::truncation;
 use super::settings::{Relaxation, Settings};
 use super::simulation::Simulation;
 
@@ -24,12 +25,59 @@ pub struct Resting {
 /// Someone who is told how grains come to rest and may ask to stop.
 pub type RestWatch<'a> = dyn FnMut(&Resting) -> ControlFlow<()> + 'a;
 
+impl Simulation {
+    /// Starts with grains as placed, or with what came out of another simulation.
+    ///
+    /// # Errors
+    /// [`SimError::NoRest`] where grains are to come to rest first and do not; [`SimError::OtherSpheres`] where the settings
+    /// come from a scenario of hard spheres.
+    pub fn start<S>(settings: S, start: impl Into<Start>) -> Result<Self, SimError>
+    where
+        S: TryInto<Settings>,
+        SimError: From<S::Error>,
+    {
+        Self::begin(&settings.try_into()?, start.into(), &mut |_| ControlFlow::Continue(()))
+    }
+
+    /// The same; `watch` is told how grains come to rest, if they are to, and may ask to stop.
+    ///
+    /// # Errors
+    /// As [`Simulation::start`], [`SimError::Truncated`] where a cut-off leaves out too much, and
+    /// [`SimError::StoppedAtRest`].
+    pub fn start_watched<S>(
+        settings: S,
+        start: impl Into<Start>,
+        watch: &mut RestWatch<'_>,
+    ) -> Result<Self, SimError>
+    where
+        S: TryInto<Settings>,
+        SimError: From<S::Error>,
+    {
+        Self::begin(&settings.try_into()?, start.into(), watch)
+    }
+
+    fn begin(settings: &Settings, mut start: Start, watch: &mut RestWatch<'_>) -> Result<Self, SimError> {
+        let truncation = truncation::hold(settings.fields.near_field.as_ref(), &start.grains)?;
+        let warnings = std::mem::take(&mut start.warnings);
+        let mut simulation = match &settings.relax {
+            Some(relaxation) => rested(settings, relaxation, start, watch)?,
+            None => Self::with(settings, start),
+        };
+        simulation.truncation = truncation;
+        simulation.open_books();
+        for warning in &warnings {
+            simulation.warnings.add(warning);
+        }
+        Ok(simulation)
+    }
+}
+
 /// A simulation whose grains came to rest under their laws, without rays and drag, and then got the
 /// velocities that they were given. Contacts and bonds keep what they remember of the way there.
 ///
 /// # Errors
 /// [`SimError::NoRest`] where it takes longer than allowed; others as for any step.
-pub fn rested(
+fn rested(
     settings: &Settings,
     relaxation: &Relaxation,
     mut start: Start,

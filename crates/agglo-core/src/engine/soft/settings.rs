@@ -12,8 +12,7 @@ use crate::units::{Time, Velocity};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::step_size;
-use super::tempo::Tempo;
+use super::step::tempo::Tempo;
 use super::types::{Limits, Scheme};
 
 /// All that a simulation of soft spheres follows from, but for its grains.
@@ -57,11 +56,16 @@ impl Settings {
         }
     }
 
+    /// Longest automatic step [s]: a hundredth of the run.
+    pub(super) fn longest_step(&self) -> f64 {
+        self.end / 100.0
+    }
+
     /// The automatic step, where none is given.
     pub(super) fn tempo(&self) -> Option<Tempo> {
         match &self.scheme {
             Scheme::Verlet(scheme) if scheme.step.is_none() => {
-                Some(Tempo::new(scheme.safety, step_size::longest(self)))
+                Some(Tempo::new(scheme.safety, self.longest_step()))
             }
             _ => None,
         }

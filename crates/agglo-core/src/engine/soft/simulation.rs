@@ -1,7 +1,6 @@
 //! A simulation of soft spheres: one step after another, with rays, bonds, the ledger and the guards.
 
 use std::borrow::Cow;
-use std::ops::ControlFlow;
 
 use serde::{Deserialize, Serialize};
 
@@ -13,18 +12,18 @@ use crate::math::rounding_of_sum;
 use crate::measure::Ledger;
 use crate::particles::Particles;
 
-use super::advance::Change;
-use super::laws::Laws;
-use super::loads::{Loads, Rates};
-use super::pulses::{PulseState, Pulses};
-use super::relax::RestWatch;
+use super::forces::laws::Laws;
+use super::forces::loads::{Loads, Rates};
+use super::forces::truncation::Truncation;
+use super::guard::validity;
+use super::rays::{PulseState, Pulses};
 use super::settings::Settings;
-use super::step_size::{self, Fast, Paces};
+use super::step::advance::Change;
+use super::step::step_size::{self, Fast, Paces};
+use super::step::tempo::Tempo;
+use super::step::{staggered, verlet};
 use super::system::System;
-use super::tempo::Tempo;
-use super::truncation::Truncation;
 use super::types::{Breach, Limits, Scheme};
-use super::{staggered, truncation, validity, verlet};
 
 /// Steps between two sortings of the grains in space. Counted in steps, so that it is the same after a resume.
 const SORT_EVERY: u64 = 2000;
@@ -103,51 +102,6 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// Starts with grains as placed, or with what came out of another simulation.
-    ///
-    /// # Errors
-    /// [`SimError::NoRest`] where grains are to come to rest first and do not; [`SimError::OtherSpheres`] where the settings
-    /// come from a scenario of hard spheres.
-    pub fn start<S>(settings: S, start: impl Into<Start>) -> Result<Self, SimError>
-    where
-        S: TryInto<Settings>,
-        SimError: From<S::Error>,
-    {
-        Self::begin(&settings.try_into()?, start.into(), &mut |_| ControlFlow::Continue(()))
-    }
-
-    /// The same; `watch` is told how grains come to rest, if they are to, and may ask to stop.
-    ///
-    /// # Errors
-    /// As [`Simulation::start`], [`SimError::Truncated`] where a cut-off leaves out too much, and
-    /// [`SimError::StoppedAtRest`].
-    pub fn start_watched<S>(
-        settings: S,
-        start: impl Into<Start>,
-        watch: &mut RestWatch<'_>,
-    ) -> Result<Self, SimError>
-    where
-        S: TryInto<Settings>,
-        SimError: From<S::Error>,
-    {
-        Self::begin(&settings.try_into()?, start.into(), watch)
-    }
-
-    fn begin(settings: &Settings, mut start: Start, watch: &mut RestWatch<'_>) -> Result<Self, SimError> {
-        let truncation = truncation::hold(settings.fields.near_field.as_ref(), &start.grains)?;
-        let warnings = std::mem::take(&mut start.warnings);
-        let mut simulation = match &settings.relax {
-            Some(relaxation) => super::relax::rested(settings, relaxation, start, watch)?,
-            None => Self::with(settings, start),
-        };
-        simulation.truncation = truncation;
-        simulation.open_books();
-        for warning in &warnings {
-            simulation.warnings.add(warning);
-        }
-        Ok(simulation)
-    }
-
     /// Grains under their laws, at time zero.
     pub(super) fn with(settings: &Settings, start: Start) -> Self {
         let network = Network::start(settings.beam(), start.bonds, &start.grains);
@@ -225,7 +179,7 @@ impl Simulation {
         system.rates = state.rates;
         system.remember(&state.contacts);
         Ok(Self {
-            tempo: state.tempo.map(|tempo| tempo.up_to(step_size::longest(settings))),
+            tempo: state.tempo.map(|tempo| tempo.up_to(settings.longest_step())),
             truncation: state.truncation,
             paces: state.paces,
             system,

@@ -8,10 +8,9 @@ use crate::math::{Pace, Vec3, parallel};
 use crate::neighbors::{PairList, morton_order};
 use crate::particles::{Motion, Particles};
 
-use super::laws::{Laws, near_force, source};
-use super::loads::{LoadViews, Loads, Rates, Supplies};
+use super::forces::laws::{Laws, near_force, source};
+use super::forces::loads::{LoadViews, Loads, Rates, Supplies};
 use super::skin::Skin;
-use super::step_size::over_grains;
 
 /// Grains per leaf of the parallel loops.
 pub(super) const LEAF: usize = 1024;
@@ -97,6 +96,12 @@ impl System {
         self.inertial_mass = (0..self.grains.len()).map(|at| laws.inertial_mass(&self.grains, at)).collect();
         self.laws = laws;
         self.network.count_from_here();
+    }
+
+    /// The fastest of all grains, at what `pace` gives for each.
+    pub(super) fn over_grains(&self, pace: impl Fn(usize) -> Pace + Sync) -> Pace {
+        let leaf = |range: Range<usize>, ()| range.map(&pace).fold(Pace::NONE, Pace::max);
+        parallel::over(0..self.grains.len(), LEAF, (), &leaf, &Pace::max)
     }
 
     /// The committed motion.
@@ -249,7 +254,7 @@ impl System {
             let distance = (positions[b] - positions[a]).norm();
             law.pace(&source(&self.grains, a), &source(&self.grains, b), distance)
         };
-        over_grains(self, |a| match self.near_list() {
+        self.over_grains(|a| match self.near_list() {
             Some(list) => {
                 list.owned(a).map(|pair| pace(a, list.partners()[pair] as usize)).fold(Pace::NONE, Pace::max)
             }

@@ -2,10 +2,8 @@
 
 use super::settings::Settings;
 use super::simulation::SimulationState;
-use crate::acoustics::Flight;
 use crate::contact::network::Bond;
 use crate::engine::validate::{Fault, MOST_COUNTED, ensure, finite, finite_vectors, length};
-use crate::neighbors::ray_grid::NO_SPHERE;
 use crate::particles::Particles;
 
 impl SimulationState<'_> {
@@ -72,34 +70,4 @@ fn validate_bonds(bonds: &[Bond], grains: &Particles) -> Result<(), Fault> {
         })?;
     }
     ensure(bonds.windows(2).all(|pair| pair[0].ids < pair[1].ids), || "bonds are out of order".to_owned())
-}
-
-/// Rays in flight with their pulses, among `n` grains.
-pub(super) fn validate_flight(flight: &Flight, settings: &Settings, n: usize) -> Result<(), Fault> {
-    let beams = settings.acoustics.as_ref().map_or(0, |acoustics| acoustics.beams.len());
-    for pulse in flight.pulses() {
-        finite("pulse", pulse)?;
-        let counts = [pulse.reflections, pulse.segments].iter().all(|count| *count < MOST_COUNTED);
-        let rays = [pulse.capped, pulse.crushed, pulse.blocked, pulse.in_flight]
-            .iter()
-            .all(|rays| *rays <= pulse.rays);
-        let longest = pulse.longest_chain < u32::MAX / 2;
-        ensure(counts && rays && longest && (pulse.beam as usize) < beams, || {
-            "pulse: a count is too large".to_owned()
-        })?;
-    }
-    let pulses = flight.pulses().len();
-    let mut flying = vec![0_u32; pulses];
-    for ray in flight.rays() {
-        let hit = ray.last_hit == NO_SPHERE || (ray.last_hit as usize) < n;
-        let bounces = ray.bounces < u32::MAX / 2;
-        ensure(hit && bounces && (ray.pulse as usize) < pulses, || "ray: an index is too large".to_owned())?;
-        flying[ray.pulse as usize] += 1;
-        let numbers = [ray.traveled, ray.power, ray.first_power, ray.area];
-        let holds = ray.origin.is_finite() && numbers.iter().all(|value| value.is_finite() && *value >= 0.0);
-        // Directions are unit vectors but for rounding.
-        ensure(holds && (ray.direction.norm() - 1.0).abs() < 1e-6, || "ray: not a ray".to_owned())?;
-    }
-    let same = flight.pulses().iter().zip(&flying).all(|(pulse, rays)| pulse.in_flight == *rays);
-    ensure(same, || "pulse: another number of rays in flight".to_owned())
 }

@@ -31,8 +31,8 @@
 //! tolerance of evaluating them anew.
 
 use super::advance::{Ahead, Change};
-use super::system::System;
-use super::types::Staggered;
+use crate::engine::soft::system::System;
+use crate::engine::soft::types::Staggered;
 
 /// A step shorter than this part of the first one means that the iteration cannot converge.
 const SHORTEST: f64 = 1e-9;

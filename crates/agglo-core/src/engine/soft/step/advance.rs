@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use crate::math::{Vec3, parallel};
 
-use super::loads::{Correction, LoadViews};
-use super::system::{LEAF, System};
+use crate::engine::soft::forces::loads::{Correction, LoadViews};
+use crate::engine::soft::system::{LEAF, System};
 
 /// What one update of the trial motion amounts to.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -73,7 +73,13 @@ impl System {
     /// Trial motion after `dt` [s] from `time` [s] with the part `phi` of the loads taken at the end of the step:
     /// v' = v + (dt/m)(phi F' + (1 - phi) F) and r' = r + dt (phi v' + (1 - phi) v) ([A] 31-33), for r with the
     /// same loads as for v. Loads that answer to velocity are solved for and brought along.
-    pub(super) fn move_trial(&mut self, time: f64, dt: f64, phi: f64, ahead: Ahead) -> Change {
+    pub(in crate::engine::soft) fn move_trial(
+        &mut self,
+        time: f64,
+        dt: f64,
+        phi: f64,
+        ahead: Ahead,
+    ) -> Change {
         let ray_scale = self.ray_scale(dt);
         let Self { grains, trial, loads, ray_loads, inertial_mass, laws, .. } = self;
         let from_start = ahead == Ahead::AsAtStart;
@@ -129,7 +135,7 @@ impl System {
 
     /// Corrects the trial velocities and spins with the loads at the trial motion, which ends at `time` [s], positions
     /// kept.
-    pub(super) fn correct_velocities(&mut self, time: f64, dt: f64) {
+    pub(in crate::engine::soft) fn correct_velocities(&mut self, time: f64, dt: f64) {
         let ray_scale = self.ray_scale(dt);
         let Self { grains, trial, loads, ray_loads, inertial_mass, laws, .. } = self;
         let (has_response, position) = (laws.has_response(), &trial.position);

@@ -38,7 +38,7 @@ impl Tempo {
     ///
     /// # Errors
     /// What is wrong with it.
-    pub(super) fn validate(&self) -> Result<(), Fault> {
+    pub(in crate::engine::soft) fn validate(&self) -> Result<(), Fault> {
         let positive = |value: f64| value > 0.0 && !value.is_nan();
         let holds = positive(self.safety) && self.safety.is_finite() && positive(self.longest);
         ensure(holds && self.shortest.into_iter().all(positive), || "tempo: a step is not above 0".to_owned())

@@ -15,10 +15,10 @@ use crate::math::Vec3;
 use crate::particles::Particles;
 use crate::units::Velocity;
 
-use super::loads::Supply;
-use super::settings::Settings;
-use super::system::System;
-use super::validate::validate_flight;
+use super::flight::validate_flight;
+use crate::engine::soft::forces::loads::Supply;
+use crate::engine::soft::settings::Settings;
+use crate::engine::soft::system::System;
 
 /// A pulse that starts at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,7 +67,7 @@ impl PulseState {
     ///
     /// # Errors
     /// What is wrong with it.
-    pub(super) fn validate(&self, settings: &Settings, n: usize) -> Result<(), Fault> {
+    pub(in crate::engine::soft) fn validate(&self, settings: &Settings, n: usize) -> Result<(), Fault> {
         let times = [self.ray_time, self.mean_radius];
         ensure(times.iter().all(|value| value.is_finite() && *value >= 0.0), || {
             "pulses: not finite".to_owned()

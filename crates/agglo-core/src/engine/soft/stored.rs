@@ -6,7 +6,7 @@ use crate::contact::pass::contact_energy;
 use crate::math::parallel;
 use crate::measure::{Balance, Momentum, Stores};
 
-use super::laws::source;
+use super::forces::laws::source;
 use super::simulation::Simulation;
 use super::system::LEAF;
 

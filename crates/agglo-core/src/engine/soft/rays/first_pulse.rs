@@ -8,8 +8,8 @@ use crate::math::Vec3;
 use crate::particles::Particles;
 use crate::units::Quantity;
 
-use super::settings::Settings;
-use super::simulation::Simulation;
+use crate::engine::soft::settings::Settings;
+use crate::engine::soft::simulation::Simulation;
 
 /// Parts of the widest way through the grains in which the rays are followed.
 const PARTS_OF_THE_WAY: f64 = 16.0;

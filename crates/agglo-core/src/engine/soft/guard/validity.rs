@@ -6,7 +6,7 @@ use crate::contact::network::Network;
 use crate::fields::{Drag, DragLaw};
 use crate::particles::Particles;
 
-use super::laws::Laws;
+use crate::engine::soft::forces::laws::Laws;
 
 /// Below this wave number times radius sound goes around a grain.
 const SMALLEST_KA: f64 = 10.0;
@@ -96,7 +96,7 @@ mod tests {
     /// k a = 2 π f R/c = 10 at 2.387 MHz for 1 mm in water at 1500 m/s; the larger grain does not count.
     #[test]
     fn rays_warn_below_their_frequency() {
-        let text = include_str!("../../../../../scenarios/acoustic-dispersal-published.toml");
+        let text = include_str!("../../../../../../scenarios/acoustic-dispersal-published.toml");
         let beam = Scenario::from_toml(text).unwrap().acoustics.unwrap().beams.remove(0);
         let bound = 10.0 * 1500.0 / (std::f64::consts::TAU * 1e-3);
         let hertz = |number: f64| serde_json::from_str::<Frequency>(&format!("\"{number} Hz\"")).unwrap();

@@ -16,18 +16,16 @@
 //! Formulas that change in time are looked at again, but a field that oscillates faster than all of the laws is not
 //! foreseen.
 
-use std::ops::Range;
-
 use serde::{Deserialize, Serialize};
 
 use crate::contact::pass::contact_pace;
 use crate::contact::{Bonds, ContactLaws, Damping, Friction, Normal, Touch, normal::Hertz};
-use crate::math::{Pace, parallel};
+use crate::math::Pace;
 
-use super::laws::source;
-use super::settings::Settings;
-use super::system::{LEAF, System};
-use super::types::Scheme;
+use crate::engine::soft::forces::laws::source;
+use crate::engine::soft::settings::Settings;
+use crate::engine::soft::system::System;
+use crate::engine::soft::types::Scheme;
 
 /// Deepest overlap strain that is reckoned with, whatever the limits allow.
 const DEEPEST: f64 = 0.5;
@@ -38,14 +36,9 @@ pub fn first(settings: &Settings, system: &System) -> f64 {
         Scheme::Staggered(scheme) => scheme.initial_step.si().min(scheme.largest_step.si()),
         Scheme::Verlet(scheme) => match scheme.step {
             Some(step) => step.si(),
-            None => (scheme.safety * critical(settings, system)).min(longest(settings)),
+            None => (scheme.safety * critical(settings, system)).min(settings.longest_step()),
         },
     }
-}
-
-/// Longest automatic step [s]: a hundredth of the run.
-pub fn longest(settings: &Settings) -> f64 {
-    settings.end / 100.0
 }
 
 /// The critical step [s] of explicit integration from the start on; infinite where nothing is fast.
@@ -165,7 +158,7 @@ fn contact(system: &System, partners: &[usize], strain: f64, with_waves: bool) -
     let Some(laws) = system.laws.contact.as_ref().map(ContactLaws::bounded) else { return Pace::NONE };
     let has_waves = with_waves && matches!(laws.normal, Normal::Hertz(_));
     let grains = &system.grains;
-    over_grains(system, |at| {
+    system.over_grains(|at| {
         let wave =
             || Hertz::wave_pace(&system.laws.materials[grains.material[at] as usize], grains.radius[at]);
         let alone = if has_waves { wave() } else { Pace::NONE };
@@ -191,7 +184,7 @@ fn near_field(system: &System, partners: &[usize], strain: f64) -> Pace {
         return Pace::NONE;
     }
     let grains = &system.grains;
-    over_grains(system, |at| {
+    system.over_grains(|at| {
         let with = |&partner: &usize| {
             let distance = (grains.radius[at] + grains.radius[partner]) * (1.0 - strain);
             law.pace(&source(grains, at), &source(grains, partner), distance)
@@ -224,15 +217,9 @@ fn singles(system: &System, time: f64) -> Paces {
         fields.magnetic.as_ref().map_or(Pace::NONE, |law| law.pace(mass(at), grains.radius[at], place, time))
     };
     Paces {
-        drag: over_grains(system, drag),
-        lorentz: over_grains(system, lorentz),
-        magnetic: over_grains(system, magnetic),
+        drag: system.over_grains(drag),
+        lorentz: system.over_grains(lorentz),
+        magnetic: system.over_grains(magnetic),
         ..Paces::default()
     }
-}
-
-/// The fastest of all grains.
-pub(super) fn over_grains(system: &System, pace: impl Fn(usize) -> Pace + Sync) -> Pace {
-    let leaf = |range: Range<usize>, ()| range.map(&pace).fold(Pace::NONE, Pace::max);
-    parallel::over(0..system.grains.len(), LEAF, (), &leaf, &Pace::max)
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::step_size::{Paces, first};
-use super::{Scheme, Settings, Simulation};
+use crate::engine::soft::{Scheme, Settings, Simulation};
 use crate::math::Pace;
 use crate::testing::{Scenario, place};
 use crate::units::Quantity;

@@ -20,7 +20,7 @@
 //! LAMMPS and LIGGGHTS evaluate friction and dashpots with the half-step velocity, which errs at large size ratios.
 
 use super::advance::{Ahead, Change};
-use super::system::System;
+use crate::engine::soft::system::System;
 
 /// Makes the trial the motion after `dt` [s] from `time` [s].
 pub fn step(system: &mut System, time: f64, dt: f64) -> Change {

@@ -9,7 +9,7 @@ use crate::particles::{Material, Motion, PairTable, Particles};
 
 use super::loads::{Supplies, Supply};
 use super::response::Response;
-use super::settings::Settings;
+use crate::engine::soft::settings::Settings;
 
 /// The laws of a scenario.
 #[derive(Clone, Debug)]

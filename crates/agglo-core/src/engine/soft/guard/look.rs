@@ -3,10 +3,10 @@
 
 use crate::engine::{Moment, SimError};
 
-use super::simulation::Simulation;
-use super::step_size::Paces;
-use super::types::Scheme;
 use super::validity;
+use crate::engine::soft::simulation::Simulation;
+use crate::engine::soft::step::step_size::Paces;
+use crate::engine::soft::types::Scheme;
 
 /// Steps between two looks at most. Counted in steps, so that a resumed run looks at the same moments.
 const LOOK_EVERY: usize = 100;
@@ -24,21 +24,21 @@ impl Simulation {
     ///
     /// # Errors
     /// [`SimError::LedgerNotFinite`] where an entry of the ledger is not finite, [`SimError::Unexplained`] where more energy is unexplained than limits allow.
-    pub(super) fn look_when_due(&mut self) -> Result<(), SimError> {
+    pub(in crate::engine::soft) fn look_when_due(&mut self) -> Result<(), SimError> {
         let is_due = self.clock().step.is_multiple_of(self.look_every()) || self.is_finished();
         if is_due { self.look() } else { Ok(()) }
     }
 
     /// # Errors
     /// As [`Simulation::look_when_due`].
-    pub(super) fn look(&mut self) -> Result<(), SimError> {
+    pub(in crate::engine::soft) fn look(&mut self) -> Result<(), SimError> {
         self.warn_of_drag();
         self.warn_of_places();
         self.look_at_the_step();
         self.look_at_the_energy()
     }
 
-    pub(super) fn warn_of_drag(&mut self) {
+    pub(in crate::engine::soft) fn warn_of_drag(&mut self) {
         if let Some(warning) = validity::of_drag(&self.system.laws, &self.system.grains, self.clock().time) {
             self.warnings.add(warning);
         }

@@ -1,0 +1,4 @@
+//! What a run is looked at for: energy, the length of the step, the range of its models.
+
+mod look;
+pub(super) mod validity;

@@ -1,0 +1,9 @@
+//! Beams in time: when pulses start, how their rays fly along with the grains, what they do to them.
+
+mod first_pulse;
+mod flight;
+mod pulses;
+
+pub use first_pulse::FirstPulse;
+pub(super) use pulses::PulseState;
+pub use pulses::Pulses;
