@@ -61,7 +61,7 @@ def test_counts_are_whole_numbers(numbers, built, tmp_path):
         "series/grains.csv": ["grains", "largest_primaries"],
         "series/impacts.csv": ["impacts", "bounces", "merges", "fragmentations"],
         "series/sizes.csv": ["lower_primaries", "upper_primaries", "grains"],
-        "kernels.csv": ["a_lower_primaries", "impacts", "merges"],
+        "kernels.csv": ["a_lower_primaries", "collisions", "merges"],
         "breakage.csv": ["lower_primaries", "grains", "breakages"],
     }
     for name, columns in counts.items():

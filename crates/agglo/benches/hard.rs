@@ -53,7 +53,7 @@ fn published_set_1(bencher: Bencher) {
     bencher.bench_local(|| {
         let grains = place(&scenario, Path::new(".")).unwrap_or_else(|error| panic!("{error}"));
         let mut simulation = Simulation::start(&scenario, &grains).unwrap_or_else(|error| panic!("{error}"));
-        simulation.cloud_mut().keeps_events = false;
+        simulation.system_mut().keeps_events = false;
         while !simulation.is_finished() {
             simulation.advance(f64::INFINITY).unwrap_or_else(|error| panic!("{error}"));
         }

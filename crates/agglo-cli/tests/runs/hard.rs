@@ -197,21 +197,21 @@ fn growth_in_the_summary_is_that_of_the_tables() {
     }
 }
 
-/// Kernels: impacts of all classes are all impacts; pieces hold the primaries that broke.
+/// Kernels: impacts of all classes are all impacts; fragments hold the primaries that broke.
 #[test]
 fn rates_by_size_add_up() {
     for scenario in [EVENTS, STEPS] {
         let (run, all) = (reference(scenario), summary(reference(scenario)));
         let kernels = Table::read(run, "kernels.csv");
         let sum = |table: &Table, column: &str| table.numbers(column).iter().sum::<f64>();
-        assert_eq!(sum(&kernels, "impacts"), number(&all, "impacts"));
+        assert_eq!(sum(&kernels, "collisions"), number(&all, "impacts"));
         assert_eq!(sum(&kernels, "merges"), number(&all, "merges"));
         let breakage = Table::read(run, "breakage.csv");
         assert_eq!(sum(&breakage, "breakages"), number(&all, "fragmentations"));
         assert_eq!(sum(&breakage, "grains"), number(&all, "grains_end"));
-        let pieces = sum(&Table::read(run, "daughters.csv"), "pieces");
+        let fragments = sum(&Table::read(run, "daughters.csv"), "fragments");
         let grown = number(&all, "grains_start") - number(&all, "merges");
-        assert_eq!(grown + pieces - number(&all, "fragmentations"), number(&all, "grains_end"));
+        assert_eq!(grown + fragments - number(&all, "fragmentations"), number(&all, "grains_end"));
     }
 }
 

@@ -8,7 +8,7 @@
 //! power, its own impedance (rho_t c_t or rho_t c_s) and its own direction. So F²/(impedance a_r) summed over the two is
 //! the power that enters, as in the paper. The second law does not care what enters.
 //!
-//! The force acts at the point of impact: its moment about the grain's center is (r_contact - r_i) x F ([A] 18).
+//! The force acts at the point of impact: its torque about the grain's center is (r_contact - r_i) x F ([A] 18).
 //!
 //! # Source
 //! T. I. Zohdi, Comput. Mech. 57, 465 (2016), section 3.1, remark 2; the momentum balance of a ray for the second.

@@ -160,7 +160,7 @@ impl Network {
 
     /// Adds the bonds' loads on one grain.
     #[inline]
-    pub fn gather(&self, grain: usize, force: &mut Vec3, moment: &mut Vec3) {
+    pub fn gather(&self, grain: usize, force: &mut Vec3, torque: &mut Vec3) {
         if self.bonds.is_empty() {
             return;
         }
@@ -168,10 +168,10 @@ impl Network {
             let load = &self.trial[entry as usize / 2].1;
             if entry % 2 == 0 {
                 *force += load.force;
-                *moment += load.moment_i;
+                *torque += load.moment_i;
             } else {
                 *force -= load.force;
-                *moment += load.moment_j;
+                *torque += load.moment_j;
             }
         }
     }

@@ -27,7 +27,7 @@ pub enum SimError {
     NotFinite {
         /// When.
         at: Moment,
-        /// Stable name of the grain.
+        /// Id of the grain.
         grain: u32,
         /// The laws that act on it.
         laws: String,
@@ -61,7 +61,7 @@ pub enum SimError {
     TooFar {
         /// When.
         at: Moment,
-        /// Stable name of the grain.
+        /// Id of the grain.
         grain: u32,
         /// Motion over radius.
         radii: f64,
@@ -79,7 +79,7 @@ pub enum SimError {
     TooDeep {
         /// When.
         at: Moment,
-        /// Stable names of the grains.
+        /// Ids of the grains.
         grains: [u32; 2],
         /// Overlap over the sum of the radii.
         strain: f64,
@@ -142,7 +142,7 @@ pub enum SimError {
         at: Moment,
         /// The last iteration error.
         error: f64,
-        /// Stable name of the grain that moved most in the last iteration.
+        /// Id of the grain that moved most in the last iteration.
         grain: u32,
         /// The laws that act.
         laws: String,
@@ -159,7 +159,7 @@ pub enum SimError {
         beam: u32,
         /// How many rays.
         rays: u32,
-        /// Stable name of one of the grains.
+        /// Id of one of the grains.
         grain: u32,
     },
     /// The grains do not come to rest before the clock starts.
@@ -185,11 +185,11 @@ pub enum SimError {
     #[error("{0}")]
     OtherSpheres(&'static str),
     /// A hard sphere moves in a way that is not finite.
-    #[error("t = {time:.6e} s: the motion of grain {grain} is not finite after an impact under {laws}")]
-    ImpactNotFinite {
+    #[error("t = {time:.6e} s: the motion of grain {grain} is not finite after a collision under {laws}")]
+    CollisionNotFinite {
         /// When [s].
         time: f64,
-        /// Stable name of the grain.
+        /// Id of the grain.
         grain: u32,
         /// The laws that act.
         laws: String,
@@ -205,43 +205,43 @@ pub enum SimError {
         lasted: f64,
         /// In how many events.
         events: u64,
-        /// Whose bounce was the last: two grains by their stable names, or a grain and a wall.
+        /// Whose bounce was the last: two grains by their ids, or a grain and a wall.
         who: String,
         /// What to do.
         help: &'static str,
     },
-    /// A sphere is so far out, or so fast, that its place cannot be told to 1e-5 of its radius.
+    /// A sphere is so far out, or so fast, that its position cannot be told to 1e-5 of its radius.
     #[error(
-        "t = {time:.6e} s: the place of grain {grain}, {place:.3e} m from the origin at {speed:.3e} m/s, is known to \
+        "t = {time:.6e} s: the position of grain {grain}, {distance:.3e} m from the origin at {speed:.3e} m/s, is known to \
          {rounding:.1e} m only, since numbers have 16 digits; that is more than 1e-5 of its radius ({radius:.3e} m). \
          Put the grains nearer to the origin, or end the run sooner"
     )]
     OutOfDigits {
         /// When [s].
         time: f64,
-        /// Stable name of the grain.
+        /// Id of the grain.
         grain: u32,
         /// Its distance from the origin [m].
-        place: f64,
+        distance: f64,
         /// Its speed [m/s].
         speed: f64,
-        /// What its place is rounded to [m].
+        /// What its position is rounded to [m].
         rounding: f64,
         /// Its radius [m].
         radius: f64,
     },
     /// A sphere in an open volume has flown so far that cells cannot be counted.
     #[error(
-        "t = {time:.6e} s: grain {grain} is {place:.3e} m from the origin, more than 1e9 cells of {cell:.3e} m from \
+        "t = {time:.6e} s: grain {grain} is {distance:.3e} m from the origin, more than 1e9 cells of {cell:.3e} m from \
          [volume]; use a larger volume, or end the run sooner"
     )]
     OutOfCells {
         /// When [s].
         time: f64,
-        /// Stable name of the grain.
+        /// Id of the grain.
         grain: u32,
         /// Its distance from the origin [m].
-        place: f64,
+        distance: f64,
         /// Width of a cell [m].
         cell: f64,
     },
@@ -249,18 +249,18 @@ pub enum SimError {
     #[error(
         "t = {time:.6e} s: the ledger of energy is not finite under {laws}; make the values less extreme"
     )]
-    ImpactLedgerNotFinite {
+    HardLedgerNotFinite {
         /// When [s].
         time: f64,
         /// The laws that act.
         laws: String,
     },
-    /// The books of impacts do not add up.
+    /// The ledger of hard spheres does not add up.
     #[error(
-        "t = {time:.6e} s: the books of impacts do not explain {part:.3} of all energy under {laws}; these figures are \
+        "t = {time:.6e} s: the ledger does not explain {part:.3} of all energy under {laws}; these figures are \
          not to be believed: it is a fault of the program, please report it"
     )]
-    ImpactUnexplained {
+    HardUnexplained {
         /// When [s].
         time: f64,
         /// What is not explained, over all energy that was there or came in.
@@ -271,12 +271,12 @@ pub enum SimError {
     /// A sphere has grown wider than a periodic volume.
     #[error(
         "t = {time:.6e} s: grain {grain} has grown to a diameter of {diameter:.3e} m, wider than the periodic volume \
-         ({edge:.3e} m), and would meet itself; use a larger volume or fewer grains"
+         ({edge:.3e} m), and would collide with itself; use a larger volume or fewer grains"
     )]
     Outgrown {
         /// When [s].
         time: f64,
-        /// Stable name of the grain.
+        /// Id of the grain.
         grain: u32,
         /// Its diameter [m].
         diameter: f64,

@@ -31,7 +31,7 @@ use crate::particles::Particles;
 pub struct Start {
     /// The grains.
     pub grains: Particles,
-    /// Soft spheres: springs of contacts, by the grains' places.
+    /// Soft spheres: springs of contacts, by the grains' indices.
     pub contacts: Vec<Remembered>,
     /// Soft spheres: the bonds that hold, however few. Without them the scenario's law bonds neighbors.
     pub bonds: Option<Vec<Bond>>,

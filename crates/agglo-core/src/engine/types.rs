@@ -14,7 +14,7 @@ pub enum Engine {
     Staggered(Staggered),
     /// Soft spheres: explicit velocity Verlet.
     Verlet(Verlet),
-    /// Hard spheres: from impact to impact, each at its exact time.
+    /// Hard spheres: from collision to collision, each at its exact time.
     EventDriven(EventDriven),
     /// Hard spheres: steps that are as long as gaps allow, [B] 6.14.
     TimeStepped(TimeStepped),

@@ -10,7 +10,7 @@
 //!
 //! # Source
 //! [A] T. I. Zohdi, Comput. Mech. 57, 465 (2016), eq. 30; L. Schiller and A. Naumann, Z. VDI 77, 318 (1935);
-//! M. R. Maxey and J. J. Riley, Phys. Fluids 26, 883 (1983); G. Kirchhoff (1876) for the moment.
+//! M. R. Maxey and J. J. Riley, Phys. Fluids 26, 883 (1983); G. Kirchhoff (1876) for the torque.
 //!
 //! # Symbols
 //! | symbol   | name in code        | unit  | meaning                                             |
@@ -24,7 +24,7 @@
 //! | w        | `spin`              | rad/s | angular velocity of the grain                       |
 //!
 //! # Valid when
-//! Stokes: Re ≪ 1 (2 % off at Re = 0.1, 15 % at 1). Schiller and Naumann: Re up to 1000, within 5 %; the moment is
+//! Stokes: Re ≪ 1 (2 % off at Re = 0.1, 15 % at 1). Schiller and Naumann: Re up to 1000, within 5 %; the torque is
 //! that of slow spin with both. The flow hardly changes over a grain. Grains do not feel one another's wakes, nor do
 //! they shield one another: a dense agglomerate's inside bears less than this says. History force and lift are left
 //! out. m_f Du/Dt is the pressure of the flow alone: a medium at rest under gravity carries grains by
@@ -89,7 +89,7 @@ impl Drag {
 
     /// Moment [N m] on a grain of this radius [m] and angular velocity [rad/s] in a flow.
     #[inline]
-    pub fn moment(medium: &Medium, radius: f64, spin: Vec3, flow: &FlowAt) -> Vec3 {
+    pub fn torque(medium: &Medium, radius: f64, spin: Vec3, flow: &FlowAt) -> Vec3 {
         (flow.vorticity * 0.5 - spin) * spin_coefficient(medium, radius)
     }
 
@@ -200,9 +200,9 @@ mod tests {
         let medium_at = |velocity| Drag::reynolds(&medium, radius, velocity, &moving);
         assert_eq!(medium_at(moving.velocity), 0.0);
         assert_close!(medium_at(Vec3::new(1.0, -4.0, 0.0)), 2.0 * radius * 1000.0 * 5.0 / 1e-3, 1e-14);
-        assert_eq!(Drag::moment(&medium, radius, Vec3::new(0.0, 0.0, 4.0), &flow), Vec3::ZERO);
-        let moment = Drag::moment(&medium, radius, Vec3::ZERO, &flow);
-        assert_close!(moment.z, 8.0 * PI * 1e-3 * 1e-9 * 4.0, 1e-14, "in N m");
+        assert_eq!(Drag::torque(&medium, radius, Vec3::new(0.0, 0.0, 4.0), &flow), Vec3::ZERO);
+        let torque = Drag::torque(&medium, radius, Vec3::ZERO, &flow);
+        assert_close!(torque.z, 8.0 * PI * 1e-3 * 1e-9 * 4.0, 1e-14, "in N m");
     }
 
     /// 15 η/(ρ R²) of spin is faster than (9/2) η/(ρ R²) of motion; the flow's gradient adds to that.

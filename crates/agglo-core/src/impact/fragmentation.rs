@@ -6,9 +6,9 @@
 //! ΔZ = 4 π γ (Σ b_k² - b0²) ≤ ΔK,   b_k³ = b0³ p_k/p                                      B7
 //! ΔK of partner i: m_j/(m_i + m_j) of what the pair lost;   published: |m_i (v_i'² - v_i²)/2|
 //! ```
-//! n is rounded down, at most p, and breaking means n ≥ 2. Pieces are whole numbers of primaries, equal up to one; n falls further
-//! until ΔZ of these pieces fits into ΔK. Where masses are drawn from a power law, they are drawn for this n, before the
-//! energies are worked out: ΔZ is that of the pieces that come of it.
+//! n is rounded down, at most p, and breaking means n ≥ 2. Fragments are whole numbers of primaries, equal up to one; n falls further
+//! until ΔZ of these fragments fits into ΔK. Where masses are drawn from a power law, they are drawn for this n, before the
+//! energies are worked out: ΔZ is that of the fragments that come of it.
 //!
 //! # Source
 //! [B] T. I. Zohdi, Proc. R. Soc. Lond. A 460, 3421 (2004), section 5.
@@ -17,27 +17,27 @@
 //! | symbol | name in code     | unit | meaning                                                  |
 //! |--------|------------------|------|----------------------------------------------------------|
 //! | b0, V0 | `radius`         | m, m³| of the whole                                             |
-//! | b, b_k |                  | m    | of the pieces                                            |
-//! | n      | `pieces`         | -    |                                                          |
-//! | p, p_k | `primaries`      | -    | primary grains of the whole and of the pieces            |
+//! | b, b_k |                  | m    | of the fragments                                            |
+//! | n      | `fragments`         | -    |                                                          |
+//! | p, p_k | `primaries`      | -    | primary grains of the whole and of the fragments            |
 //! | ΔK     | `energy`         | J    | that breaks the partner                                  |
 //! | ΔZ     | `surface`        | J    | energy of the new surfaces                               |
 //! | γ      | `surface_energy` | J/m² | of the material; without it nothing breaks               |
 //!
 //! # Valid when
-//! Pieces are spheres without pores, so surfaces between primaries inside a piece cost nothing. Whether and into how many
-//! pieces a body breaks is asked of equal ones, whose surface is the most that n pieces can have.
+//! Fragments are spheres without pores, so surfaces between primaries inside a fragment cost nothing. Whether and into how many
+//! fragments a body breaks is asked of equal ones, whose surface is the most that n fragments can have.
 //!
 //! # Compared with others
 //! The condition printed as [B] 5.3, break if b ≤ b0, is always true. In the frame of the center of mass ΔK is the same for every
-//! observer; as printed it grows with the speed of the whole cloud. [B] 5.4 calls b = b0/2 two pieces; it is eight. So
+//! observer; as printed it grows with the speed of the whole cloud. [B] 5.4 calls b = b0/2 two fragments; it is eight. So
 //! 5.5, b0 = 4 γ/(H af β), is the size where sticking and breaking into eight need the same speed; for two it is 0.26 of it.
 //!
 //! # Example
 //! ```
-//! use agglo::impact::fragmentation::{pieces, surface};
+//! use agglo::impact::fragmentation::{fragments, surface};
 //! let whole = 4.0 * std::f64::consts::PI * 1e-6 * 10.0; // b0 = 1 mm, γ = 10 J/m²
-//! assert_eq!(pieces(whole * 1.001, 10.0, 1e-3, 1000), 8); // twice the surface: eight pieces of half the size
+//! assert_eq!(fragments(whole * 1.001, 10.0, 1e-3, 1000), 8); // twice the surface: eight fragments of half the size
 //! assert!((surface(8, 10.0, 1e-3, 1000) / whole - 1.0).abs() < 1e-14);
 //! ```
 
@@ -55,9 +55,9 @@ pub struct Fragmentation {
     /// Whose energy breaks a partner.
     #[serde(default)]
     pub energy: BreakingEnergy,
-    /// Sizes of the pieces.
+    /// Sizes of the fragments.
     #[serde(default)]
-    pub pieces: Pieces,
+    pub fragments: Fragments,
 }
 
 /// The energy that an agglomerate can break with.
@@ -71,10 +71,10 @@ pub enum BreakingEnergy {
     Published,
 }
 
-/// Sizes of the pieces of one agglomerate.
+/// Sizes of the fragments of one agglomerate.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum Pieces {
+pub enum Fragments {
     /// Equal, up to one primary.
     #[default]
     Equal,
@@ -82,9 +82,9 @@ pub enum Pieces {
     PowerLaw(PowerLaw),
 }
 
-/// Piece masses with number density m^-exponent between one primary and the whole.
+/// Fragment masses with number density m^-exponent between one primary and the whole.
 ///
-/// One mass is drawn for each piece; each gets one primary and, of the rest, a share in proportion to its mass.
+/// One mass is drawn for each fragment; each gets one primary and, of the rest, a share in proportion to its mass.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PowerLaw {
@@ -92,11 +92,11 @@ pub struct PowerLaw {
     pub exponent: f64,
 }
 
-/// Into how many pieces a body of `primaries` breaks with an energy [J]; 1 if it stays whole.
+/// Into how many fragments a body of `primaries` breaks with an energy [J]; 1 if it stays whole.
 ///
 /// `surface_energy` in J/m², `radius` in m.
 #[inline]
-pub fn pieces(energy: f64, surface_energy: f64, radius: f64, primaries: u32) -> u32 {
+pub fn fragments(energy: f64, surface_energy: f64, radius: f64, primaries: u32) -> u32 {
     if primaries < 2 || energy.is_nan() || energy <= 0.0 {
         return 1;
     }
@@ -108,18 +108,18 @@ pub fn pieces(energy: f64, surface_energy: f64, radius: f64, primaries: u32) -> 
     count.max(1)
 }
 
-/// Energy [J] of the new surfaces of `pieces` that are equal up to one primary.
-pub fn surface(pieces: u32, surface_energy: f64, radius: f64, primaries: u32) -> f64 {
-    if pieces < 2 {
+/// Energy [J] of the new surfaces of `fragments` that are equal up to one primary.
+pub fn surface(fragments: u32, surface_energy: f64, radius: f64, primaries: u32) -> f64 {
+    if fragments < 2 {
         return 0.0;
     }
-    let [small, larger] = [primaries / pieces, primaries % pieces];
+    let [small, larger] = [primaries / fragments, primaries % fragments];
     let areas = f64::from(larger) * area_of(small + 1, primaries)
-        + f64::from(pieces - larger) * area_of(small, primaries);
+        + f64::from(fragments - larger) * area_of(small, primaries);
     surface_energy * sphere(radius) * (areas - 1.0)
 }
 
-/// Surface of a piece over that of the whole.
+/// Surface of a fragment over that of the whole.
 fn area_of(share: u32, primaries: u32) -> f64 {
     (f64::from(share) / f64::from(primaries)).cbrt().powi(2)
 }
@@ -128,14 +128,14 @@ fn sphere(radius: f64) -> f64 {
     4.0 * PI * radius * radius
 }
 
-/// Random numbers for the sizes of the pieces of two partners, a sequence for each.
+/// Random numbers for the sizes of the fragments of two partners, a sequence for each.
 #[derive(Clone, Debug)]
 pub struct Draws([Stream; 2]);
 
 impl Draws {
     /// Those of an impact under a seed; numbers of impacts are two apart.
     pub fn new(seed: u64, impact: u32) -> Self {
-        Self([0, 1].map(|side| Stream::new(seed, Purpose::PieceSize, impact.wrapping_add(side))))
+        Self([0, 1].map(|side| Stream::new(seed, Purpose::FragmentSize, impact.wrapping_add(side))))
     }
 
     /// Those of the partners in the other order.
@@ -151,8 +151,8 @@ impl Draws {
     }
 }
 
-impl Pieces {
-    /// Primaries of each of `count` pieces of a body that has `primaries`, largest first; `draws` decides them.
+impl Fragments {
+    /// Primaries of each of `count` fragments of a body that has `primaries`, largest first; `draws` decides them.
     pub fn share(&self, primaries: u32, count: u32, draws: &Stream) -> Vec<u32> {
         let mut shares = Vec::with_capacity(count as usize);
         self.each(primaries, count, draws, |share| shares.push(share));
@@ -160,7 +160,7 @@ impl Pieces {
         shares
     }
 
-    /// Energy [J] of the new surfaces of these pieces; `surface_energy` in J/m², `radius` of the whole in m.
+    /// Energy [J] of the new surfaces of these fragments; `surface_energy` in J/m², `radius` of the whole in m.
     pub fn surface(
         &self,
         count: u32,
@@ -182,7 +182,7 @@ impl Pieces {
         match self {
             Self::Equal => {
                 let [each, left] = [primaries / count, primaries % count];
-                (0..count).for_each(|piece| visit(each + u32::from(piece < left)));
+                (0..count).for_each(|fragment| visit(each + u32::from(fragment < left)));
             }
             Self::PowerLaw(law) => law.each(primaries, count, draws, visit),
         }
@@ -198,10 +198,10 @@ impl PowerLaw {
         let (sum, free) = (masses().sum::<f64>(), primaries - count);
         // Cut where the running sum of masses falls: the rounded cuts add up to all there is.
         let (mut running, mut cut) = (0.0, 0);
-        for (mass, piece) in masses().zip(1..) {
+        for (mass, fragment) in masses().zip(1..) {
             running += mass;
             let next = ((running / sum * f64::from(free)).round() as u32).clamp(cut, free);
-            let next = if piece == count { free } else { next };
+            let next = if fragment == count { free } else { next };
             visit(1 + next - cut);
             cut = next;
         }
@@ -230,43 +230,43 @@ mod tests {
         for energy in [1e-5, 4e-5, 5e-5, 1e-4, 1e-3] {
             let b = b0 / (1.0 + energy * b0 / (3.0 * gamma * volume));
             let wanted = ((b0 / b).powi(3) as u32).max(1);
-            assert_eq!(pieces(energy, gamma, b0, 1_000_000), wanted, "{energy}");
+            assert_eq!(fragments(energy, gamma, b0, 1_000_000), wanted, "{energy}");
         }
     }
 
-    /// Thresholds in closed form: n equal pieces need (n^(1/3) - 1) of the surface of the whole; 1e-9 on either side.
+    /// Thresholds in closed form: n equal fragments need (n^(1/3) - 1) of the surface of the whole; 1e-9 on either side.
     #[test]
     fn thresholds_of_two_and_of_eight() {
         let whole = 4.0 * PI * 1e-4 * 5.0;
         for count in [2_u32, 3, 8, 64] {
             let least = (f64::from(count).cbrt() - 1.0) * whole;
-            assert_eq!(pieces(least * (1.0 + 1e-9), 5.0, 0.01, 960), count);
-            assert_eq!(pieces(least * (1.0 - 1e-9), 5.0, 0.01, 960), count - 1);
+            assert_eq!(fragments(least * (1.0 + 1e-9), 5.0, 0.01, 960), count);
+            assert_eq!(fragments(least * (1.0 - 1e-9), 5.0, 0.01, 960), count - 1);
         }
     }
 
     #[test]
-    fn never_more_pieces_than_primaries_nor_more_surface_than_energy() {
-        assert_eq!(pieces(1e9, 1.0, 1.0, 7), 7);
-        assert_eq!(pieces(1e9, 1.0, 1.0, 1), 1);
-        assert_eq!(pieces(1e-3, 0.0, 1.0, 7), 7);
+    fn never_more_fragments_than_primaries_nor_more_surface_than_energy() {
+        assert_eq!(fragments(1e9, 1.0, 1.0, 7), 7);
+        assert_eq!(fragments(1e9, 1.0, 1.0, 1), 1);
+        assert_eq!(fragments(1e-3, 0.0, 1.0, 7), 7);
         assert_eq!(
-            (pieces(0.0, 0.0, 1.0, 7), pieces(-1.0, 1.0, 1.0, 7), pieces(f64::NAN, 1.0, 1.0, 7)),
+            (fragments(0.0, 0.0, 1.0, 7), fragments(-1.0, 1.0, 1.0, 7), fragments(f64::NAN, 1.0, 1.0, 7)),
             (1, 1, 1)
         );
         for primaries in [2, 3, 5, 17, 1000] {
             for step in 0..400 {
                 let energy = 1e-3 * 1.03_f64.powi(step);
-                let count = pieces(energy, 1.0, 0.5, primaries);
+                let count = fragments(energy, 1.0, 0.5, primaries);
                 assert_between!(count, 1..=primaries);
                 assert_at_most!(surface(count, 1.0, 0.5, primaries), energy, "in J");
             }
         }
     }
 
-    /// Surface of unequal pieces from the radii themselves: 7 primaries in 3 pieces are 3, 2, 2.
+    /// Surface of unequal fragments from the radii themselves: 7 primaries in 3 fragments are 3, 2, 2.
     #[test]
-    fn surface_of_the_actual_pieces() {
+    fn surface_of_the_actual_fragments() {
         let radii = [3.0, 2.0, 2.0].map(|part: f64| 0.5 * (part / 7.0).cbrt());
         let by_hand = 4.0 * PI * 2.0 * (radii.iter().map(|b| b * b).sum::<f64>() - 0.25);
         assert_close!(surface(3, 2.0, 0.5, 7), by_hand, 1e-14, "in J");
@@ -276,21 +276,21 @@ mod tests {
     #[test]
     fn equal_shares() {
         let any = Stream::new(3, Purpose::Sampling, 0);
-        assert_eq!(Pieces::Equal.share(7, 3, &any), [3, 2, 2]);
-        assert_eq!(Pieces::Equal.share(8, 4, &any), [2; 4]);
-        assert_eq!(Pieces::Equal.share(3, 9, &any), [1; 3]);
+        assert_eq!(Fragments::Equal.share(7, 3, &any), [3, 2, 2]);
+        assert_eq!(Fragments::Equal.share(8, 4, &any), [2; 4]);
+        assert_eq!(Fragments::Equal.share(3, 9, &any), [1; 3]);
     }
 
-    /// Surfaces from the radii of the pieces that are drawn, and never more than those of equal ones. Of two that are 97 and 3
+    /// Surfaces from the radii of the fragments that are drawn, and never more than those of equal ones. Of two that are 97 and 3
     /// they are (97^(2/3) + 3^(2/3))/100^(2/3) - 1 = 0.076 of the whole's, of halves 0.26.
     #[test]
-    fn surfaces_are_those_of_the_pieces_drawn() {
+    fn surfaces_are_those_of_the_fragments_drawn() {
         let (gamma, radius, primaries) = (2.0, 0.5, 100);
         let mut most: f64 = 0.0;
         for exponent in [0.3, 1.0, 1.83, 4.0] {
-            let law = Pieces::PowerLaw(PowerLaw { exponent });
+            let law = Fragments::PowerLaw(PowerLaw { exponent });
             for (part, count) in (0..200).flat_map(|part| [2, 3, 10, 99].map(|count| (part, count))) {
-                let draws = Stream::new(3, Purpose::PieceSize, part);
+                let draws = Stream::new(3, Purpose::FragmentSize, part);
                 let shares = law.share(primaries, count, &draws);
                 let radii = shares.iter().map(|share| radius * (f64::from(*share) / 100.0).cbrt());
                 let by_hand = 4.0 * PI * gamma * (radii.map(|b| b * b).sum::<f64>() - radius * radius);
@@ -307,7 +307,7 @@ mod tests {
     #[test]
     fn power_law_shares_add_up_largest_first() {
         for exponent in [0.3, 1.0, 1.83, 4.0] {
-            let law = Pieces::PowerLaw(PowerLaw { exponent });
+            let law = Fragments::PowerLaw(PowerLaw { exponent });
             for (primaries, count) in [(2, 2), (10, 3), (1000, 17), (50, 50), (12, 1)] {
                 let shares = law.share(primaries, count, &Stream::new(3, Purpose::Sampling, primaries));
                 assert_eq!((shares.len(), shares.iter().sum::<u32>()), (count as usize, primaries));
@@ -321,20 +321,20 @@ mod tests {
         }
     }
 
-    /// Each piece has its part of what the masses drawn add up to: of a million primaries to one, by rounding.
+    /// Each fragment has its part of what the masses drawn add up to: of a million primaries to one, by rounding.
     #[test]
     fn shares_are_those_of_the_masses_drawn() {
         let law = PowerLaw { exponent: 1.83 };
         for (part, count) in [(0, 2), (1, 3), (2, 8), (3, 40)] {
-            let draws = Stream::new(3, Purpose::PieceSize, part);
+            let draws = Stream::new(3, Purpose::FragmentSize, part);
             let mut stream = draws.clone();
             let mut masses: Vec<f64> = (0..count).map(|_| law.mass(1e6, stream.uniform())).collect();
             masses.sort_by(|a, b| b.total_cmp(a));
             let sum: f64 = masses.iter().sum();
-            let shares = Pieces::PowerLaw(law.clone()).share(1_000_000, count, &draws);
+            let shares = Fragments::PowerLaw(law.clone()).share(1_000_000, count, &draws);
             for (share, mass) in shares.into_iter().zip(masses) {
                 let by_hand = 1.0 + mass / sum * f64::from(1_000_000 - count);
-                assert_near!(f64::from(share), by_hand, 1.0, "primaries of one of {count} pieces");
+                assert_near!(f64::from(share), by_hand, 1.0, "primaries of one of {count} fragments");
             }
         }
     }

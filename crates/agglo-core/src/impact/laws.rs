@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use super::contact_area::ContactArea;
 use super::cooling::{Cooler, Integration};
-use super::fragmentation::{BreakingEnergy, Draws, Fragmentation, Pieces};
+use super::fragmentation::{BreakingEnergy, Draws, Fragmentation, Fragments};
 use super::heat::{Balance, HeatBalance, warmed};
 use super::restitution::Restitution;
 use super::restitution::hardness::{ForceTime, Hardness, Solver};
@@ -91,18 +91,18 @@ impl ImpactLaws {
         &self.materials[body.material as usize]
     }
 
-    /// The impact of two partners of which no piece is drawn at random, or of which the draw does not matter.
+    /// The impact of two partners of which no fragment is drawn at random, or of which the draw does not matter.
     pub fn impact(&self, bodies: [&Body; 2], normal: Vec3) -> Outcome {
         self.impact_drawn(bodies, normal, &Draws::new(0, 0))
     }
 
-    /// Whether sizes of pieces are drawn at random.
-    pub fn draws_pieces(&self) -> bool {
-        self.fragmentation.as_ref().is_some_and(|law| matches!(law.pieces, Pieces::PowerLaw(_)))
+    /// Whether sizes of fragments are drawn at random.
+    pub fn draws_fragments(&self) -> bool {
+        self.fragmentation.as_ref().is_some_and(|law| matches!(law.fragments, Fragments::PowerLaw(_)))
     }
 
     /// The impact of two partners; `normal` is the unit vector from the first to the second, `draws` decide the sizes of
-    /// pieces.
+    /// fragments.
     ///
     /// Swapping the partners with their draws and turning the normal round gives the same bits, swapped. Partners that do not
     /// approach are left as they are, with restitution 1.
@@ -124,7 +124,7 @@ impl ImpactLaws {
         let stuck = solution.restitution == 0.0 && self.sticking == Sticking::Merge;
         let trial = meeting.trial(solution.restitution, stuck);
         let mut outcome = settle(&meeting, &trial, bodies);
-        outcome.sticks = stuck && outcome.pieces == [1; 2];
+        outcome.sticks = stuck && outcome.fragments == [1; 2];
         outcome.velocities = if stuck {
             [common_velocity(bodies); 2]
         } else {
@@ -174,11 +174,11 @@ impl ImpactLaws {
         published && self.cools()
     }
 
-    /// Numbers of primaries of the pieces of a body that breaks into `pieces`, largest first; they add up to its own. With
+    /// Numbers of primaries of the fragments of a body that breaks into `fragments`, largest first; they add up to its own. With
     /// the numbers that its impact was given, they are those whose surfaces it booked.
-    pub fn share_primaries(&self, body: &Body, pieces: u32, draws: &Stream) -> Vec<u32> {
+    pub fn share_primaries(&self, body: &Body, fragments: u32, draws: &Stream) -> Vec<u32> {
         match &self.fragmentation {
-            Some(law) => law.pieces.share(body.primaries, pieces, draws),
+            Some(law) => law.fragments.share(body.primaries, fragments, draws),
             None => vec![body.primaries],
         }
     }
@@ -242,7 +242,7 @@ impl ImpactLaws {
     }
 }
 
-/// Heat, pieces and the ledger of a solved impact.
+/// Heat, fragments and the ledger of a solved impact.
 fn settle(meeting: &Meeting<'_>, trial: &Trial, bodies: [&Body; 2]) -> Outcome {
     let breakage = meeting.breakage(trial);
     let heat = meeting.heat(trial, breakage.surfaces);
@@ -260,7 +260,7 @@ fn settle(meeting: &Meeting<'_>, trial: &Trial, bodies: [&Body; 2]) -> Outcome {
     Outcome {
         restitution: trial.restitution,
         temperatures,
-        pieces: breakage.pieces,
+        fragments: breakage.fragments,
         energy: ImpactEnergy {
             normal: trial.normal,
             tangential: trial.tangential,
@@ -309,7 +309,7 @@ fn untouched(bodies: [&Body; 2]) -> Outcome {
         restitution: 1.0,
         velocities: bodies.map(|body| body.velocity),
         temperatures: bodies.map(|body| body.temperature),
-        pieces: [1; 2],
+        fragments: [1; 2],
         converged: true,
         ..Outcome::default()
     }

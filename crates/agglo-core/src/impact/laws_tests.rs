@@ -56,7 +56,7 @@ fn an_impact_by_hand() {
     assert_eq!(outcome.temperatures, [0.0; 2]);
     assert_true!(outcome.converged, "the law has found its solution");
     assert_false!(outcome.sticks, "the pair sticks");
-    assert_eq!(outcome.pieces, [1, 1]);
+    assert_eq!(outcome.fragments, [1, 1]);
     assert_eq!(outcome.iterations, 0);
     let slippery = laws(&rule.replace("0.25", "0.05"), [""; 2]).impact([&one, &two], Vec3::AXES[0]);
     // J_t = 0.05·18 = 0.9 < 1.2.
@@ -228,20 +228,20 @@ fn breaking_takes_its_surface_from_the_heat() {
     let two = sphere(1, 1e-3, [0.0; 3]);
     let of_speed = |v: f64| sphere(0, 2e-3, [v, 0.0, 0.0]);
     let (heavy, light) = (of_speed(1.0).mass, two.mass);
-    // Five pieces need (5^(1/3) - 1) γ 4 π b0²; of what the pair loses, m* v²/2, this partner has m_i/(m_i + m_j).
+    // Five fragments need (5^(1/3) - 1) γ 4 π b0²; of what the pair loses, m* v²/2, this partner has m_i/(m_i + m_j).
     let needed = (5.0_f64.cbrt() - 1.0) * 30.0 * 4.0 * PI * 1e-6;
     let reduced = heavy * light / (heavy + light);
     let v = (2.0 * needed * (heavy + light) / heavy / reduced).sqrt();
     let slower = of_speed(v * (1.0 - 1e-9));
-    assert_eq!(laws.impact([&slower, &two], Vec3::AXES[0]).pieces, [1, 4]);
+    assert_eq!(laws.impact([&slower, &two], Vec3::AXES[0]).fragments, [1, 4]);
     let one = of_speed(v * (1.0 + 1e-9));
     let outcome = laws.impact([&one, &two], Vec3::AXES[0]);
-    assert_eq!(outcome.pieces, [1, 5]);
+    assert_eq!(outcome.fragments, [1, 5]);
     let lost = 0.5 * reduced * one.velocity.norm_squared();
     assert_false!(outcome.sticks, "the pair sticks");
     assert_eq!(outcome.restitution, 0.0);
     assert_eq!(outcome.velocities[0], outcome.velocities[1]);
-    let surface = super::super::fragmentation::surface(outcome.pieces[1], 30.0, 1e-3, 12);
+    let surface = super::super::fragmentation::surface(outcome.fragments[1], 30.0, 1e-3, 12);
     assert_close!(outcome.energy.surface, surface, 1e-15, "in J");
     assert_close!(outcome.energy.heat, lost - surface, 1e-13, "in J");
     assert_eq!(laws.share_primaries(&two, 5, Draws::new(0, 0).of(1)), [3, 3, 2, 2, 2]);
@@ -354,7 +354,7 @@ proptest! {
             prop_assert!(outcome.temperatures.iter().all(|t| *t > 0.0 && t.is_finite()));
             prop_assert!((0.0..=1.0).contains(&outcome.restitution));
             for (side, body) in bodies.iter().enumerate() {
-                prop_assert!((1..=body.primaries).contains(&outcome.pieces[side]));
+                prop_assert!((1..=body.primaries).contains(&outcome.fragments[side]));
             }
             if number < CONSISTENT.len() {
                 let put_in = energy.normal + energy.tangential + energy.reaction;
@@ -376,7 +376,7 @@ proptest! {
             let mut back = laws.impact([&two, &one], -normal);
             back.velocities.swap(0, 1);
             back.temperatures.swap(0, 1);
-            back.pieces.swap(0, 1);
+            back.fragments.swap(0, 1);
             prop_assert_eq!(there, back);
             let mut elastic = laws.elastic([&two, &one], -normal);
             elastic.velocities.swap(0, 1);
@@ -406,8 +406,8 @@ proptest! {
                 prop_assert!((there.temperatures[side] / plain.temperatures[side] - 1.0).abs() < 1e-10);
                 prop_assert!((drifting.temperatures[side] / plain.temperatures[side] - 1.0).abs() < 1e-10);
             }
-            prop_assert_eq!((there.pieces, there.sticks), (plain.pieces, plain.sticks));
-            prop_assert_eq!((drifting.pieces, drifting.sticks), (plain.pieces, plain.sticks));
+            prop_assert_eq!((there.fragments, there.sticks), (plain.fragments, plain.sticks));
+            prop_assert_eq!((drifting.fragments, drifting.sticks), (plain.fragments, plain.sticks));
         }
     }
 }

@@ -86,8 +86,8 @@ pub struct Outcome {
     pub velocities: [Vec3; 2],
     /// Temperatures after [K].
     pub temperatures: [f64; 2],
-    /// Into how many pieces each breaks; 1 where it stays whole. Never more than its primaries.
-    pub pieces: [u32; 2],
+    /// Into how many fragments each breaks; 1 where it stays whole. Never more than its primaries.
+    pub fragments: [u32; 2],
     /// Where the energy went.
     pub energy: ImpactEnergy,
     /// Iterations of the coupled solve.

@@ -229,16 +229,21 @@ impl<'a> Meeting<'a> {
 
     /// How the partners break.
     pub fn breakage(&self, trial: &Trial) -> Breakage {
-        let mut breakage = Breakage { pieces: [1; 2], surfaces: [0.0; 2] };
+        let mut breakage = Breakage { fragments: [1; 2], surfaces: [0.0; 2] };
         let Some(law) = &self.laws.fragmentation else { return breakage };
         for side in [0, 1] {
             let body = self.bodies[side];
             let Some(surface_energy) = self.matter[side].surface_energy else { continue };
             let energy = self.breaking_energy(law.energy, trial, side);
-            let pieces = fragmentation::pieces(energy, surface_energy, body.radius, body.primaries);
-            breakage.pieces[side] = pieces;
-            breakage.surfaces[side] =
-                law.pieces.surface(pieces, surface_energy, body.radius, body.primaries, self.draws.of(side));
+            let fragments = fragmentation::fragments(energy, surface_energy, body.radius, body.primaries);
+            breakage.fragments[side] = fragments;
+            breakage.surfaces[side] = law.fragments.surface(
+                fragments,
+                surface_energy,
+                body.radius,
+                body.primaries,
+                self.draws.of(side),
+            );
         }
         breakage
     }
@@ -256,7 +261,7 @@ impl<'a> Meeting<'a> {
 
 /// How two partners break.
 pub(super) struct Breakage {
-    pub pieces: [u32; 2],
+    pub fragments: [u32; 2],
     /// Energies of the new surfaces [J].
     pub surfaces: [f64; 2],
 }

@@ -38,14 +38,14 @@ pub enum Purpose {
     Beam = 4,
     /// Random checks in tests and studies.
     Sampling = 5,
-    /// Pieces of agglomerates that break.
+    /// Fragments of agglomerates that break.
     Fragment = 6,
     /// Proposals of optimizers.
     Search = 7,
     /// Seeds of the random starts of an ensemble.
     Start = 8,
-    /// Sizes of the pieces of agglomerates that break.
-    PieceSize = 9,
+    /// Sizes of the fragments of agglomerates that break.
+    FragmentSize = 9,
 }
 
 /// An endless sequence of random numbers that belongs to (seed, purpose, part).

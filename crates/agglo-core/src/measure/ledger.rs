@@ -1,8 +1,8 @@
 //! The ledger: where energy and momentum came from and where they went.
 //!
-//! Stores (kinetic, elastic, bonds, near field) are functions of the state; flows (rays, gravity, fields in; drag,
+//! Stored energies (kinetic, elastic, bonds, near field) are functions of the state; flows (rays, gravity, fields in; drag,
 //! dashpots, friction, broken bonds out) are added up step by step with the weights of the time stepping. What
-//! stores and flows leave unexplained is the drift, a figure that the user sees.
+//! they and flows leave unexplained is the drift, a figure that the user sees.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,9 +10,9 @@ use crate::constants::BOLTZMANN;
 use crate::engine::soft::{Rates, Supplies, Supply};
 use crate::math::Vec3;
 
-/// Energy in the stores [J].
+/// Energy that the grains hold [J].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Stores {
+pub struct StoredEnergy {
     /// Kinetic energy of the centers' motion, added mass included.
     #[serde(rename = "kinetic_J")]
     pub kinetic: f64,
@@ -33,7 +33,7 @@ pub struct Stores {
     pub near_field: f64,
 }
 
-impl Stores {
+impl StoredEnergy {
     /// All together [J].
     pub fn total(&self) -> f64 {
         self.kinetic + self.spin + self.elastic + self.tangential_spring + self.bonds + self.near_field
@@ -52,9 +52,9 @@ pub struct Momentum {
 /// What flowed in or out since the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Flows {
-    /// Rays: energy put in [J], impulse [N s] and its moment.
+    /// Rays: energy put in [J], impulse [N s] and angular impulse [N m s].
     pub rays: Supply,
-    /// Drag, gravity, fields: energy put in [J], impulse [N s] and its moment.
+    /// Drag, gravity, fields: energy put in [J], impulse [N s] and angular impulse [N m s].
     pub supplies: Supplies,
     /// Lost in contact dashpots [J].
     pub damping: f64,
@@ -92,8 +92,8 @@ impl Flows {
 /// The ledger of a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Ledger {
-    /// Stores at the start.
-    pub stores_at_start: Stores,
+    /// Stored energy at the start.
+    pub stored_at_start: StoredEnergy,
     /// Momentum at the start.
     pub momentum_at_start: Momentum,
     /// Flows since the start.
@@ -109,10 +109,10 @@ pub struct Ledger {
 /// The ledger drawn up at one moment.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Balance {
-    /// Stores now.
+    /// Stored energy now.
     #[serde(flatten)]
-    pub stores: Stores,
-    /// Stores at the start, all together [J].
+    pub stored: StoredEnergy,
+    /// Stored energy at the start, all together [J].
     #[serde(rename = "at_start_J")]
     pub at_start: f64,
     /// Work of rays [J].
@@ -149,7 +149,7 @@ pub struct Balance {
 impl Balance {
     /// Whether every entry is a number. Each enters the drift, and none that is not finite can leave it finite.
     pub fn is_finite(&self) -> bool {
-        self.drift.is_finite() && self.stores.total().is_finite()
+        self.drift.is_finite() && self.stored.total().is_finite()
     }
 }
 
@@ -158,9 +158,9 @@ const ROOM_TEMPERATURE: f64 = 300.0;
 
 impl Ledger {
     /// Opens the ledger on a number of grains. Energies below k T for each are rounding, to which no drift is compared.
-    pub fn open(stores: Stores, momentum: Momentum, momentum_size: f64, grains: usize) -> Self {
+    pub fn open(stored: StoredEnergy, momentum: Momentum, momentum_size: f64, grains: usize) -> Self {
         Self {
-            stores_at_start: stores,
+            stored_at_start: stored,
             momentum_at_start: momentum,
             momentum_size_at_start: momentum_size,
             scale: grains as f64 * BOLTZMANN * ROOM_TEMPERATURE,
@@ -171,8 +171,8 @@ impl Ledger {
     /// Takes note of the energies now and returns what of them is not explained, over the most energy so far: the
     /// drift, and losses below zero, which would be gains from nothing. Not a number where the balance has an entry that
     /// is not finite.
-    pub fn note(&mut self, stores: Stores) -> f64 {
-        let balance = self.balance(stores);
+    pub fn note(&mut self, stored: StoredEnergy) -> f64 {
+        let balance = self.balance(stored);
         if !balance.is_finite() {
             return f64::NAN;
         }
@@ -187,7 +187,7 @@ impl Ledger {
     /// Energy [J] that was there or came in and is explained. What a wrong step makes shows in the drift, and does not
     /// count: neither motion that came from nothing nor the drag that it then has.
     fn explained(&self, balance: &Balance) -> f64 {
-        let first = &self.stores_at_start;
+        let first = &self.stored_at_start;
         let at_start = first.kinetic
             + first.spin
             + first.elastic
@@ -198,22 +198,22 @@ impl Ledger {
             + balance.gravity.abs()
             + balance.fields.abs()
             + balance.drag.abs()
-            + balance.stores.near_field.abs();
+            + balance.stored.near_field.abs();
         at_start.max(at_start + since - balance.drift.abs())
     }
 
     /// Draws up the balance of energy.
-    pub fn balance(&self, stores: Stores) -> Balance {
+    pub fn balance(&self, stored: StoredEnergy) -> Balance {
         let flows = &self.flows;
-        let at_start = self.stores_at_start.total();
+        let at_start = self.stored_at_start.total();
         // What tangential forces took is either in springs still or lost.
-        let friction = flows.tangential - (stores.tangential_spring - self.stores_at_start.tangential_spring);
+        let friction = flows.tangential - (stored.tangential_spring - self.stored_at_start.tangential_spring);
         let drag = 0.0 - flows.supplies.drag.power;
         let (gravity, fields) = (flows.supplies.gravity.power, flows.supplies.field.power);
         let lost = drag + flows.damping + friction + flows.bond_damping + flows.broken_bonds;
-        let drift = stores.total() - at_start - (flows.rays.power + gravity + fields - lost);
+        let drift = stored.total() - at_start - (flows.rays.power + gravity + fields - lost);
         let mut balance = Balance {
-            stores,
+            stored,
             at_start,
             rays: flows.rays.power,
             gravity,
@@ -238,7 +238,7 @@ impl Ledger {
         let impulse = self.flows.impulse();
         Momentum {
             linear: momentum.linear - self.momentum_at_start.linear - impulse.force,
-            angular: momentum.angular - self.momentum_at_start.angular - impulse.moment,
+            angular: momentum.angular - self.momentum_at_start.angular - impulse.torque,
         }
     }
 
@@ -255,67 +255,71 @@ impl Ledger {
 mod tests {
     use super::*;
 
-    fn ledger(kinetic: f64) -> Ledger {
-        Ledger::open(Stores { kinetic, ..Stores::default() }, Momentum::default(), 0.0, 2)
+    fn opened(kinetic: f64) -> Ledger {
+        Ledger::open(StoredEnergy { kinetic, ..StoredEnergy::default() }, Momentum::default(), 0.0, 2)
     }
 
     /// 1 J at the start. Motion of 1000 J out of nothing, and drag of another 1000 J that it had: 2000 times all
-    /// energy, whichever store or flow it hides in.
+    /// energy, whichever entry it hides in.
     #[test]
     fn an_error_does_not_grow_its_own_scale() {
-        let mut books = ledger(1.0);
-        books.flows.supplies.drag.power = -1000.0;
-        let exploded = Stores { kinetic: 1001.0, ..Stores::default() };
-        assert_eq!(books.balance(exploded).drift_relative, 2000.0);
-        assert_eq!(books.note(exploded), 2000.0);
-        let mut books = ledger(1.0);
-        assert_eq!(books.note(Stores { kinetic: 1.0, near_field: -500.0, ..Stores::default() }), 500.0);
-        assert_eq!(books.worst, 500.0);
+        let mut ledger = opened(1.0);
+        ledger.flows.supplies.drag.power = -1000.0;
+        let exploded = StoredEnergy { kinetic: 1001.0, ..StoredEnergy::default() };
+        assert_eq!(ledger.balance(exploded).drift_relative, 2000.0);
+        assert_eq!(ledger.note(exploded), 2000.0);
+        let mut ledger = opened(1.0);
+        assert_eq!(
+            ledger.note(StoredEnergy { kinetic: 1.0, near_field: -500.0, ..StoredEnergy::default() }),
+            500.0
+        );
+        assert_eq!(ledger.worst, 500.0);
     }
 
     /// Energy that came in and is explained counts, also when it has gone again.
     #[test]
     fn the_scale_is_the_most_energy_so_far() {
-        let mut books = ledger(0.0);
-        books.flows.supplies.gravity.power = 8.0;
-        assert_eq!(books.note(Stores { kinetic: 8.0, ..Stores::default() }), 0.0);
-        books.flows.supplies.gravity.power = 0.0;
-        assert_eq!(books.note(Stores { kinetic: 0.04, ..Stores::default() }), 0.005);
+        let mut ledger = opened(0.0);
+        ledger.flows.supplies.gravity.power = 8.0;
+        assert_eq!(ledger.note(StoredEnergy { kinetic: 8.0, ..StoredEnergy::default() }), 0.0);
+        ledger.flows.supplies.gravity.power = 0.0;
+        assert_eq!(ledger.note(StoredEnergy { kinetic: 0.04, ..StoredEnergy::default() }), 0.005);
     }
 
     /// A dashpot that gives is as wrong as motion from nothing: 2 J of 4 J, though the sums agree.
     #[test]
     fn losses_below_zero_are_gains_from_nothing() {
-        let mut books = ledger(4.0);
-        books.flows.damping = -2.0;
-        assert_eq!(books.note(Stores { kinetic: 6.0, ..Stores::default() }), 0.5);
+        let mut ledger = opened(4.0);
+        ledger.flows.damping = -2.0;
+        assert_eq!(ledger.note(StoredEnergy { kinetic: 6.0, ..StoredEnergy::default() }), 0.5);
     }
 
     /// Whichever entry is spoiled: the balance is not finite, and neither is what is noted of it.
     #[test]
     fn what_is_not_finite_is_never_perfect() {
-        type Spoil = fn(&mut Ledger, &mut Stores, f64);
+        type Spoil = fn(&mut Ledger, &mut StoredEnergy, f64);
         let entries: [Spoil; 13] = [
-            |_, stores, bad| stores.kinetic = bad,
-            |_, stores, bad| stores.spin = bad,
-            |_, stores, bad| stores.elastic = bad,
-            |_, stores, bad| stores.tangential_spring = bad,
-            |_, stores, bad| stores.bonds = bad,
-            |_, stores, bad| stores.near_field = bad,
-            |books, _, bad| books.flows.rays.power = bad,
-            |books, _, bad| books.flows.supplies.gravity.power = bad,
-            |books, _, bad| books.flows.supplies.drag.power = bad,
-            |books, _, bad| books.flows.supplies.field.power = bad,
-            |books, _, bad| books.flows.damping = bad,
-            |books, _, bad| books.flows.tangential = bad,
-            |books, _, bad| books.flows.broken_bonds = bad,
+            |_, stored, bad| stored.kinetic = bad,
+            |_, stored, bad| stored.spin = bad,
+            |_, stored, bad| stored.elastic = bad,
+            |_, stored, bad| stored.tangential_spring = bad,
+            |_, stored, bad| stored.bonds = bad,
+            |_, stored, bad| stored.near_field = bad,
+            |ledger, _, bad| ledger.flows.rays.power = bad,
+            |ledger, _, bad| ledger.flows.supplies.gravity.power = bad,
+            |ledger, _, bad| ledger.flows.supplies.drag.power = bad,
+            |ledger, _, bad| ledger.flows.supplies.field.power = bad,
+            |ledger, _, bad| ledger.flows.damping = bad,
+            |ledger, _, bad| ledger.flows.tangential = bad,
+            |ledger, _, bad| ledger.flows.broken_bonds = bad,
         ];
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             for (entry, spoil) in entries.iter().enumerate() {
-                let (mut books, mut stores) = (ledger(1.0), Stores { kinetic: 1.0, ..Stores::default() });
-                spoil(&mut books, &mut stores, bad);
-                assert!(!books.balance(stores).is_finite(), "entry {entry}, {bad}");
-                assert!(books.note(stores).is_nan(), "entry {entry}, {bad}");
+                let (mut ledger, mut stored) =
+                    (opened(1.0), StoredEnergy { kinetic: 1.0, ..StoredEnergy::default() });
+                spoil(&mut ledger, &mut stored, bad);
+                assert!(!ledger.balance(stored).is_finite(), "entry {entry}, {bad}");
+                assert!(ledger.note(stored).is_nan(), "entry {entry}, {bad}");
             }
         }
     }
@@ -323,8 +327,8 @@ mod tests {
     /// Rounding of a system at rest is far below k T for each grain.
     #[test]
     fn rest_is_no_alarm() {
-        let mut books = ledger(0.0);
-        assert_eq!(books.note(Stores::default()), 0.0);
-        assert_below!(books.note(Stores { elastic: 1e-29, ..Stores::default() }), 1e-8);
+        let mut ledger = opened(0.0);
+        assert_eq!(ledger.note(StoredEnergy::default()), 0.0);
+        assert_below!(ledger.note(StoredEnergy { elastic: 1e-29, ..StoredEnergy::default() }), 1e-8);
     }
 }

@@ -12,7 +12,7 @@ mod size_rates;
 
 pub use biot::biot_number;
 pub use clusters::{Clusters, Joiner};
-pub use ledger::{Balance, Flows, Ledger, Momentum, Stores};
+pub use ledger::{Balance, Flows, Ledger, Momentum, StoredEnergy};
 pub use moments::{Moments, moment_about, moments};
 pub use nearest::mean_nearest_distance;
 pub use pairs::close_pairs;

@@ -13,7 +13,7 @@ const MOST: f64 = ((1_u32 << BITS) - 3) as f64;
 /// found or not by round-off; see [`crate::contact::closeness::TOUCHING`].
 ///
 /// `positions` [n] and `radii` [n] in m. The order of the calls depends on the positions alone. Grains are sorted by
-/// the cell they are in, so that memory is in proportion to n however far the cloud has spread; a cell is as wide as
+/// the cell they are in, so that memory is in proportion to n however far the grains have spread; a cell is as wide as
 /// the largest grain's reach, so that very different sizes make this slow.
 pub fn close_pairs(positions: &[Vec3], radii: &[f64], gap: f64, found: &mut impl FnMut(u32, u32)) {
     let largest = radii.iter().copied().fold(0.0, f64::max);
@@ -29,7 +29,7 @@ pub fn close_pairs(positions: &[Vec3], radii: &[f64], gap: f64, found: &mut impl
             found(i, j);
         }
     };
-    // Rows of cells that follow in the order: each pair of cells is met once. The starts move on with the cell.
+    // Rows of cells that follow in the order: each pair of cells comes once. The starts move on with the cell.
     let rows = [(1, 0), (-1, 1), (0, 1), (1, 1)].map(|(y, z): (i64, i64)| (z << (2 * BITS)) + (y << BITS));
     let mut starts = [0; 4];
     for (at, &(cell, a)) in cells.iter().enumerate() {
@@ -89,7 +89,7 @@ mod tests {
         pairs
     }
 
-    /// Against all pairs, for clouds in one, two and three dimensions, dense ones and widely spread ones.
+    /// Against all pairs, for grains in one, two and three dimensions, dense ones and widely spread ones.
     #[test]
     fn agrees_with_brute_force() {
         let mut stream = Stream::new(4, Purpose::Sampling, 0);

@@ -2,10 +2,10 @@
 //!
 //! # Equation
 //! ```text
-//! impacts of classes a and b in V and dt:  K_ab P_ab/V dt,  P_ab = N_a N_b (a != b) or N_a (N_a - 1)/2 (a = b)
+//! collisions of classes a and b in V and dt:  K_ab P_ab/V dt,  P_ab = N_a N_b (a != b) or N_a (N_a - 1)/2 (a = b)
 //! exposure  X_ab = integral of P_ab/V dt
-//! K_ab = impacts_ab/X_ab,   A_ab = merges_ab/X_ab,   B_ab = breaking impacts_ab/X_ab
-//! sticking probability = merges_ab/impacts_ab,   S_a = breakages_a/integral of N_a dt
+//! K_ab = collisions_ab/X_ab,   A_ab = merges_ab/X_ab,   B_ab = breaking collisions_ab/X_ab
+//! sticking probability = merges_ab/collisions_ab,   S_a = breakages_a/integral of N_a dt
 //! ```
 //!
 //! # Source
@@ -17,11 +17,11 @@
 //! | symbol | name in code                | unit  | meaning                                                   |
 //! |--------|-----------------------------|-------|-----------------------------------------------------------|
 //! | N_a    | `population`                | 1     | grains of class a: 2^a to 2^(a+1) - 1 primaries            |
-//! | P_ab   | `pairs`                     | 1     | pairs that could meet                                     |
+//! | P_ab   | `pairs`                     | 1     | pairs that could collide                                     |
 //! | X_ab   | `exposure`                  | s/m³  |                                                           |
 //! | K_ab   | `collision_kernel`          | m³/s  |                                                           |
 //! | A_ab   | `aggregation_kernel`        | m³/s  |                                                           |
-//! | B_ab   | `breaking_kernel`           | m³/s  | of impacts that break one partner or both                  |
+//! | B_ab   | `breaking_kernel`           | m³/s  | of collisions that break one partner or both                  |
 //! | S_a    | `breakage_rate`             | 1/s   | breakages of a grain of class a in unit time               |
 //!
 //! # Valid when
@@ -41,7 +41,7 @@
 //! let rows = rates.kernel_rows(5.0);
 //! // Three pairs for 4 s in 2 m³ came to one merge; then a single and a double are left for 1 s.
 //! assert_eq!(rows[0].aggregation_kernel, Some(1.0 / (3.0 * 4.0 / 2.0)));
-//! assert_eq!((rows[1].exposure, rows[1].impacts), (1.0 / 2.0, 0));
+//! assert_eq!((rows[1].exposure, rows[1].collisions), (1.0 / 2.0, 0));
 //! ```
 
 use serde::{Deserialize, Serialize};
@@ -52,7 +52,7 @@ use crate::engine::validate::{Fault, MOST_COUNTED, ensure, finite, length};
 /// Numbers of primaries have 32 binary digits.
 const MOST_CLASSES: usize = 32;
 
-/// Collisions, merges and pieces by classes of primary grains: class k has 2^k to 2^(k+1) - 1 of them.
+/// Collisions, merges and fragments by classes of primary grains: class k has 2^k to 2^(k+1) - 1 of them.
 ///
 /// Times must not go back. Nothing is allocated but where a class larger than all before appears.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -80,7 +80,7 @@ struct Population {
 /// What happened between two classes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Pair {
-    impacts: u64,
+    collisions: u64,
     merges: u64,
     breaking: u64,
     /// Integral of the number of pairs over time up to `updated_at` [s].
@@ -88,10 +88,10 @@ struct Pair {
     updated_at: f64,
 }
 
-/// Pieces of one class from parents of another.
+/// Fragments of one class from parents of another.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Daughters {
-    pieces: u64,
+    fragments: u64,
     primaries: u64,
 }
 
@@ -113,8 +113,8 @@ impl SizeRates {
         length("sizes: daughters", self.daughters.len(), n * (n + 1) / 2)?;
         finite("sizes", self)?;
         let small = |counts: &[u64]| counts.iter().all(|count| *count < MOST_COUNTED);
-        let counted = self.pairs.iter().all(|pair| small(&[pair.impacts, pair.merges, pair.breaking]))
-            && self.daughters.iter().all(|daughters| small(&[daughters.pieces, daughters.primaries]))
+        let counted = self.pairs.iter().all(|pair| small(&[pair.collisions, pair.merges, pair.breaking]))
+            && self.daughters.iter().all(|daughters| small(&[daughters.fragments, daughters.primaries]))
             && self.populations.iter().all(|one| small(&[one.breakages, one.broken]));
         ensure(counted && self.volume > 0.0, || "sizes: a count is too large".to_owned())?;
         let mut grains = vec![0_u64; n];
@@ -138,18 +138,18 @@ impl SizeRates {
         rates
     }
 
-    /// Counts an impact of two grains of these numbers of primaries, and whether they stuck.
+    /// Counts a collision of two grains of these numbers of primaries, and whether they stuck.
     #[inline]
     pub fn collide(&mut self, primaries: [u32; 2], sticks: bool) {
         let pair = self.pair(primaries);
-        pair.impacts += 1;
+        pair.collisions += 1;
         pair.merges += u64::from(sticks);
     }
 
-    /// Counts an impact that broke one partner or both.
+    /// Counts a collision that broke one partner or both.
     pub fn collide_and_break(&mut self, primaries: [u32; 2]) {
         let pair = self.pair(primaries);
-        pair.impacts += 1;
+        pair.collisions += 1;
         pair.breaking += 1;
     }
 
@@ -172,17 +172,17 @@ impl SizeRates {
         }
     }
 
-    /// A grain becomes pieces at `time` [s].
-    pub fn shatter(&mut self, parent: u32, pieces: &[u32], time: f64) {
+    /// A grain becomes fragments at `time` [s].
+    pub fn shatter(&mut self, parent: u32, fragments: &[u32], time: f64) {
         let class = class_of(parent);
         self.leave(class, time);
         self.populations[class].breakages += 1;
         self.populations[class].broken += u64::from(parent);
-        for &primaries in pieces {
-            let piece = class_of(primaries);
-            self.enter(piece, time);
-            let daughters = &mut self.daughters[place(class, piece)];
-            daughters.pieces += 1;
+        for &primaries in fragments {
+            let fragment = class_of(primaries);
+            self.enter(fragment, time);
+            let daughters = &mut self.daughters[place(class, fragment)];
+            daughters.fragments += 1;
             daughters.primaries += u64::from(primaries);
         }
     }
@@ -239,13 +239,13 @@ impl SizeRates {
         self.populations.iter().map(|population| population.grains)
     }
 
-    /// Kernels up to `time` [s], for every pair of classes that could meet or did, the larger class first. Nothing is
+    /// Kernels up to `time` [s], for every pair of classes that could collide or did, the larger class first. Nothing is
     /// changed.
     pub fn kernel_rows(&self, time: f64) -> Vec<KernelRow> {
         let classes = self.populations.len();
         let all = (0..classes).flat_map(|a| (0..=a).map(move |b| (a, b)));
         all.map(|(a, b)| self.kernel_row(a, b, time))
-            .filter(|row| row.exposure > 0.0 || row.impacts > 0)
+            .filter(|row| row.exposure > 0.0 || row.collisions > 0)
             .collect()
     }
 
@@ -256,14 +256,14 @@ impl SizeRates {
         KernelRow {
             a: SizeClass::bounds(a),
             b: SizeClass::bounds(b),
-            impacts: pair.impacts,
+            collisions: pair.collisions,
             merges: pair.merges,
             breaking: pair.breaking,
             exposure,
-            collision_kernel: kernel(pair.impacts),
+            collision_kernel: kernel(pair.collisions),
             aggregation_kernel: kernel(pair.merges),
             breaking_kernel: kernel(pair.breaking),
-            sticking_probability: (pair.impacts > 0).then(|| pair.merges as f64 / pair.impacts as f64),
+            sticking_probability: (pair.collisions > 0).then(|| pair.merges as f64 / pair.collisions as f64),
         }
     }
 
@@ -290,13 +290,13 @@ impl SizeRates {
         let all = (0..classes).flat_map(|parent| (0..=parent).map(move |daughter| (parent, daughter)));
         all.filter_map(|(parent, daughter)| {
             let (found, parents) = (self.daughters[place(parent, daughter)], &self.populations[parent]);
-            (found.pieces > 0).then(|| DaughterRow {
+            (found.fragments > 0).then(|| DaughterRow {
                 parent: SizeClass::bounds(parent),
                 daughter: SizeClass::bounds(daughter),
                 breakages: parents.breakages,
-                pieces: found.pieces,
+                fragments: found.fragments,
                 primaries: found.primaries,
-                pieces_per_breakage: found.pieces as f64 / parents.breakages as f64,
+                fragments_per_breakage: found.fragments as f64 / parents.breakages as f64,
                 mass_fraction: found.primaries as f64 / parents.broken as f64,
             })
         })
@@ -312,20 +312,20 @@ pub struct KernelRow {
     /// Fewest and most primaries of the smaller class.
     pub b: [u32; 2],
     /// Impacts.
-    pub impacts: u64,
+    pub collisions: u64,
     /// Impacts after which the two were one.
     pub merges: u64,
     /// Impacts that broke one or both.
     pub breaking: u64,
     /// Integral over time of the number of pairs, over the volume [s/m³].
     pub exposure: f64,
-    /// K: impacts over exposure [m³/s].
+    /// K: collisions over exposure [m³/s].
     pub collision_kernel: Option<f64>,
     /// Merges over exposure [m³/s].
     pub aggregation_kernel: Option<f64>,
-    /// Breaking impacts over exposure [m³/s].
+    /// Breaking collisions over exposure [m³/s].
     pub breaking_kernel: Option<f64>,
-    /// Merges over impacts.
+    /// Merges over collisions.
     pub sticking_probability: Option<f64>,
 }
 
@@ -336,9 +336,9 @@ impl KernelRow {
         "a_upper_primaries",
         "b_lower_primaries",
         "b_upper_primaries",
-        "impacts",
+        "collisions",
         "merges",
-        "breaking_impacts",
+        "breaking_collisions",
         "exposure_s_m3",
         "collision_kernel_m3_s",
         "aggregation_kernel_m3_s",
@@ -354,7 +354,7 @@ impl KernelRow {
             f64::from(self.a[1]),
             f64::from(self.b[0]),
             f64::from(self.b[1]),
-            self.impacts as f64,
+            self.collisions as f64,
             self.merges as f64,
             self.breaking as f64,
             self.exposure,
@@ -408,12 +408,12 @@ pub struct DaughterRow {
     pub daughter: [u32; 2],
     /// Parents of the class that broke, whatever into.
     pub breakages: u64,
-    /// Pieces.
-    pub pieces: u64,
+    /// Fragments.
+    pub fragments: u64,
     /// Primaries in them.
     pub primaries: u64,
-    /// Pieces over breakages.
-    pub pieces_per_breakage: f64,
+    /// Fragments over breakages.
+    pub fragments_per_breakage: f64,
     /// Primaries in them over those in all parents of the class that broke.
     pub mass_fraction: f64,
 }
@@ -426,9 +426,9 @@ impl DaughterRow {
         "daughter_lower_primaries",
         "daughter_upper_primaries",
         "breakages",
-        "pieces",
+        "fragments",
         "primaries",
-        "pieces_per_breakage",
+        "fragments_per_breakage",
         "mass_fraction",
     ];
 
@@ -440,9 +440,9 @@ impl DaughterRow {
             f64::from(self.daughter[0]),
             f64::from(self.daughter[1]),
             self.breakages as f64,
-            self.pieces as f64,
+            self.fragments as f64,
             self.primaries as f64,
-            self.pieces_per_breakage,
+            self.fragments_per_breakage,
             self.mass_fraction,
         ]
     }

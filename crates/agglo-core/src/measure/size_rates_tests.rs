@@ -20,9 +20,9 @@ fn constant_populations() {
     assert_eq!(row(&rates, 1, 1, 6.0).collision_kernel, Some(9.0 / (45.0 * 6.0 / 3.0)));
     assert_eq!(row(&rates, 4, 1, 6.0).collision_kernel, Some(2.0 / (40.0 * 6.0 / 3.0)));
     let large = row(&rates, 4, 4, 6.0);
-    assert_eq!((large.exposure, large.impacts, large.sticking_probability), (6.0 * 6.0 / 3.0, 0, None));
+    assert_eq!((large.exposure, large.collisions, large.sticking_probability), (6.0 * 6.0 / 3.0, 0, None));
     assert_eq!(large.b, [4, 7]);
-    // Class 1 (2 or 3 primaries) is empty: none of its pairs could meet.
+    // Class 1 (2 or 3 primaries) is empty: none of its pairs could collide.
     assert_eq!(rates.kernel_rows(6.0).len(), 3);
 }
 
@@ -42,9 +42,9 @@ fn merges_by_hand() {
     // One of class 1 beside 2 singles for 2 s, beside 1 for 1 s.
     assert_eq!(row(&rates, 2, 1, 9.0).exposure, 4.0 + 1.0);
     assert_eq!(row(&rates, 2, 1, 9.0).aggregation_kernel, Some(2.0 / 5.0));
-    // An impact that could not be is counted, and no kernel made of it.
+    // A collision that could not be is counted, and no kernel made of it.
     let impossible = row(&rates, 4, 4, 9.0);
-    assert_eq!((impossible.impacts, impossible.exposure, impossible.collision_kernel), (1, 0.0, None));
+    assert_eq!((impossible.collisions, impossible.exposure, impossible.collision_kernel), (1, 0.0, None));
     assert_eq!(rates.kernel_rows(9.0).len(), 3);
     let times: Vec<f64> = rates.breakage_rows(9.0).iter().map(|row| row.grain_time).collect();
     assert_eq!(times, [4.0 + 2.0 * 2.0 + 1.0, 3.0, 5.0]);
@@ -52,7 +52,7 @@ fn merges_by_hand() {
 
 /// Sixteen become 8 + 7 + 1 at 2 s, then 12 become 6 + 6 at 4 s; read at 8 s.
 #[test]
-fn pieces_by_hand() {
+fn fragments_by_hand() {
     let mut rates = SizeRates::new([16, 12].into_iter(), 1.0);
     rates.collide_and_break([16, 12]);
     rates.shatter(16, &[8, 7, 1], 2.0);
@@ -61,7 +61,7 @@ fn pieces_by_hand() {
     rates.shatter(12, &[6, 6], 4.0);
     let rows = rates.daughter_rows();
     let found: Vec<_> =
-        rows.iter().map(|row| (row.parent, row.daughter, row.pieces, row.primaries)).collect();
+        rows.iter().map(|row| (row.parent, row.daughter, row.fragments, row.primaries)).collect();
     let expected = [
         ([8, 15], [4, 7], 2, 12),
         ([16, 31], [1, 1], 1, 1),
@@ -69,11 +69,11 @@ fn pieces_by_hand() {
         ([16, 31], [8, 15], 1, 8),
     ];
     assert_eq!(found, expected);
-    assert_eq!((rows[0].pieces_per_breakage, rows[0].mass_fraction), (2.0, 1.0));
+    assert_eq!((rows[0].fragments_per_breakage, rows[0].mass_fraction), (2.0, 1.0));
     assert_eq!(rows[1..].iter().map(|row| row.mass_fraction).sum::<f64>(), 1.0);
     // Class 3: one (12) for 2 s, two for 2 s (1 pair), then one (8).
     let large = row(&rates, 8, 8, 8.0);
-    assert_eq!((large.exposure, large.impacts, large.breaking), (2.0, 2, 1));
+    assert_eq!((large.exposure, large.collisions, large.breaking), (2.0, 2, 1));
     assert_eq!(large.breaking_kernel, Some(0.5));
     // The largest class: one beside one of class 3 for 2 s.
     assert_eq!(row(&rates, 16, 8, 8.0).exposure, 2.0);
@@ -83,7 +83,7 @@ fn pieces_by_hand() {
     assert_eq!(large.breakage_rate, Some(0.1));
 }
 
-/// Singles that all meet with one kernel, at times drawn from the exact law.
+/// Singles that all collide with one kernel, at times drawn from the exact law.
 struct Smoluchowski {
     rates: SizeRates,
     sizes: Vec<u32>,
@@ -178,7 +178,7 @@ fn columns_and_values_are_as_many() {
     assert_eq!(rates.kernel_rows(2.0)[0].values().len(), KernelRow::COLUMNS.len());
     assert_eq!(rates.breakage_rows(2.0)[0].values().len(), BreakageRow::COLUMNS.len());
     assert_eq!(rates.daughter_rows()[0].values().len(), DaughterRow::COLUMNS.len());
-    // Two singles for 1 s met never: no probability.
+    // Two singles for 1 s never collided: no probability.
     assert_nan!(rates.kernel_rows(2.0)[0].values()[11]);
 }
 
@@ -188,7 +188,7 @@ fn values_stand_under_their_columns() {
     let kernel = KernelRow {
         a: [4, 7],
         b: [2, 3],
-        impacts: 101,
+        collisions: 101,
         merges: 102,
         breaking: 103,
         exposure: 104.5,
@@ -202,9 +202,9 @@ fn values_stand_under_their_columns() {
         ("a_upper_primaries", 7.0),
         ("b_lower_primaries", 2.0),
         ("b_upper_primaries", 3.0),
-        ("impacts", 101.0),
+        ("collisions", 101.0),
         ("merges", 102.0),
-        ("breaking_impacts", 103.0),
+        ("breaking_collisions", 103.0),
         ("exposure_s_m3", 104.5),
         ("collision_kernel_m3_s", 105.5),
         ("aggregation_kernel_m3_s", 106.5),
@@ -227,9 +227,9 @@ fn values_stand_under_their_columns() {
         parent: [8, 15],
         daughter: [4, 7],
         breakages: 9,
-        pieces: 20,
+        fragments: 20,
         primaries: 100,
-        pieces_per_breakage: 2.5,
+        fragments_per_breakage: 2.5,
         mass_fraction: 0.625,
     };
     let wanted = [
@@ -238,9 +238,9 @@ fn values_stand_under_their_columns() {
         ("daughter_lower_primaries", 4.0),
         ("daughter_upper_primaries", 7.0),
         ("breakages", 9.0),
-        ("pieces", 20.0),
+        ("fragments", 20.0),
         ("primaries", 100.0),
-        ("pieces_per_breakage", 2.5),
+        ("fragments_per_breakage", 2.5),
         ("mass_fraction", 0.625),
     ];
     assert_columns("daughters.csv", DaughterRow::COLUMNS, &daughter.values(), &wanted);

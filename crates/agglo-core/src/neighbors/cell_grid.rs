@@ -1,8 +1,8 @@
 //! Spheres sorted into cells, one grid per octave of size.
 //!
 //! Each octave of radius has its own cells, as wide as the reach of two of its largest spheres, so that spheres
-//! of very different size do not crowd one another's cells. A cloud that is spread so far that its cells would
-//! outnumber its spheres is hashed: memory stays in proportion to the number of spheres.
+//! of very different size do not crowd one another's cells. Spheres that are spread so far that their cells would
+//! outnumber them are hashed: memory stays in proportion to the number of spheres.
 
 use crate::math::Vec3;
 

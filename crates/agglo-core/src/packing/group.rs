@@ -15,7 +15,7 @@ use crate::units::{Charge, Frequency, Quantity, Temperature, Triple, Velocity};
 pub struct Groups<'a> {
     /// The groups.
     pub groups: &'a [GrainGroup],
-    /// Materials by name; a grain's number of its material is the place in this map.
+    /// Materials by name; a grain's number of its material is the index in this map.
     pub materials: &'a BTreeMap<String, Material>,
     /// Seed of all random numbers.
     pub seed: u64,

@@ -38,8 +38,8 @@ fn list(positions: &[[f64; 3]]) -> Placement {
     Placement::List(GrainList { positions, velocities: vec![] })
 }
 
-/// All overlaps [m] above zero with the names of their pairs, over 27 images of every grain where there are images; a
-/// grain meets its own images too.
+/// All overlaps [m] above zero with the ids of their pairs, over 27 images of every grain where there are images; a
+/// grain has its own images too.
 fn overlaps(grains: &Particles, images: Option<&Volume>) -> Vec<Overlap> {
     let edges = images.map_or(Vec3::ZERO, Volume::edges);
     let steps: &[f64] = if images.is_some() { &[-1.0, 0.0, 1.0] } else { &[0.0] };
@@ -144,7 +144,7 @@ fn volumes_that_are_only_just_wide_enough() {
     assert_eq!(overlaps(&grains, Some(&long)), []);
 }
 
-/// A grain in the corner of the volume is met by others at all eight corners, whether they fill the volume or a region.
+/// A grain in the corner of the volume is near others at all eight corners, whether they fill the volume or a region.
 #[test]
 fn later_groups_keep_clear_of_images() {
     for boundary in [Boundary::Periodic, Boundary::Antipodal] {
@@ -266,7 +266,7 @@ fn rows_with_velocities_and_temperatures_of_their_own_keep_them() {
 }
 
 /// Clouds with few overlaps, of radii over a decade, in boxes from two to many diameters wide: the pair with the smallest
-/// names, and its overlap to round-off, whatever the order of the grains in memory.
+/// ids, and its overlap to round-off, whatever the order of the grains in memory.
 #[test]
 fn first_overlap_agrees_with_brute_force() {
     let mut stream = Stream::new(3, Purpose::Sampling, 0);

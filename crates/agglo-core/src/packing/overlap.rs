@@ -15,13 +15,13 @@ const LEAF: usize = 4096;
 /// Two grains that overlap.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Overlap {
-    /// Their names, the smaller one first; twice the same where a grain overlaps its own image.
+    /// Their ids, the smaller one first; twice the same where a grain overlaps its own image.
     pub ids: [u32; 2],
     /// How far they overlap [m].
     pub overlap: f64,
 }
 
-/// The overlapping pair with the smallest names, if there is one; across the faces too where a volume is periodic.
+/// The overlapping pair with the smallest ids, if there is one; across the faces too where a volume is periodic.
 ///
 /// Centers must then lie in the volume or on its faces. Less than 1e-9 of the sum of the radii is no overlap.
 ///
@@ -67,7 +67,7 @@ pub(super) fn first_outside(grains: &Particles, volume: &Volume, may_reach_in: b
 }
 
 fn first_of(a: Option<Overlap>, b: Option<Overlap>) -> Option<Overlap> {
-    // The larger overlap where a pair meets its images twice, so that order does not matter.
+    // The larger overlap where a pair has its images twice, so that order does not matter.
     let before = |a: &Overlap, b: &Overlap| a.ids < b.ids || (a.ids == b.ids && a.overlap >= b.overlap);
     match (a, b) {
         (Some(a), Some(b)) => Some(if before(&a, &b) { a } else { b }),
@@ -75,7 +75,7 @@ fn first_of(a: Option<Overlap>, b: Option<Overlap>) -> Option<Overlap> {
     }
 }
 
-/// Grains, and images of those that others may meet across a face.
+/// Grains, and images of those that others may touch across a face.
 struct Crowd {
     ids: Vec<u32>,
     positions: Vec<Vec3>,
@@ -106,7 +106,7 @@ impl Crowd {
         self.radii.push(self.radii[of]);
     }
 
-    /// The overlap with the smallest names among the pairs that the grid gives to this sphere.
+    /// The overlap with the smallest ids among the pairs that the grid gives to this sphere.
     fn first_partner(&self, grid: &CellGrid, sphere: u32) -> Option<Overlap> {
         let mut first = None;
         let (at, radius) = (self.positions[sphere as usize], self.radii[sphere as usize]);

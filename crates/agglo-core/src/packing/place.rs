@@ -14,8 +14,8 @@ use crate::math::rng::{Purpose, Stream};
 use crate::particles::{Material, Particles, Row};
 use crate::units::vector;
 
-/// Places all groups in their order; grains get the names 0, 1, 2 ... in the order in which they are
-/// placed, and a material's number is its place in the map of materials. Random grains keep clear of the grains of
+/// Places all groups in their order; grains get the ids 0, 1, 2 ... in the order in which they are
+/// placed, and a material's number is its index in the map of materials. Random grains keep clear of the grains of
 /// earlier groups; lattices, tables and lists are taken as they are. `read` gives the rows of a table.
 ///
 /// Hard spheres that overlap, or that lie outside a control volume with faces, are refused.
@@ -207,7 +207,7 @@ fn bring_inside(
 ) -> Result<(), PackingError> {
     let Some(volume) = volume else { return Ok(()) };
     if may_leave && volume.boundary == Boundary::Antipodal {
-        // A step leaves grains outside, on their way in; from impact to impact none are.
+        // A step leaves grains outside, on their way in; from event to event none are.
         return Ok(());
     }
     if let Some(at) = first_outside(grains, volume, may_reach_in) {

@@ -2,7 +2,7 @@
 //!
 //! A place is drawn uniformly from all places where the grain would lie wholly inside the region; if it is too near
 //! to a grain that is there already, another place is drawn. Grains never move. Where sizes differ, the larger
-//! grains go first (small ones would leave them no room), so names run from large to small within a group.
+//! grains go first (small ones would leave them no room), so ids run from large to small within a group.
 //!
 //! Where space repeats itself beyond the control volume, centers are drawn from the whole volume, and images are kept
 //! clear of like the grains themselves.

@@ -25,7 +25,7 @@ pub enum OnMerge {
 pub struct Column {
     /// Name in files and in Python.
     pub name: &'static str,
-    /// SI unit; empty for numbers and names.
+    /// SI unit; empty for numbers and ids.
     pub unit: &'static str,
     /// What becomes of it when two grains merge.
     pub on_merge: OnMerge,
@@ -133,7 +133,7 @@ macro_rules! columns {
 }
 
 columns! {
-    /// Stable name of the grain [n].
+    /// Id of the grain, which never changes [n].
     id: u32, "", Larger;
     /// Center [n, 3] [m].
     position: Vec3, "m", MassMean;

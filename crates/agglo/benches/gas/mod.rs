@@ -41,7 +41,7 @@ pub fn start(spheres: u32, solid_fraction: f64) -> Simulation {
 
 /// Impacts so far.
 pub fn impacts(simulation: &Simulation) -> u64 {
-    simulation.cloud().state.counts.impacts
+    simulation.system().state.counts.collisions
 }
 
 /// Goes on for at least this many impacts, and some thousand events more.

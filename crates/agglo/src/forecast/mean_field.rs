@@ -172,8 +172,8 @@ impl<'a> MeanField<'a> {
             let half = Vec3::new(0.5 * approach, now.deviation, 0.0);
             let bodies = [half, Vec3::ZERO - half].map(|velocity| Body { velocity, ..body });
             let found = self.laws.impact([&bodies[0], &bodies[1]], Vec3::AXES[0]);
-            let pieces: u32 = found.pieces.iter().sum();
-            means.more += f64::from(pieces) - 2.0 - f64::from(u8::from(found.sticks));
+            let fragments: u32 = found.fragments.iter().sum();
+            means.more += f64::from(fragments) - 2.0 - f64::from(u8::from(found.sticks));
             means.lost += found.energy.normal + found.energy.tangential;
             means.temperature += 0.5 * (found.temperatures[0] + found.temperatures[1]);
         }

@@ -73,8 +73,8 @@ pub fn relative_velocity(simulation: &Simulation) -> Vec3 {
 
 /// Kinetic energy of motion and spin [J].
 pub fn kinetic(simulation: &Simulation) -> f64 {
-    let stores = simulation.stores();
-    stores.kinetic + stores.spin
+    let stored = simulation.stored_energy();
+    stored.kinetic + stored.spin
 }
 
 /// The whole state as bytes.

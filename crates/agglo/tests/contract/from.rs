@@ -71,8 +71,8 @@ fn grains_go_on_with_their_springs_and_bonds() {
     assert_eq!(next.clock().time, 0.0);
     assert_eq!(next.system.network.bonds().len(), held);
     let energies = [&whole, &next].map(|simulation| {
-        let stores = simulation.stores();
-        [stores.kinetic, stores.elastic, stores.tangential_spring, stores.bonds]
+        let stored = simulation.stored_energy();
+        [stored.kinetic, stored.elastic, stored.tangential_spring, stored.bonds]
     });
     for (before, after) in energies[0].iter().zip(energies[1]) {
         assert!((after / before - 1.0).abs() < 1e-12, "energies {energies:?} [J]");

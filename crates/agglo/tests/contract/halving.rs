@@ -13,7 +13,7 @@ fn after_the_pulse(scenario: &str, settings: &[&str]) -> (f64, usize) {
     let grains = place(&scenario, Path::new(".")).unwrap();
     let mut simulation = Simulation::start(&scenario, grains).unwrap();
     super::common::finish(&mut simulation);
-    (simulation.stores().kinetic, simulation.system.network.bonds().len())
+    (simulation.stored_energy().kinetic, simulation.system.network.bonds().len())
 }
 
 /// With the consistent laws the impulse of a hit does not depend on the step. A crowd in which bonds break is chaotic: the

@@ -1,5 +1,5 @@
 //! Hard spheres, both drivers: the same bits across a restart, whatever output is asked for and in whatever pieces time
-//! is cut, for any number of threads and any order of the input; and books that close.
+//! is cut, for any number of threads and any order of the input; and a ledger that closes.
 
 use agglo::engine::hard::{Descent, GrainEvent, Simulation, SimulationState};
 use agglo::math::rng::{Purpose, Stream};
@@ -43,7 +43,7 @@ const BREAKING: Case = Case {
     boundary: "reflecting",
     surface_energy: "2e3 J/m2",
     impact: "[impact.restitution.hardness]\n[impact.tangential]\nfriction = 0.1\n[impact.fragmentation]\n\
-             [impact.fragmentation.pieces.power_law]\nexponent = 1.5\n[impact.cooling]\nsurroundings = \"300 K\"",
+             [impact.fragmentation.fragments.power_law]\nexponent = 1.5\n[impact.cooling]\nsurroundings = \"300 K\"",
     ..REACTING
 };
 /// No merges, for long: each sphere has dozens of impacts, so that memory is sorted; the fast become slow.
@@ -102,9 +102,9 @@ fn finish(simulation: &mut Simulation) {
 
 /// Whether a run has what its contracts are to be tested with.
 fn assert_busy(simulation: &Simulation, case: Case) {
-    let counts = &simulation.cloud().state.counts;
+    let counts = &simulation.system().state.counts;
     let (name, engine) = (case.name, case.engine);
-    assert!(counts.impacts > 150, "{name} {engine}: {counts:?}");
+    assert!(counts.collisions > 150, "{name} {engine}: {counts:?}");
     assert!((counts.merges > 80) == (name != "bouncing"), "{name} {engine}: {counts:?}");
     assert!((counts.fragmentations > 20) == (name == "breaking"), "{name} {engine}: {counts:?}");
 }
@@ -133,15 +133,15 @@ fn seen(simulation: &mut Simulation, before: (Vec<GrainEvent>, Vec<Descent>)) ->
     let now = simulation.snapshot();
     let grains = &now.grains;
     let (mut events, mut descents) = before;
-    let cloud = simulation.cloud_mut();
-    events.append(&mut cloud.events);
-    descents.append(&mut cloud.descents);
-    let (state, clock) = (&simulation.cloud().state, simulation.clock());
-    let books = (clock, &state.books, &state.counts, &state.warnings);
+    let system = simulation.system_mut();
+    events.append(&mut system.events);
+    descents.append(&mut system.descents);
+    let (state, clock) = (&simulation.system().state, simulation.clock());
+    let ledger = (clock, &state.ledger, &state.counts, &state.warnings);
     Seen {
         parts: [
             ("grains and primaries", Part::of(&(grains, &now.primaries))),
-            ("clock, books, counts and warnings", Part::of(&books)),
+            ("clock, ledger, counts and warnings", Part::of(&ledger)),
             ("rates", Part::of(&state.rates)),
             ("events and descents", Part::of(&(events, descents))),
         ],
@@ -184,9 +184,9 @@ fn resumed_is_the_same() {
                 turns.take();
                 simulation.advance(until).unwrap();
             }
-            let cloud = simulation.cloud_mut();
-            genealogy.0.append(&mut cloud.events);
-            genealogy.1.append(&mut cloud.descents);
+            let system = simulation.system_mut();
+            genealogy.0.append(&mut system.events);
+            genealogy.1.append(&mut system.descents);
             let bytes = postcard::to_stdvec(&simulation.state()).unwrap();
             simulation = Simulation::resume(&scenario, state_of(&bytes)).unwrap();
             let (before, again) = (Part::of(&state_of(&bytes)), Part::of(&simulation.state()));
@@ -257,7 +257,7 @@ fn grown_grains_start_another_run() {
         scenario.time.end = agglo::units::Quantity(half);
         let mut next = Simulation::start_grown(&scenario, &start.grains, &start.grown).unwrap();
         assert_eq!(next.snapshot(), before, "{what}");
-        let energies = [&first, &next].map(|simulation| simulation.balance().stores.kinetic);
+        let energies = [&first, &next].map(|simulation| simulation.balance().stored.kinetic);
         assert!((energies[1] / energies[0] - 1.0).abs() < 1e-12, "{what}: {energies:?} J");
         let mut turns = agglo_testing::Turns::at_most(10_000_000, "the time that is due");
         while next.clock().time < 0.5 * half {
@@ -290,12 +290,12 @@ fn from_event_to_event_the_course_is_the_same() {
         whole.advance(half).unwrap();
     }
     let start = whole.clone().into_start();
-    let before = whole.cloud().state.counts.impacts;
+    let before = whole.system().state.counts.collisions;
     finish(&mut whole);
     scenario.time.end = agglo::units::Quantity(half);
     let mut next = Simulation::start_grown(&scenario, &start.grains, &start.grown).unwrap();
     finish(&mut next);
-    let impacts = [whole.cloud().state.counts.impacts - before, next.cloud().state.counts.impacts];
+    let impacts = [whole.system().state.counts.collisions - before, next.system().state.counts.collisions];
     assert!(impacts[0] > 100 && impacts[0] == impacts[1], "impacts {impacts:?}");
     let [a, b] = [&whole, &next].map(|simulation| simulation.snapshot().grains.position);
     let apart = a.iter().zip(&b).map(|(a, b)| (*a - *b).norm()).fold(0.0, f64::max);
@@ -333,7 +333,7 @@ fn order_of_the_input_is_not_physics() {
             simulation
         });
         for other in &runs[1..] {
-            assert_eq!(other.cloud().state.counts, runs[0].cloud().state.counts, "{case:?}");
+            assert_eq!(other.system().state.counts, runs[0].system().state.counts, "{case:?}");
             assert!(nameless(other) == nameless(&runs[0]), "other bits in another order: {case:?}");
             assert_eq!(other.clock(), runs[0].clock(), "{case:?}");
         }
@@ -353,18 +353,18 @@ fn books_close() {
                 turns.take();
                 simulation.advance(until).unwrap();
             }
-            let (balance, books) = (simulation.balance(), &simulation.cloud().state.books);
+            let (balance, ledger) = (simulation.balance(), &simulation.system().state.ledger);
             let now = simulation.snapshot();
             // Sums of 250 terms over some thousand impacts, each rounded at 1e-16.
             let mass: f64 = now.grains.mass.iter().sum();
-            assert!((mass / books.mass_at_start - 1.0).abs() < 1e-12, "{case:?}");
+            assert!((mass / ledger.mass_at_start - 1.0).abs() < 1e-12, "{case:?}");
             assert!(balance.kinetic_drift_relative.abs() < 1e-12, "{case:?} {balance:?}");
             assert!(balance.drift_relative.abs() < 1e-12, "{case:?} {balance:?}");
             assert!(simulation.momentum_drift_relative() < 1e-12, "{case:?}");
             assert_eq!(u64::from(now.primaries.iter().sum::<u32>()), start, "{case:?}");
             for (mass, primaries) in now.grains.mass.iter().zip(&now.primaries) {
                 // Equal primaries, but where sizes are scattered.
-                let whole = books.mass_at_start / start as f64 * f64::from(*primaries);
+                let whole = ledger.mass_at_start / start as f64 * f64::from(*primaries);
                 assert!(
                     case.name == "bouncing" || (mass / whole - 1.0).abs() < 1e-12,
                     "{}: mass {mass:e} kg of {whole:e} kg",
@@ -373,13 +373,13 @@ fn books_close() {
             }
         }
         assert_busy(&simulation, case);
-        let cloud = simulation.cloud();
-        for (event, number) in cloud.events.iter().zip(1..) {
+        let system = simulation.system();
+        for (event, number) in system.events.iter().zip(1..) {
             assert_eq!(event.number, number, "{case:?}");
             let energy = &event.energy;
             let explained = energy.normal + energy.tangential + energy.reaction - energy.surface;
             assert!((energy.heat / explained - 1.0).abs() < 1e-12, "{case:?} {event:?}");
         }
-        assert_eq!(cloud.state.counts.events, cloud.events.len() as u64);
+        assert_eq!(system.state.counts.events, system.events.len() as u64);
     }
 }

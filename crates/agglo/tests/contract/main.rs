@@ -1,4 +1,4 @@
-//! Contracts: the same bits for any number of threads and across a restart, and books that close.
+//! Contracts: the same bits for any number of threads and across a restart, and a ledger that closes.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -8,11 +8,11 @@ extern crate agglo_testing;
 #[path = "../common/mod.rs"]
 mod common;
 
-mod books;
 mod crowd;
 mod from;
 mod halving;
 mod hard;
+mod ledger;
 mod order_of_input;
 mod pairs;
 mod rest;

@@ -123,7 +123,7 @@ proptest! {
         let turned = (after.angular - before.angular).norm() / (size * lever);
         prop_assert!(turned < 1e-4, "angular momentum off by {turned:e}");
         if meeting.laws.contains("friction") || meeting.laws.contains("damping") {
-            let (a, b) = (start.stores().total(), end.stores().total());
+            let (a, b) = (start.stored_energy().total(), end.stored_energy().total());
             prop_assert!(b < a * (1.0 + 1e-3), "energy rose from {a:e} to {b:e}");
         }
     }

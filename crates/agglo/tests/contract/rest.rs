@@ -41,8 +41,8 @@ const CEMENTED: &str = r#"
 #[test]
 fn rest_lasts() {
     let mut simulation = start(CEMENTED, |_| {});
-    let stores = simulation.stores();
-    assert!(stores.elastic > 1e-6 && stores.bonds > 1e-7, "nothing holds: {stores:?}");
+    let stored = simulation.stored_energy();
+    assert!(stored.elastic > 1e-6 && stored.bonds > 1e-7, "nothing holds: {stored:?}");
     let apart = |simulation: &Simulation| {
         let at = &simulation.system.grains.position;
         (at[1] - at[0]).norm()

@@ -193,14 +193,15 @@ fn circles(files: &BTreeMap<String, String>) -> Vec<String> {
 
 /// Files below a folder that are built without tests, by their paths.
 fn sources(folder: &Path, before: &str, found: &mut BTreeMap<String, String>) {
-    for entry in folder.read_dir().unwrap_or_else(|error| panic!("{}: {error}", folder.display())) {
-        let path = entry.unwrap().path();
-        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+    let entries = folder.read_dir().unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    for entry in entries.flatten() {
+        let (path, name) = (entry.path(), entry.file_name().to_string_lossy().into_owned());
         let is_test = name.ends_with("tests.rs") || name.starts_with("test");
         if path.is_dir() {
             sources(&path, &format!("{before}{name}/"), found);
-        } else if name.ends_with(".rs") && !is_test {
-            found.insert(format!("{before}{name}"), std::fs::read_to_string(&path).unwrap());
+        } else if path.extension().is_some_and(|end| end == "rs") && !is_test {
+            let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{name}: {error}"));
+            found.insert(format!("{before}{name}"), text);
         }
     }
 }

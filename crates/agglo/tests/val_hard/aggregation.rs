@@ -35,7 +35,7 @@ fn simulated(gas: &Gas<'_>, window: [f64; 2]) -> f64 {
         support::run_until(&mut simulation, time);
         simulation.grains()
     });
-    support::assert_books(&simulation);
+    support::assert_ledger(&simulation);
     found
 }
 
@@ -149,7 +149,7 @@ fn peak_memory() -> Option<f64> {
 fn a_million_grains_merge_in_a_gigabyte() {
     let gas = Gas { count: 1_000_000, solid_fraction: 0.05, impact: STICKY, ..Gas::default() };
     let mut simulation = gas.start();
-    simulation.cloud_mut().keeps_events = false;
+    simulation.system_mut().keeps_events = false;
     let mut time = 1e-3;
     let mut turns = agglo_testing::Turns::at_most(10_000_000, "grains to merge");
     while simulation.grains() > 1_000 {
@@ -157,8 +157,8 @@ fn a_million_grains_merge_in_a_gigabyte() {
         support::run_until(&mut simulation, time);
         time *= 1.2;
     }
-    support::assert_books(&simulation);
-    let (merges, peak) = (simulation.cloud().state.counts.merges, peak_memory());
+    support::assert_ledger(&simulation);
+    let (merges, peak) = (simulation.system().state.counts.merges, peak_memory());
     support::report(&format!("a million grains: {merges} merges, {peak:?} bytes at the most"));
     assert_eq!(merges + simulation.grains() as u64, 1_000_000);
     assert!(peak.is_none_or(|bytes| bytes < 1e9), "{peak:?}");

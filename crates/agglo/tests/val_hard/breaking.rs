@@ -1,5 +1,5 @@
 //! Grains that stick and break at high speed: what they are made of is kept exactly, the energy of new surfaces is booked,
-//! pieces do not overlap.
+//! fragments do not overlap.
 
 use std::collections::BTreeSet;
 
@@ -13,8 +13,8 @@ const MATERIAL: &str = "surface_energy = \"0.05 J/m2\"\nheat_capacity = \"800 J/
 
 /// Names of grains that have grown by a merge, which may overlap others for a while.
 fn note_merges(simulation: &mut Simulation, merged: &mut BTreeSet<u32>) -> usize {
-    let cloud = simulation.cloud_mut();
-    let (events, descents) = (std::mem::take(&mut cloud.events), std::mem::take(&mut cloud.descents));
+    let system = simulation.system_mut();
+    let (events, descents) = (std::mem::take(&mut system.events), std::mem::take(&mut system.descents));
     let breaks = events.iter().filter(|event| event.kind == EventKind::Break);
     let numbers: BTreeSet<u64> =
         events.iter().filter(|event| event.kind == EventKind::Merge).map(|event| event.number).collect();
@@ -39,8 +39,8 @@ fn deepest(simulation: &Simulation, merged: &BTreeSet<u32>, edge: f64) -> f64 {
     deepest
 }
 
-fn break_and_merge(engine: &str, pieces: &str) -> Simulation {
-    let impact = format!("{}[impact.fragmentation]\n{pieces}\n", support::STICKY);
+fn break_and_merge(engine: &str, fragments: &str) -> Simulation {
+    let impact = format!("{}[impact.fragmentation]\n{fragments}\n", support::STICKY);
     let gas = Gas {
         count: COUNT,
         solid_fraction: 0.05,
@@ -50,9 +50,9 @@ fn break_and_merge(engine: &str, pieces: &str) -> Simulation {
         ..Gas::default()
     };
     let mut simulation = gas.start();
-    simulation.cloud_mut().keeps_events = true;
+    simulation.system_mut().keeps_events = true;
     let (mut merged, mut broken) = (BTreeSet::new(), 0);
-    let mass = simulation.cloud().state.books.mass_at_start;
+    let mass = simulation.system().state.ledger.mass_at_start;
     let single = mass / f64::from(COUNT);
     for look in 1..=200 {
         support::run_until(&mut simulation, 2e-4 * f64::from(look));
@@ -68,7 +68,7 @@ fn break_and_merge(engine: &str, pieces: &str) -> Simulation {
             assert!(overlap < 1e-12, "{overlap:e} at {look}");
         }
     }
-    let counts = &simulation.cloud().state.counts;
+    let counts = &simulation.system().state.counts;
     support::report(&format!(
         "breaking: {} merges, {} breakages in {broken} impacts, {} without room, {} grains in the end",
         counts.merges,
@@ -78,7 +78,7 @@ fn break_and_merge(engine: &str, pieces: &str) -> Simulation {
     ));
     common::found("breaking", &[("impacts", broken as f64)]);
     assert!(broken > 100 && counts.merges > 100, "{counts:?}");
-    support::assert_books(&simulation);
+    support::assert_ledger(&simulation);
     let balance = simulation.balance();
     // New surface less the surface that merges have made disappear does not enter: surfaces are booked where made.
     assert_above!(balance.surface, 0.0, "in J");
@@ -92,8 +92,8 @@ fn break_and_merge(engine: &str, pieces: &str) -> Simulation {
 #[test]
 fn breaking_keeps_mass_momentum_and_energy() {
     for engine in [EVENTS, STEPS] {
-        for pieces in ["", "pieces.power_law.exponent = 1.5"] {
-            break_and_merge(engine, pieces);
+        for fragments in ["", "fragments.power_law.exponent = 1.5"] {
+            break_and_merge(engine, fragments);
         }
     }
 }

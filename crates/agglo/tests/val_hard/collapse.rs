@@ -19,20 +19,20 @@ fn a_gas_that_would_collapse_goes_on() {
             assert!(now <= before * (1.0 + 1e-12), "{now:e} after {before:e}");
             before = now;
         }
-        let counts = &simulation.cloud().state.counts;
+        let counts = &simulation.system().state.counts;
         support::report(&format!(
             "collapse, e = {restitution}: {} impacts, {} of them made elastic; {:.1e} of the energy is left, drift {:.1e}",
-            counts.impacts,
+            counts.collisions,
             counts.guarded,
             before / start,
             simulation.balance().kinetic_drift_relative
         ));
-        let (impacts, guarded) = (counts.impacts as f64, counts.guarded as f64);
+        let (impacts, guarded) = (counts.collisions as f64, counts.guarded as f64);
         let figures = [("impacts", impacts), ("guarded", guarded), ("left", before / start)];
         common::found(&format!("collapse_{restitution}"), &figures);
         assert!(counts.guarded > 0, "no collapse");
         assert_below!(before, 1e-2 * start);
         assert_eq!(counts.merges, 0);
-        support::assert_books(&simulation);
+        support::assert_ledger(&simulation);
     }
 }

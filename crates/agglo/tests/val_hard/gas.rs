@@ -33,8 +33,8 @@ fn ratio(gas: &Gas<'_>, impacts: u64) -> Mean {
             rate / expected
         })
         .collect();
-    support::assert_books(&simulation);
-    let counts = &simulation.cloud().state.counts;
+    support::assert_ledger(&simulation);
+    let counts = &simulation.system().state.counts;
     assert_eq!((counts.merges, counts.guarded, counts.overlapping), (0, 0, 0));
     Mean::of(&ratios)
 }

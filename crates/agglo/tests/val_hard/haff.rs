@@ -19,7 +19,7 @@ fn cooling(gas: &Gas<'_>, restitution: f64, starts: u64) -> [Mean; 3] {
             support::run_until(&mut simulation, times * time);
             ratios.push(((start / support::temperature(&simulation)).sqrt() - 1.0) / times);
         }
-        support::assert_books(&simulation);
+        support::assert_ledger(&simulation);
     }
     ratios.map(|ratios| Mean::of(&ratios))
 }

@@ -60,7 +60,7 @@ impl Pair {
         });
         support::finish(&mut simulation);
         assert_eq!(support::impacts(&simulation), 1);
-        support::assert_books(&simulation);
+        support::assert_ledger(&simulation);
         simulation
     }
 

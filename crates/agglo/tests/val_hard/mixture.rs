@@ -51,8 +51,8 @@ fn start(seed: u64) -> Simulation {
     );
     let mut simulation = support::start(&text, |_| {});
     let volume = volume();
-    let state = &mut simulation.cloud_mut().state;
-    for at in 0..state.spheres.places() {
+    let state = &mut simulation.system_mut().state;
+    for at in 0..state.spheres.slots() {
         let kind = usize::from(state.spheres.motion[at].radius > RADII[0]);
         state.spheres.bulk[at].primaries = PRIMARIES[kind];
     }
@@ -97,7 +97,7 @@ fn compare(blocks: usize, impacts: u64, tolerance: f64) {
         }
         large.push(sum);
     }
-    support::assert_books(&simulation);
+    support::assert_ledger(&simulation);
     let found = Mean::of(&large);
     support::report(&format!(
         "mixture 1 : 20: a large sphere has {:.3} +- {:.3} of the mean energy",
@@ -105,15 +105,15 @@ fn compare(blocks: usize, impacts: u64, tolerance: f64) {
     ));
     common::found("mixture_large", &[("energy", found.mean), ("error", found.error)]);
     assert!((found.mean - 1.0).abs() < 3.0 * found.error && found.error < 0.02, "{found:?}");
-    let rows = simulation.cloud().state.rates.kernel_rows(simulation.clock().time);
+    let rows = simulation.system().state.rates.kernel_rows(simulation.clock().time);
     for row in rows {
         let [a, b] = [row.a, row.b].map(|class| usize::from(class[0] > 1));
         let ratio = row.collision_kernel.unwrap() / kernel(a, b, mean_energy);
         // Impacts are nearly independent.
-        let error = 1.0 / (row.impacts as f64).sqrt();
+        let error = 1.0 / (row.collisions as f64).sqrt();
         support::report(&format!(
             "mixture 1 : 20, sizes {} and {}: {} impacts, {ratio:.4} +- {error:.4} of the rate of kinetic theory",
-            a, b, row.impacts
+            a, b, row.collisions
         ));
         common::found(&format!("mixture_{a}_{b}"), &[("ratio", ratio), ("error", error)]);
         assert!((ratio - 1.0).abs() < tolerance + 3.0 * error, "{row:?}");

@@ -94,6 +94,6 @@ fn two_spheres_cool_merge_and_cool_on() {
         let hot = HEAT_CAPACITY * (masses[0] * temperatures[0] + masses[1] * temperatures[1]);
         let cooled = simulation.balance().cooled;
         assert!((cooled / (hot + lost - cold) - 1.0).abs() < 1e3 * tolerance, "{cooled:e}");
-        support::assert_books(&simulation);
+        support::assert_ledger(&simulation);
     }
 }

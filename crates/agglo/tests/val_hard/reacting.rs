@@ -42,7 +42,7 @@ fn growth(text: &str, seed: u64) -> f64 {
     scenario.seed = seed;
     let grains = place(&scenario, Path::new(".")).unwrap();
     let mut simulation = Simulation::start(&scenario, &grains).unwrap();
-    simulation.cloud_mut().keeps_events = false;
+    simulation.system_mut().keeps_events = false;
     let before = Growth::of(&simulation.snapshot());
     support::finish(&mut simulation);
     let after = Growth::of(&simulation.snapshot());

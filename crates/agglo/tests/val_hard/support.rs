@@ -90,7 +90,7 @@ pub fn start(text: &str, change: impl FnOnce(&mut Particles)) -> Simulation {
     let scenario = common::scenario(text);
     let grains = common::grains(&scenario, change);
     let mut simulation = Simulation::start(&scenario, &grains).unwrap_or_else(|error| panic!("{error}"));
-    simulation.cloud_mut().keeps_events = false;
+    simulation.system_mut().keeps_events = false;
     simulation
 }
 
@@ -120,12 +120,12 @@ pub fn collide(simulation: &mut Simulation, more: u64) {
 
 /// Impacts so far.
 pub fn impacts(simulation: &Simulation) -> u64 {
-    simulation.cloud().state.counts.impacts
+    simulation.system().state.counts.collisions
 }
 
 /// Kinetic energy [J] now.
 pub fn kinetic(simulation: &Simulation) -> f64 {
-    simulation.balance().stores.kinetic
+    simulation.balance().stored.kinetic
 }
 
 /// Granular temperature k T/m [m²/s²] of equal spheres: the mean velocity is fixed and no degree of freedom.
@@ -170,7 +170,7 @@ impl Mean {
 }
 
 /// Books that hold but for rounding, which 1e-12 of the whole leaves ample room for: energy and momentum.
-pub fn assert_books(simulation: &Simulation) {
+pub fn assert_ledger(simulation: &Simulation) {
     let (balance, momentum) = (simulation.balance(), simulation.momentum_drift_relative());
     assert!(balance.kinetic_drift_relative.abs() < 1e-12, "{balance:?}");
     assert!(balance.drift_relative.abs() < 1e-12, "{balance:?}");

@@ -145,7 +145,7 @@ fn start_at(
         grown.push(Grown { primaries: PRIMARIES[k], heat_capacity: capacity(k) });
     }
     let mut simulation = Simulation::start_grown(&scenario, &grains, &grown).unwrap();
-    simulation.cloud_mut().keeps_events = true;
+    simulation.system_mut().keeps_events = true;
     simulation
 }
 
@@ -228,7 +228,7 @@ fn assert_bounce(friction: f64, restitution: f64, more: &str) {
             assert_close!(now.grains.radius[at], RADIUS[k], 1e-15, "{what}: radius, m");
         }
         assert_ledger(&simulation, hand.energies, 10.0 * tolerance, &what);
-        assert_eq!(simulation.cloud().state.counts.bounces, 1, "{what}: bounces");
+        assert_eq!(simulation.system().state.counts.bounces, 1, "{what}: bounces");
     });
 }
 
@@ -301,13 +301,13 @@ fn clay_and_lead_that_merge() {
             "{what}: material of lead, and primaries"
         );
         assert_eq!(grains.id[0] as usize, names[1], "{what}: the name of the heavier one");
-        let bulk = &simulation.cloud().state.spheres.bulk;
+        let bulk = &simulation.system().state.spheres.bulk;
         let kept = bulk.iter().find(|bulk| bulk.primaries == 18).unwrap();
         assert_close!(kept.heat_capacity, heat_capacity, 1e-14, "{what}: heat capacity, J/K");
         assert_ledger(&simulation, hand.energies, 10.0 * tolerance, &what);
         assert_story(&simulation, EventKind::Merge, 0.0, &hand, names, (tolerance, &what));
         let told: Vec<_> = simulation
-            .cloud()
+            .system()
             .descents
             .iter()
             .map(|line| (line.parent, line.child, line.primaries))
@@ -326,7 +326,7 @@ fn assert_story(
     names: [usize; 2],
     (tolerance, what): (f64, &str),
 ) {
-    let [event] = &simulation.cloud().events[..] else { panic!("{what}: {:?}", simulation.cloud().events) };
+    let [event] = &simulation.system().events[..] else { panic!("{what}: {:?}", simulation.system().events) };
     assert_eq!((event.number, event.kind, event.grains), (1, kind, [0, 1]), "{what}");
     for k in [0, 1] {
         assert_close!(event.masses[names[k]], mass(k), 1e-15, "{what}: mass of {k}, kg");
@@ -347,7 +347,7 @@ fn assert_story(
 }
 
 /// Clay of twelve primaries breaks into three, lead of six into two: surface energies are such that each could take 1.5 and 1.3
-/// times its surface, (1.5)³ = 3.4 and (1.3)³ = 2.2 pieces. With the other's mass or radius it would be other numbers.
+/// times its surface, (1.5)³ = 3.4 and (1.3)³ = 2.2 fragments. With the other's mass or radius it would be other numbers.
 #[test]
 fn clay_and_lead_that_break() {
     let [m, n] = [mass(0), mass(1)];
@@ -355,9 +355,9 @@ fn clay_and_lead_that_break() {
     let lost = whole.energies[0] + whole.energies[1];
     let sphere = |k: usize| 4.0 * PI * RADIUS[k] * RADIUS[k];
     let gammas = [n / (m + n) * lost / (0.5 * sphere(0)), m / (m + n) * lost / (0.3 * sphere(1))];
-    // n pieces of equal size have n^(1/3) times the surface.
-    let pieces = [3, 2];
-    let surfaces = [0, 1].map(|k| gammas[k] * sphere(k) * (f64::from(pieces[k]).cbrt() - 1.0));
+    // n fragments of equal size have n^(1/3) times the surface.
+    let fragments = [3, 2];
+    let surfaces = [0, 1].map(|k| gammas[k] * sphere(k) * (f64::from(fragments[k]).cbrt() - 1.0));
     let hand = by_hand(0.3, false, surfaces);
     each_way(|engine, tolerance, boundary, names| {
         let what = format!("{engine} {boundary} {names:?}");
@@ -367,27 +367,37 @@ fn clay_and_lead_that_break() {
         let grains = &now.grains;
         for k in [0, 1] {
             let own: Vec<usize> = (0..grains.len()).filter(|at| grains.material[*at] == k as u32).collect();
-            assert_eq!(own.len(), pieces[k] as usize, "{what}: pieces of {k}");
-            let part = 1.0 / f64::from(pieces[k]);
-            // How far the pieces are in the mean from where each of the two was.
+            assert_eq!(own.len(), fragments[k] as usize, "{what}: fragments of {k}");
+            let part = 1.0 / f64::from(fragments[k]);
+            // How far the fragments are in the mean from where each of the two was.
             let mut off = [Vec3::ZERO; 2];
             for at in own {
                 assert_eq!(
                     now.primaries[at],
-                    PRIMARIES[k] / pieces[k],
-                    "{what}: primaries of a piece of {k}"
+                    PRIMARIES[k] / fragments[k],
+                    "{what}: primaries of a fragment of {k}"
                 );
-                assert_close!(grains.mass[at], mass(k) * part, 1e-14, "{what}: mass of a piece of {k}, kg");
+                assert_close!(
+                    grains.mass[at],
+                    mass(k) * part,
+                    1e-14,
+                    "{what}: mass of a fragment of {k}, kg"
+                );
                 assert_close!(
                     grains.radius[at],
                     RADIUS[k] * part.cbrt(),
                     1e-14,
-                    "{what}: radius of a piece of {k}, m"
+                    "{what}: radius of a fragment of {k}, m"
                 );
                 let (velocity, wanted) = (grains.velocity[at], hand.velocities[k]);
-                assert_close_vector!(velocity, wanted, tolerance, "{what}: velocity of a piece of {k}, m/s");
+                assert_close_vector!(
+                    velocity,
+                    wanted,
+                    tolerance,
+                    "{what}: velocity of a fragment of {k}, m/s"
+                );
                 let (warm, wanted) = (grains.temperature[at], hand.temperatures[k]);
-                assert_close!(warm, wanted, tolerance, "{what}: temperature of a piece of {k}, K");
+                assert_close!(warm, wanted, tolerance, "{what}: temperature of a fragment of {k}, K");
                 let moved = velocity * (simulation.clock().time - MEETING);
                 for (other, mean) in off.iter_mut().enumerate() {
                     let center = meeting_place(boundary) + NORMAL * ((RADIUS[0] + RADIUS[1]) * other as f64);
@@ -397,25 +407,25 @@ fn clay_and_lead_that_break() {
             assert_below!(
                 off[k].norm(),
                 off[1 - k].norm(),
-                "{what}: pieces of {k} from its place and the other's, m"
+                "{what}: fragments of {k} from its place and the other's, m"
             );
         }
         assert_ledger(&simulation, hand.energies, 10.0 * tolerance, &what);
         assert_story(&simulation, EventKind::Break, 0.3, &hand, names, (tolerance, &what));
-        let counts = &simulation.cloud().state.counts;
+        let counts = &simulation.system().state.counts;
         assert_eq!(
             (counts.fragmentations, counts.no_room),
             (2, 0),
             "{what}: those that broke, those without room"
         );
         let mut told = [[0; 2]; 2];
-        for line in &simulation.cloud().descents {
+        for line in &simulation.system().descents {
             let k = usize::from(line.parent as usize == names[1]);
             told[k][0] += 1;
             told[k][1] += line.primaries;
             assert_close!(
                 line.mass,
-                mass(k) / f64::from(pieces[k]),
+                mass(k) / f64::from(fragments[k]),
                 1e-14,
                 "{what}: mass in a line of {k}, kg"
             );

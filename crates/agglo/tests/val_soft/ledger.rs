@@ -40,14 +40,14 @@ fn reduced_mass() -> f64 {
 /// All entries of the books now [J], by name.
 fn entries(simulation: &Simulation) -> [(&'static str, f64); 15] {
     let books = simulation.balance();
-    let stores = books.stores;
+    let stored = books.stored;
     [
-        ("kinetic", stores.kinetic),
-        ("spin", stores.spin),
-        ("elastic", stores.elastic),
-        ("tangential_spring", stores.tangential_spring),
-        ("bonds", stores.bonds),
-        ("near_field", stores.near_field),
+        ("kinetic", stored.kinetic),
+        ("spin", stored.spin),
+        ("elastic", stored.elastic),
+        ("tangential_spring", stored.tangential_spring),
+        ("bonds", stored.bonds),
+        ("near_field", stored.near_field),
         ("rays", books.rays),
         ("gravity", books.gravity),
         ("fields", books.fields),
@@ -62,7 +62,7 @@ fn entries(simulation: &Simulation) -> [(&'static str, f64); 15] {
 
 /// Asserts each entry, to a part of the largest; those that are not named are 0.
 #[track_caller]
-fn assert_books(simulation: &Simulation, wanted: &[(&str, f64)], tolerance: f64) {
+fn assert_ledger(simulation: &Simulation, wanted: &[(&str, f64)], tolerance: f64) {
     let found = entries(simulation);
     let unknown = wanted.iter().find(|(name, _)| found.iter().all(|(known, _)| known != name));
     assert!(unknown.is_none(), "no such entry: {unknown:?}");
@@ -103,11 +103,11 @@ fn a_strain_bond() {
     let elastic = integral(0.0, overlap, |x| 6e6 * (x / 3e-3).powf(1.5) * area(x));
     let bond = integral(threshold, overlap, |x| 2e6 * (x / 3e-3).powi(2) * area(x));
     // Simpson at the root of the power: 1e-9.
-    assert_books(&simulation, &[("elastic", elastic), ("bonds", -bond)], 1e-8);
+    assert_ledger(&simulation, &[("elastic", elastic), ("bonds", -bond)], 1e-8);
     common::finish(&mut simulation);
     assert!(common::relative_velocity(&simulation).x > 0.0, "grains have not parted");
     // The bond's force jumps at the threshold, in one of some thousand steps.
-    assert_books(&simulation, &[("kinetic", elastic - bond)], 2e-4);
+    assert_ledger(&simulation, &[("kinetic", elastic - bond)], 2e-4);
 }
 
 /// Charges that part: q²/(4 π ε d) becomes motion; with a cut-off r_c, all that there was above its value at r_c, and nothing
@@ -125,7 +125,7 @@ fn a_near_field_with_and_without_a_cut_off() {
         let store = |distance: f64| {
             if cutoff.is_some_and(|cutoff| distance > cutoff) { 0.0 } else { potential(distance) - at_cut }
         };
-        assert_books(&simulation, &[("near_field", store(3.2e-3))], 1e-13);
+        assert_ledger(&simulation, &[("near_field", store(3.2e-3))], 1e-13);
         let distance =
             |simulation: &Simulation| (grain(simulation, 1).position - grain(simulation, 0).position).norm();
         let mut turns = agglo_testing::Turns::at_most(10_000_000, "the grains to part");
@@ -136,7 +136,7 @@ fn a_near_field_with_and_without_a_cut_off() {
         let left = store(distance(&simulation));
         // Some 5,000 steps of second order; the force jumps by a quarter at the cut-off, in one of them.
         let tolerance = if cutoff.is_some() { 1e-3 } else { 1e-5 };
-        assert_books(&simulation, &[("kinetic", store(3.2e-3) - left), ("near_field", left)], tolerance);
+        assert_ledger(&simulation, &[("kinetic", store(3.2e-3) - left), ("near_field", left)], tolerance);
         let [a, b] = [0, 1].map(|id| grain(&simulation, id).velocity.x * masses()[id as usize]);
         assert_close!(a, -b, 1e-10, "momentum of the first, kg m/s");
     }
@@ -153,7 +153,7 @@ fn added_mass() {
     let speed = 1e-3 * 2e-3 / heavy;
     assert_close!(grain(&simulation, 0).velocity.x, speed, 1e-9, "speed, m/s");
     let work = 0.5 * heavy * speed * speed;
-    assert_books(&simulation, &[("kinetic", work), ("fields", work)], 1e-9);
+    assert_ledger(&simulation, &[("kinetic", work), ("fields", work)], 1e-9);
 }
 
 /// A grain that moves and spins comes to rest in a liquid: all that it had is lost to drag, with what moved with it.
@@ -167,9 +167,9 @@ fn drag() {
     });
     let heavy = masses()[0] + 0.5 * 1500.0 * 4.0 / 3.0 * PI * 1e-9;
     let (motion, spin) = (0.5 * heavy * 0.25, 0.5 * 0.4 * masses()[0] * 1e-6 * 12500.0);
-    assert_books(&simulation, &[("kinetic", motion), ("spin", spin)], 1e-13);
+    assert_ledger(&simulation, &[("kinetic", motion), ("spin", spin)], 1e-13);
     common::finish(&mut simulation);
-    assert_books(&simulation, &[("drag", motion + spin)], 1e-10);
+    assert_ledger(&simulation, &[("drag", motion + spin)], 1e-10);
 }
 
 /// A fall of both grains: m g h less the weight of the liquid that they displace.
@@ -184,7 +184,7 @@ fn gravity_and_buoyancy() {
         masses()[k] * pull * (0.5 * pull * 0.01)
     };
     let work = fall(0) + fall(1);
-    assert_books(&simulation, &[("kinetic", work), ("gravity", work)], 1e-10);
+    assert_ledger(&simulation, &[("kinetic", work), ("gravity", work)], 1e-10);
 }
 
 /// Up the gradient of B·B from 0 to z: γ B² = γ (b z)².
@@ -199,7 +199,7 @@ fn a_magnetic_force() {
     };
     let work = work(0, 0.0) + work(1, -0.3);
     assert_above!(work.abs(), 1e-9, "in J");
-    assert_books(&simulation, &[("kinetic", work), ("fields", work)], 1e-4);
+    assert_ledger(&simulation, &[("kinetic", work), ("fields", work)], 1e-4);
 }
 
 const HOOKE: &str = "[contact.normal.hooke]\nstiffness = \"200 kN/m\"\n";
@@ -213,10 +213,10 @@ fn contact_damping() {
     });
     let [a, b] = masses();
     let at_start = 0.5 * (a * 0.49 + b * 0.09);
-    assert_books(&simulation, &[("kinetic", at_start)], 1e-13);
+    assert_ledger(&simulation, &[("kinetic", at_start)], 1e-13);
     common::finish(&mut simulation);
     let lost = 0.75 * 0.5 * reduced_mass();
-    assert_books(&simulation, &[("kinetic", at_start - lost), ("damping", lost)], 1e-3);
+    assert_ledger(&simulation, &[("kinetic", at_start - lost), ("damping", lost)], 1e-3);
 }
 
 /// A slanted impact that slides all the time, since the spring across rises faster than its limit: J = 2 m* v_n, and
@@ -244,7 +244,7 @@ fn friction() {
         .iter()
         .sum();
     // The overlap of 2e-3 of the radii shortens the arms.
-    assert_books(
+    assert_ledger(
         &simulation,
         &[("kinetic", at_start - lost - spin), ("spin", spin), ("friction", lost)],
         5e-3,
@@ -267,7 +267,7 @@ fn bond_damping() {
     let lost = 0.5 * reduced_mass() * 16e-4;
     let left = 0.5 * (a + b) * mean * mean;
     // 2e-4: the dashpot's power is that of full-step velocities, first order at the start.
-    assert_books(&simulation, &[("kinetic", left), ("bond_damping", lost)], 2e-4);
+    assert_ledger(&simulation, &[("kinetic", left), ("bond_damping", lost)], 2e-4);
 }
 
 /// A bonded pair is torn apart: at σ A the bond held (σ A)²/(2 k), which is lost with it.
@@ -291,7 +291,7 @@ fn broken_bonds() {
         1e-13,
         "the event's energy, J"
     );
-    assert_books(&simulation, &[("kinetic", at_start - lost), ("broken_bonds", lost)], 1e-4);
+    assert_ledger(&simulation, &[("kinetic", at_start - lost), ("broken_bonds", lost)], 1e-4);
 }
 
 /// A pair cemented under pressure comes to rest where Hertz's repulsion is the cement's tension, F(δ) = k (δ_0 - δ), and then
@@ -321,8 +321,8 @@ fn a_relaxed_start() {
     let kinetic = 0.5 * (a + b) * 4e-4;
     let wanted = [("kinetic", kinetic), ("elastic", elastic), ("bonds", bonds)];
     // Rest to 1 um/s of 3 m/s that its energy would make.
-    assert_books(&simulation, &wanted, 1e-5);
+    assert_ledger(&simulation, &wanted, 1e-5);
     assert_close!(simulation.balance().at_start, kinetic + elastic + bonds, 1e-5, "energy at the start, J");
     common::finish(&mut simulation);
-    assert_books(&simulation, &wanted, 1e-5);
+    assert_ledger(&simulation, &wanted, 1e-5);
 }

@@ -88,8 +88,8 @@ fn assert_loads(simulation: &Simulation, pair: &Askew, repulsion: f64, across: V
     assert_close_vector!(loads.force[first], force, tolerance, "{what}: force on the stone, N");
     assert_close_vector!(loads.force[second], -force, tolerance, "{what}: force on the wood, N");
     let moments = pair.arms.map(|arm| couple * arm);
-    assert_close_vector!(loads.moment[first], moments[0], tolerance, "{what}: moment on the stone, N m");
-    assert_close_vector!(loads.moment[second], moments[1], tolerance, "{what}: moment on the wood, N m");
+    assert_close_vector!(loads.torque[first], moments[0], tolerance, "{what}: torque on the stone, N m");
+    assert_close_vector!(loads.torque[second], moments[1], tolerance, "{what}: torque on the wood, N m");
 }
 
 /// Hertz with the dashpot of a restitution and that of the spring across, which is not loaded yet: as it is, and cut to
@@ -208,7 +208,7 @@ fn one_ray_on_two_grains_by_hand() {
         assert_close!(flow.power, books.0, 1e-9, "{law}: energy from rays, J");
         assert_close_vector!(flow.force, books.1, 1e-9, "{law}: impulse from rays, N s");
         // Grains move by a part of their radius of 1e-6 until they are hit.
-        assert_close_vector!(flow.moment, books.2, 1e-5, "{law}: moment of rays, N m s");
+        assert_close_vector!(flow.torque, books.2, 1e-5, "{law}: torque of rays, N m s");
         let pulse = simulation.pulses.counts()[0];
         assert_eq!((pulse.reflections, pulse.segments), (2, 3), "{law}");
         assert_close!(
@@ -344,7 +344,7 @@ fn one_bond_between_unequal_grains() {
         assert_close_vector!(loads.force[heavy], force, tolerance, "{}, N", what("force on the held grain"));
         let reaction = Vec3::AXES[0].cross(aside) * length + twist + Vec3::AXES[0] * drag_moment[0];
         assert_close_vector!(
-            loads.moment[heavy],
+            loads.torque[heavy],
             reaction,
             tolerance,
             "{}, N m",
@@ -352,13 +352,19 @@ fn one_bond_between_unequal_grains() {
         );
         let rest = tolerance * force.norm();
         assert!(loads.force[free].norm() < rest, "{} N left", loads.force[free].norm());
-        assert!(loads.moment[free].norm() < rest * length, "{} N m left", loads.moment[free].norm());
+        assert!(loads.torque[free].norm() < rest * length, "{} N m left", loads.torque[free].norm());
         let bond = simulation.system.network.bonds()[0];
         assert_close!(bond.state.twist, drag_moment[1], tolerance, "{}, N m", what("twisting moment"));
         let stored = 0.5
             * (force.x * force.x / along
                 + aside.norm_squared() * give
                 + drag_moment[1] * drag_moment[1] / twisting);
-        assert_close!(simulation.stores().bonds, stored, tolerance, "{}, J", what("energy of the bond"));
+        assert_close!(
+            simulation.stored_energy().bonds,
+            stored,
+            tolerance,
+            "{}, J",
+            what("energy of the bond")
+        );
     }
 }

@@ -1,4 +1,4 @@
-//! Single cases of the event-driven engine that a cloud at random may not come to.
+//! Single cases of the event-driven engine that a system at random may not come to.
 
 use super::test_systems::{DENSITY, EVENTS, Grain, advance_to, particles, restitution, scenario, start};
 use super::{Contact, Simulation};
@@ -35,11 +35,11 @@ fn a_lattice_in_step() {
         let after = |turns: f64| (turns - 0.5) * gap / speed;
         for turns in 1..=20 {
             advance_to(&mut simulation, after(f64::from(turns) + 0.5));
-            let impacts = simulation.cloud().state.counts.impacts;
-            assert_eq!(impacts, (turns as u64) * grains.len() as u64 / 2, "after {turns} turns");
+            let collisions = simulation.system().state.counts.collisions;
+            assert_eq!(collisions, (turns as u64) * grains.len() as u64 / 2, "after {turns} turns");
             for (velocity, grain) in speeds(&simulation).iter().zip(&grains) {
                 let wanted = grain.1[0] * if turns % 2 == 0 { 1.0 } else { -1.0 };
-                // Each impact rounds once.
+                // Each collision rounds once.
                 assert_near_vector!(*velocity, Vec3::new(wanted, 0.0, 0.0), 1e-13 * speed, "in m/s");
             }
         }
@@ -47,7 +47,7 @@ fn a_lattice_in_step() {
     }
 }
 
-/// Balls that touch in a row: the impact goes through all of them at one moment.
+/// Balls that touch in a row: the collision goes through all of them at one moment.
 #[test]
 fn newtons_cradle() {
     let ball = |k: f64, speed: f64| ([k * 2e-3, 0.0, 0.0], [speed, 0.0, 0.0], 1e-3);
@@ -58,7 +58,7 @@ fn newtons_cradle() {
         let after = speeds(&simulation);
         assert!(after[..4].iter().all(|velocity| velocity.norm() < 1e-14), "{after:?}");
         assert_near_vector!(after[4], Vec3::new(7.0, 0.0, 0.0), 1e-14);
-        assert_eq!(simulation.cloud().state.counts.impacts, 4);
+        assert_eq!(simulation.system().state.counts.collisions, 4);
         // 1 mm to the first; then on with the last one.
         let place = simulation.snapshot().grains.position[4].x;
         assert!((place - (2e-3 + 7.0 * (1e-3 - 1e-3 / 7.0))).abs() < 1e-16, "{place}");
@@ -83,8 +83,8 @@ fn a_merged_sphere_among_others() {
     assert_eq!(simulation.grains(), 6);
     advance_to(&mut simulation, 1.001e-5);
     assert_eq!(simulation.snapshot().primaries.iter().sum::<u32>(), 6);
-    let counts = simulation.cloud().state.counts.clone();
-    assert_eq!((simulation.grains(), counts.merges, counts.impacts), (3, 3, 3));
+    let counts = simulation.system().state.counts.clone();
+    assert_eq!((simulation.grains(), counts.merges, counts.collisions), (3, 3, 3));
     // Of the other two merges at least one overlapped by more than rounding.
     assert_at_least!(counts.overlapping, 1);
     let now = simulation.snapshot();
@@ -111,9 +111,9 @@ fn a_merged_sphere_at_a_wall() {
         ];
         let mut simulation = start(&scenario(EVENTS, "reflecting", &restitution(0.0)), &grains);
         advance_to(&mut simulation, 0.49e-3);
-        assert_eq!((simulation.grains(), simulation.cloud().state.counts.walls), (2, 0));
+        assert_eq!((simulation.grains(), simulation.system().state.counts.walls), (2, 0));
         advance_to(&mut simulation, 0.51e-3);
-        let counts = &simulation.cloud().state.counts;
+        let counts = &simulation.system().state.counts;
         assert_eq!((counts.merges, counts.walls), (1, 1));
         let now = simulation.snapshot().grains;
         assert!((now.velocity[0] - Vec3::new(-side * 0.01, 0.0, 0.0)).norm() < 1e-15, "{:?}", now.velocity);
@@ -121,7 +121,7 @@ fn a_merged_sphere_at_a_wall() {
         assert_near!(now.position[0].x, side * (0.01 - r - 5e-6 - 1e-7), 1e-15, "in m");
         assert_below!(simulation.momentum_drift_relative(), 1e-15);
         advance_to(&mut simulation, 0.9);
-        assert_eq!(simulation.cloud().state.counts.walls, 1);
+        assert_eq!(simulation.system().state.counts.walls, 1);
     }
 }
 
@@ -131,14 +131,14 @@ fn arriving_in_an_antipodal_volume_where_somebody_is() {
     let grains = [([9.95e-3, 0.0, 0.0], [50.0, 0.0, 0.0], 1e-3), ([-8.5e-3, 0.0, 0.0], [0.0; 3], 1e-3)];
     let mut simulation = start(&scenario(EVENTS, "antipodal", &restitution(1.0)), &grains);
     advance_to(&mut simulation, 0.999e-6);
-    assert_eq!(simulation.cloud().state.counts.impacts, 0);
+    assert_eq!(simulation.system().state.counts.collisions, 0);
     advance_to(&mut simulation, 1.001e-6);
-    assert_eq!(simulation.cloud().state.counts.overlapping, 1);
+    assert_eq!(simulation.system().state.counts.overlapping, 1);
     let after = speeds(&simulation);
     assert!(after[0].norm() < 1e-13 && (after[1].x - 50.0).abs() < 1e-13, "{after:?}");
-    // Parting while they overlap is no impact.
+    // Parting while they overlap is no collision.
     advance_to(&mut simulation, 20e-6);
-    assert_eq!(simulation.cloud().state.counts.impacts, 1);
+    assert_eq!(simulation.system().state.counts.collisions, 1);
 }
 
 /// Partners that stay together without becoming one: their velocities along the normal are the same but for rounding,
@@ -155,7 +155,7 @@ fn pairs_that_stay_together_do_not_stop_the_clock() {
         ];
         let mut simulation = start(&scenario(engine, "open", &impact), &grains);
         advance_to(&mut simulation, 1e-3);
-        assert_at_least!(simulation.cloud().state.counts.impacts, 2);
+        assert_at_least!(simulation.system().state.counts.collisions, 2);
     }
 }
 
@@ -170,14 +170,14 @@ fn inelastic_collapse_is_passed() {
     for e in [0.02, 0.1, 0.3] {
         let mut simulation = start(&scenario(GUARDED, "open", &restitution(e)), &grains);
         advance_to(&mut simulation, 0.01);
-        let counts = &simulation.cloud().state.counts;
-        assert!(counts.guarded > 0 && counts.impacts < 100_000, "{counts:?}");
+        let counts = &simulation.system().state.counts;
+        assert!(counts.guarded > 0 && counts.collisions < 100_000, "{counts:?}");
         assert_below!(simulation.balance().drift_relative.abs(), 1e-12);
     }
 }
 
 /// First bounces of one moment are no collapse: a row that touches loses what the laws say, as without the guard, and so does
-/// a cloud that falls in on itself and merges, where merged spheres come to lie over several others at once.
+/// a system that falls in on itself and merges, where merged spheres come to lie over several others at once.
 #[test]
 fn first_bounces_of_one_moment_lose_energy() {
     let ball = |k: f64, speed: f64| ([k * 2e-3, 0.0, 0.0], [speed, 0.0, 0.0], 1e-3);
@@ -188,7 +188,7 @@ fn first_bounces_of_one_moment_lose_energy() {
         cases.push((super::test_systems::crowd(60, 2e-3, 2.0, 8e3, seed), soft.to_owned(), "periodic"));
     }
     let mut over_others = 0;
-    // Impacts and merges of the clouds, from event to event and step by step.
+    // Collisions and merges of the systems, from event to event and step by step.
     let mut totals = [[0; 2]; 2];
     for (grains, impact, boundary) in cases {
         let after = [EVENTS, GUARDED].map(|engine| {
@@ -196,7 +196,7 @@ fn first_bounces_of_one_moment_lose_energy() {
             scenario.materials.get_mut("stone").unwrap().hardness = Some(Quantity(2e5));
             let mut simulation = start(&scenario, &grains);
             advance_to(&mut simulation, 2e-3);
-            let counts = simulation.cloud().state.counts.clone();
+            let counts = simulation.system().state.counts.clone();
             over_others += counts.overlapping;
             (speeds(&simulation), counts)
         });
@@ -207,26 +207,26 @@ fn first_bounces_of_one_moment_lose_energy() {
             scenario.materials.get_mut("stone").unwrap().hardness = Some(Quantity(2e5));
             let mut stepped = start(&scenario, &grains);
             advance_to(&mut stepped, 2e-3);
-            let counts = &stepped.cloud().state.counts;
+            let counts = &stepped.system().state.counts;
             for (total, counts) in totals.iter_mut().zip([&after[1].1, counts]) {
-                total[0] += counts.impacts;
+                total[0] += counts.collisions;
                 total[1] += counts.merges;
             }
         }
     }
     assert!(over_others > 400, "{over_others}");
-    // The engine of steps has no guard, and its chaos is another one. Sums over 20 clouds: 1508 impacts and 1171 merges from event
-    // to event, 1526 and 1170 step by step. Impacts scatter by 39, merges by 34.
-    let [events, steps] = totals.map(|[impacts, merges]| [impacts as f64, merges as f64]);
+    // The engine of steps has no guard, and its chaos is another one. Sums over 20 systems: 1508 collisions and 1171 merges from event
+    // to event, 1526 and 1170 step by step. Collisions scatter by 39, merges by 34.
+    let [events, steps] = totals.map(|[collisions, merges]| [collisions as f64, merges as f64]);
     assert!((steps[0] / events[0] - 1.0).abs() < 0.03, "{events:?} {steps:?}");
     assert!((steps[1] - events[1]).abs() < 3.0 * (steps[1] + events[1]).sqrt(), "{events:?} {steps:?}");
     assert_above!(events[1], 40.0);
 }
 
-/// Agglomerates that break in a crowd, at walls and across faces: pieces are clear of one another and of everybody else,
+/// Agglomerates that break in a crowd, at walls and across faces: fragments are clear of one another and of everybody else,
 /// inside the walls, and as heavy as the whole.
 #[test]
-fn pieces_have_room() {
+fn fragments_have_room() {
     let impact = format!("[impact]\nfragmentation = {{}}\n{}", restitution(0.5));
     let mut broke = 0;
     for (seed, boundary) in
@@ -246,14 +246,14 @@ fn pieces_have_room() {
         grains.extend([parent, partner]);
         let mut simulation = start(&scenario(EVENTS, boundary, &impact), &grains);
         // Put together from others before.
-        for bulk in &mut simulation.cloud_mut().state.spheres.bulk {
+        for bulk in &mut simulation.system_mut().state.spheres.bulk {
             bulk.primaries = if bulk.mass > 4e-6 { 12 } else { 1 };
         }
-        while simulation.cloud().state.counts.fragmentations == 0 && simulation.clock().time < 1e-3 {
+        while simulation.system().state.counts.fragmentations == 0 && simulation.clock().time < 1e-3 {
             let now = simulation.clock().time;
             advance_to(&mut simulation, now + 1e-7);
         }
-        broke += simulation.cloud().state.counts.fragmentations;
+        broke += simulation.system().state.counts.fragmentations;
         assert_rooms(&simulation, boundary);
         let primaries: u32 = simulation.snapshot().primaries.iter().sum();
         let wanted = grains.iter().map(|grain| if mass(grain) > 4e-6 { 12 } else { 1 }).sum::<u32>();
@@ -276,20 +276,20 @@ fn assert_rooms(simulation: &Simulation, boundary: &str) {
         let farthest = place.to_array().into_iter().fold(0.0_f64, |most, along| most.max(along.abs()));
         assert!(boundary != "reflecting" || farthest + radius < 0.01 + 1e-12, "in a wall: {farthest}");
         for b in 0..a {
-            let between = simulation.cloud().volume.shortest(now.position[b] - place);
+            let between = simulation.system().volume.shortest(now.position[b] - place);
             let gap = between.norm() - radius - now.radius[b];
             assert!(gap > -1e-12, "{a} and {b} overlap by {gap:e} in {boundary}");
         }
     }
 }
 
-/// The surfaces in the ledger are those of the pieces that are there, whatever their sizes.
+/// The surfaces in the ledger are those of the fragments that are there, whatever their sizes.
 #[test]
-fn the_ledger_has_the_surfaces_of_the_pieces() {
-    let of = |pieces: &str| format!("[impact]\nfragmentation = {{ {pieces} }}\n{}", restitution(0.4));
-    for pieces in ["", "pieces.power_law.exponent = 0.5", "pieces.power_law.exponent = 1.83"] {
+fn the_ledger_has_the_surfaces_of_the_fragments() {
+    let of = |fragments: &str| format!("[impact]\nfragmentation = {{ {fragments} }}\n{}", restitution(0.4));
+    for fragments in ["", "fragments.power_law.exponent = 0.5", "fragments.power_law.exponent = 1.83"] {
         for seed in 0..40 {
-            let mut scenario = scenario(EVENTS, "open", &of(pieces));
+            let mut scenario = scenario(EVENTS, "open", &of(fragments));
             scenario.seed = seed;
             let fast = 20.0 + f64::from(seed as u32);
             let grains = [
@@ -297,18 +297,18 @@ fn the_ledger_has_the_surfaces_of_the_pieces() {
                 ([1.1e-3, 0.0, 0.2e-3], [-20.0, 0.0, 1.0], 0.9e-3),
             ];
             let mut simulation = start(&scenario, &grains);
-            simulation.cloud_mut().state.spheres.bulk[0].primaries = 100;
-            simulation.cloud_mut().state.spheres.bulk[1].primaries = 30;
-            simulation.cloud_mut().meet(Contact { spheres: [0, 1], shift: Vec3::ZERO }, 0.0, &Nobody);
+            simulation.system_mut().state.spheres.bulk[0].primaries = 100;
+            simulation.system_mut().state.spheres.bulk[1].primaries = 30;
+            simulation.system_mut().collide(Contact { spheres: [0, 1], shift: Vec3::ZERO }, 0.0, &Nobody);
             let areas = |radii: &[f64]| radii.iter().map(|b| 4.0 * std::f64::consts::PI * b * b).sum::<f64>();
             let (after, before) = (areas(&simulation.snapshot().grains.radius), areas(&[1.2e-3, 0.9e-3]));
-            let booked = simulation.cloud().state.books.flows.impacts.surface;
-            assert_above!(simulation.cloud().state.counts.fragmentations, 0);
+            let booked = simulation.system().state.ledger.flows.collisions.surface;
+            assert_above!(simulation.system().state.counts.fragmentations, 0);
             assert_above!(booked, 0.0, "in J");
             // 1 J/m²; sums of up to 130 areas.
             assert!(
                 (booked - (after - before)).abs() < 1e-13 * after,
-                "{booked} {} {pieces}",
+                "{booked} {} {fragments}",
                 after - before
             );
             assert_below!(simulation.balance().drift_relative.abs(), 1e-14);
@@ -319,22 +319,22 @@ fn the_ledger_has_the_surfaces_of_the_pieces() {
 /// A contact is the same whoever is named first.
 #[test]
 fn whoever_is_named_first() {
-    for pieces in ["", "pieces.power_law.exponent = 1.5"] {
-        named_first(pieces);
+    for fragments in ["", "fragments.power_law.exponent = 1.5"] {
+        named_first(fragments);
     }
 }
 
-fn named_first(pieces: &str) {
-    let impact = format!("[impact]\nfragmentation = {{ {pieces} }}\n{}", restitution(0.4));
+fn named_first(fragments: &str) {
+    let impact = format!("[impact]\nfragmentation = {{ {fragments} }}\n{}", restitution(0.4));
     let grains = [
         ([-1e-3, 0.1e-3, 0.0], [30.0, 1.0, 2.0], 1.2e-3),
         ([1.1e-3, 0.0, 0.2e-3], [-20.0, 0.0, 1.0], 0.9e-3),
     ];
     let after = [[0, 1], [1, 0]].map(|spheres| {
         let mut simulation = start(&scenario(EVENTS, "open", &impact), &grains);
-        simulation.cloud_mut().state.spheres.bulk[0].primaries = 30;
-        simulation.cloud_mut().state.spheres.bulk[1].primaries = 9;
-        simulation.cloud_mut().meet(Contact { spheres, shift: Vec3::ZERO }, 0.0, &Nobody);
+        simulation.system_mut().state.spheres.bulk[0].primaries = 30;
+        simulation.system_mut().state.spheres.bulk[1].primaries = 9;
+        simulation.system_mut().collide(Contact { spheres, shift: Vec3::ZERO }, 0.0, &Nobody);
         let mut rows: Vec<[u64; 7]> = Vec::new();
         let now = simulation.snapshot().grains;
         for at in 0..now.len() {
@@ -342,7 +342,7 @@ fn named_first(pieces: &str) {
             rows.push([x, y, z, u, v, w, now.temperature[at]].map(f64::to_bits));
         }
         rows.sort_unstable();
-        (rows, simulation.cloud().state.counts.clone())
+        (rows, simulation.system().state.counts.clone())
     });
     assert!(after[0].1.fragmentations == 2, "{:?}", after[0].1);
     assert_eq!(after[0], after[1]);

@@ -27,7 +27,7 @@ fn who_touches_longest_comes_first() {
             found.reverse();
         }
         for (found, wanted) in found.iter().zip([0.25, -0.1875, 0.4375]) {
-            // Two impacts that round.
+            // Two collisions that round.
             assert!((found - wanted).abs() < 1e-14, "{found} and not {wanted}");
         }
     }
@@ -46,16 +46,16 @@ fn a_sphere_that_grew_into_a_wall_only_turns_round() {
         ];
         let mut simulation = start(&scenario(STEPS, "reflecting", &restitution(0.0)), &grains);
         advance_to(&mut simulation, 0.51e-3);
-        let counts = &simulation.cloud().state.counts;
+        let counts = &simulation.system().state.counts;
         assert_eq!((counts.merges, counts.walls), (1, 1));
-        // 5 um on and then back; the impact may be late by a step of 10 ns, and the way back by all after it.
+        // 5 um on and then back; the collision may be late by a step of 10 ns, and the way back by all after it.
         let (time, place) = (simulation.clock().time, simulation.snapshot().grains.position[0].x);
         let wanted = side * (0.01 - r - 5e-6 - 0.01 * (time - 0.5e-3));
         assert!((place - wanted).abs() < 1e-9, "{place} and not {wanted}");
     }
 }
 
-/// Newton's cradle among others that fly on with it at 35 m/s: by the time of the impact all are 5 mm from where they
+/// Newton's cradle among others that fly on with it at 35 m/s: by the time of the collision all are 5 mm from where they
 /// were sorted into cells, and those behind the one that is hit are found in the same step nevertheless.
 #[test]
 fn a_cradle_in_flight() {
@@ -68,13 +68,13 @@ fn a_cradle_in_flight() {
     }
     let mut simulation = start(&scenario(STEPS, "periodic", &restitution(1.0)), &grains);
     let mut turns = agglo_testing::Turns::at_most(1_000_000, "the first impact");
-    while simulation.cloud().state.counts.impacts == 0 {
+    while simulation.system().state.counts.collisions == 0 {
         turns.take();
         simulation.advance(1.0).unwrap();
     }
-    assert_eq!(simulation.cloud().state.counts.impacts, 3);
+    assert_eq!(simulation.system().state.counts.collisions, 3);
     let after = simulation.snapshot().grains.velocity;
-    // Three impacts that each round once.
+    // Three collisions that each round once.
     assert!((after[3] - Vec3::new(7.0, flight, 0.0)).norm() < 1e-13, "{:?}", after[3]);
 }
 
@@ -89,9 +89,9 @@ fn heat_that_only_one_partner_keeps() {
     let mut simulation = Simulation::start(&scenario(EVENTS, "open", &impact), &rows).unwrap();
     advance_to(&mut simulation, 1e-4);
     let lost = 0.75 * 0.25 * rows.mass[0] * 400.0;
-    let books = &simulation.cloud().state.books;
+    let ledger = &simulation.system().state.ledger;
     // The energy is a difference of squares, and what was kept one of temperatures near 300 K: 1e-16 of 1.3 J each.
-    assert!((books.flows.unkept - 0.5 * lost).abs() < 1e-14, "{} of {lost}", books.flows.unkept);
+    assert!((ledger.flows.unkept - 0.5 * lost).abs() < 1e-14, "{} of {lost}", ledger.flows.unkept);
     assert_below!(simulation.balance().drift.abs(), 1e-14);
 }
 
@@ -100,7 +100,7 @@ fn heat_that_only_one_partner_keeps() {
 fn the_contact_duration_by_default() {
     let grains = [([-5e-3, 0.0, 0.0], [3.0, 0.0, 0.0], 1e-3), ([5e-3, 0.0, 0.0], [-3.0, 8.0, 0.0], 3e-3)];
     let simulation = start(&scenario(EVENTS, "open", &restitution(1.0)), &grains);
-    assert_close!(simulation.cloud().contact_duration, 4e-10, 1e-14, "in s");
+    assert_close!(simulation.system().contact_duration, 4e-10, 1e-14, "in s");
 }
 
 /// A merge is no bounce: what hits the merged sphere within the contact duration rebounds with its own restitution.
@@ -119,7 +119,7 @@ fn a_merge_does_not_arm_the_guard() {
     rows.material = vec![1, 1, 0];
     let mut simulation = Simulation::start(&scenario(engine, "open", &impact), &rows).unwrap();
     advance_to(&mut simulation, 5e-3);
-    let counts = &simulation.cloud().state.counts;
+    let counts = &simulation.system().state.counts;
     assert_eq!((counts.merges, counts.bounces, counts.guarded), (1, 1, 0));
     // Masses 2 : 1 and e = 1/2: -1 -+ (1/3, 2/3) 1.5 m/s.
     let after = simulation.snapshot().grains.velocity;

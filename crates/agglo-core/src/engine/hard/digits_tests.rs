@@ -50,9 +50,9 @@ fn small_spheres_meet_over_a_long_way() {
                 ];
                 let mut simulation = start(engine, boundary, 10.0, 1.0, &grains);
                 advance_to(&mut simulation, 3.0);
-                let counts = &simulation.cloud().state.counts;
+                let counts = &simulation.system().state.counts;
                 assert_eq!(
-                    (counts.impacts, counts.overlapping),
+                    (counts.collisions, counts.overlapping),
                     (1, u64::from(engine == STEPS)),
                     "{engine} {boundary}"
                 );
@@ -78,8 +78,12 @@ fn nobody_is_passed_within_a_step() {
                     [([0.2, 0.5, 0.5], [speed, 0.0, 0.0], radius), ([0.7, 0.5, 0.5], [0.0; 3], radius)];
                 let mut simulation = start(STEPS, boundary, 1.0, 1.0, &grains);
                 advance_to(&mut simulation, 0.55 / speed);
-                assert_eq!(simulation.cloud().state.counts.impacts, 1, "{radius} at {speed} in {boundary}");
-                // The step after the impact may end behind a wall.
+                assert_eq!(
+                    simulation.system().state.counts.collisions,
+                    1,
+                    "{radius} at {speed} in {boundary}"
+                );
+                // The step after the collision may end behind a wall.
                 assert_close!(simulation.snapshot().grains.velocity[1].x.abs(), speed, 1e-14, "in m/s");
             }
         }
@@ -94,9 +98,9 @@ fn nobody_is_passed_at_a_wall() {
         [([1.0 - 2.5 * r, 0.5, 0.5], [100.0, 0.0, 0.0], r), ([1.0 - 8.0 * r, 0.5, 0.5], [1.0, 0.0, 0.0], r)];
     let mut simulation = start(STEPS, "reflecting", 1.0, 1.0, &grains);
     advance_to(&mut simulation, 1e-6);
-    let counts = &simulation.cloud().state.counts;
+    let counts = &simulation.system().state.counts;
     // The slow one is hit on its way, then flies off at 100 m/s; the other goes on to the wall at 1 m/s.
-    assert_eq!((counts.impacts, counts.walls), (1, 2), "{counts:?}");
+    assert_eq!((counts.collisions, counts.walls), (1, 2), "{counts:?}");
 }
 
 /// Where a place is known to more than 1e-5 of a radius, that is said: at the start, on a far flight, and late.

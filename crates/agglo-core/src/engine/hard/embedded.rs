@@ -5,7 +5,7 @@
 //! T. I. Zohdi, Proc. R. Soc. Lond. A 460, 3421 (2004), section 9.
 //!
 //! # Valid when
-//! The macroscale step is longer than an impact and the flow is uniform over the control volume. Forces of the fluid are
+//! The macroscale step is longer than a collision and the flow is uniform over the control volume. Forces of the fluid are
 //! the macroscale code's: it changes velocities and temperatures between steps. A step is a pure function of scenario
 //! and state: boxes can be stepped in any order and on any thread. What an engine itself remembers (the time of each
 //! grain's last bounce) ends with the step.
@@ -46,7 +46,7 @@
 //!     println!("{} grains, {} K", means.grains, means.mean_temperature);
 //!     state = next;
 //! }
-//! // They met after 1 ms, at the end of the first step or in the second, and fly on as one at half the speed.
+//! // They collided after 1 ms, at the end of the first step or in the second, and fly on as one at half the speed.
 //! assert_eq!((state.grains.len(), state.grown[0].primaries), (1, 2));
 //! assert!((state.grains.velocity[0].x - 0.5).abs() < 1e-12);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -87,7 +87,7 @@ pub enum EmbeddedError {
     Value {
         /// Which column.
         column: &'static str,
-        /// Place of the grain in the columns, from 0.
+        /// Index of the grain in the columns, from 0.
         grain: usize,
         /// What was found, in SI units.
         value: String,
@@ -100,7 +100,7 @@ pub enum EmbeddedError {
     /// Two grains overlap, or a grain overlaps its own image.
     #[error("grains {} and {} overlap by {overlap:e} m; hard spheres must start apart", grains[0], grains[1])]
     Overlap {
-        /// Their places in the columns, from 0; twice the same where a grain overlaps its own image.
+        /// Their indices in the columns, from 0; twice the same where a grain overlaps its own image.
         grains: [u32; 2],
         /// How far they overlap [m].
         overlap: f64,
@@ -172,7 +172,7 @@ impl Microscale {
             state.grains.position = fill_with(&grains.radii, &self.settings.volume, self.settings.seed)
                 .map_err(EmbeddedError::NoRoom)?;
         }
-        check_places(&state.grains, &self.settings.volume)?;
+        check_positions(&state.grains, &self.settings.volume)?;
         Ok(state)
     }
 
@@ -206,7 +206,7 @@ impl Microscale {
         MicroState { grains, grown, reference_radius, step: 0 }
     }
 
-    /// Lets the grains fly and collide for `duration` [s]; gives the new state, in the order of names, and its means.
+    /// Lets the grains fly and collide for `duration` [s]; gives the new state, in the order of ids, and its means.
     ///
     /// # Errors
     /// [`EmbeddedError`] where a value of the state cannot be, or the simulation cannot go on.
@@ -224,7 +224,7 @@ impl Microscale {
         let mut stream = Stream::new(self.settings.seed, Purpose::Fragment, state.step);
         settings.seed = (stream.uniform() * (1_u64 << 53) as f64) as u64;
         let mut simulation = Simulation::start_grown(settings, &state.grains, &state.grown)?;
-        simulation.cloud_mut().keeps_events = false;
+        simulation.system_mut().keeps_events = false;
         while !simulation.is_finished() {
             simulation.advance(duration)?;
         }
@@ -285,7 +285,7 @@ fn check_grain(grain: usize, row: &Row, grown: &Grown, materials: usize) -> Resu
 }
 
 /// What a first state has to keep besides: grains in their volume and apart.
-fn check_places(grains: &Particles, volume: &Volume) -> Result<(), EmbeddedError> {
+fn check_positions(grains: &Particles, volume: &Volume) -> Result<(), EmbeddedError> {
     for (grain, (&position, &radius)) in grains.position.iter().zip(&grains.radius).enumerate() {
         if !volume.holds(position, radius) {
             let Vec3 { x, y, z } = position;

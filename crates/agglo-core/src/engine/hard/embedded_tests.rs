@@ -1,4 +1,4 @@
-//! Embedded grains against impacts by hand, and what is refused.
+//! Embedded grains against collisions by hand, and what is refused.
 
 use std::f64::consts::PI;
 
@@ -53,7 +53,7 @@ fn primaries(state: &MicroState) -> Vec<u32> {
     state.grown.iter().map(|grown| grown.primaries).collect()
 }
 
-/// The first impact comes after 1 mm at 4 m/s, 0.25 ms; the pair flies on at 8/13 m/s. All figures by hand.
+/// The first collision comes after 1 mm at 4 m/s, 0.25 ms; the pair flies on at 8/13 m/s. All figures by hand.
 #[test]
 fn two_that_stick() {
     let microscale = microscale(STICKY, "event_driven");
@@ -80,7 +80,7 @@ fn two_that_stick() {
     assert_close!(means.solid_fraction, 3.0 * cubed / box_volume, 1e-12);
     assert_close!(means.mean_radius, 0.5 * 5e-4 * (1.0 + 2_f64.cbrt()), 1e-12, "in m");
     assert_close!(means.growth, (0.5 * (1.0 + 2_f64.cbrt())).powi(3), 1e-12);
-    for rate in [means.impact_rate, means.merge_rate] {
+    for rate in [means.collision_rate, means.merge_rate] {
         assert_close!(rate, 1.0 / (box_volume * 1e-3), 1e-12);
     }
     assert_eq!((means.breakage_rate, means.cooled, means.reaction), (0.0, 0.0, 0.0));
@@ -108,7 +108,7 @@ fn a_state_carries_over() {
 }
 
 /// A crowd placed at random that bounces without loss: energy and momentum stay to the round-off of some hundred
-/// impacts, and kinetic = M V²/2 + 3 M Θ/2.
+/// collisions, and kinetic = M V²/2 + 3 M Θ/2.
 #[test]
 fn an_elastic_crowd() {
     let microscale = microscale(ELASTIC, "event_driven");
@@ -127,7 +127,7 @@ fn an_elastic_crowd() {
         grains.mass.iter().zip(&grains.velocity).map(|(mass, v)| 0.5 * mass * v.norm_squared()).sum()
     };
     let (state, means) = microscale.step(&start, 5e-3).unwrap();
-    assert!(means.impact_rate * 5e-3 * 1e-6 > 100.0, "{}", means.impact_rate);
+    assert!(means.collision_rate * 5e-3 * 1e-6 > 100.0, "{}", means.collision_rate);
     assert_close!(means.kinetic, kinetic_of(&start.grains), 1e-12, "in J");
     assert_close!(means.kinetic, kinetic_of(&state.grains), 1e-12, "in J");
     let parts = 0.5 * means.mean_velocity.norm_squared() + 1.5 * means.granular_temperature;
@@ -224,7 +224,7 @@ fn bad_input_is_refused_in_words() {
     assert_contains!(microscale.step(&spoiled, 1.0).unwrap_err().to_string(), "`temperatures` of grain 0");
 }
 
-/// An agglomerate of eight is hit and breaks: where its pieces go is drawn anew in each step of the macroscale code, and a step
+/// An agglomerate of eight is hit and breaks: where its fragments go is drawn anew in each step of the macroscale code, and a step
 /// made twice is the same.
 #[test]
 fn each_step_draws_its_own_numbers() {

@@ -1,4 +1,4 @@
-//! Hard spheres that impact, stick and break, in a control volume.
+//! Hard spheres that collide, stick and break, in a control volume.
 
 mod collide;
 mod drive;
@@ -23,12 +23,14 @@ mod oracle_tests;
 #[cfg(test)]
 mod test_systems;
 
-pub use collide::{Change, Cloud, CloudState};
+pub use collide::{Change, HardSystem, HardSystemState};
 pub use drive::Clock;
 pub use embedded::{EmbeddedError, MicroGrains, Microscale};
 pub use grown::Grown;
 pub use micro_state::MicroState;
-pub use record::{Balance, Books, Counts, Descent, EventKind, Flows, GrainEvent, Homogenized, Stores};
+pub use record::{
+    Balance, Counts, Descent, EventKind, Flows, GrainEvent, HardLedger, Homogenized, SphereEnergy,
+};
 pub use search::{Contact, Surroundings};
 pub use settings::{Driver, Settings};
 pub use simulation::{Simulation, SimulationState, Snapshot};

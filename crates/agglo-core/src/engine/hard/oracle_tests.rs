@@ -36,10 +36,10 @@ struct Brute {
     boundary: &'static str,
     restitution: f64,
     time: f64,
-    impacts: u64,
+    collisions: u64,
     walls: u64,
     merges: u64,
-    /// Whether two impacts were due at the same moment, so that their order is not physics.
+    /// Whether two collisions were due at the same moment, so that their order is not physics.
     ambiguous: bool,
 }
 
@@ -71,13 +71,13 @@ impl Brute {
             radius: now.radius[at],
             mass: now.mass[at],
         };
-        let counts = &simulation.cloud().state.counts;
+        let counts = &simulation.system().state.counts;
         Self {
             balls: (0..now.len()).map(ball).collect(),
             boundary,
             restitution,
             time: simulation.clock().time,
-            impacts: counts.impacts,
+            collisions: counts.collisions,
             walls: counts.walls,
             merges: counts.merges,
             ambiguous: false,
@@ -144,7 +144,7 @@ impl Brute {
         }
     }
 
-    /// Flies to the next impact or wall before `until` [s]. Images next to one another are enough as long as nothing flies
+    /// Flies to the next collision or wall before `until` [s]. Images next to one another are enough as long as nothing flies
     /// further than a quarter of an edge.
     fn fly_to_next(&mut self, until: f64) -> Event {
         let mut turns = agglo_testing::Turns::at_most(10_000_000, "an event");
@@ -179,7 +179,7 @@ impl Brute {
                 self.walls += 1;
             }
             Event::Impact(pair, image) => {
-                self.impacts += 1;
+                self.collisions += 1;
                 if self.restitution == 0.0 { self.merge(pair, image) } else { self.bounce(pair, image) }
             }
             Event::Face(..) | Event::Nothing => {}
@@ -236,35 +236,39 @@ impl Brute {
 /// What is seen of a run.
 #[derive(Debug, Default)]
 struct Seen {
-    impacts: u64,
+    collisions: u64,
     walls: u64,
     merges: u64,
     cascades: u64,
     compared: u64,
 }
 
-/// Follows the engine event by event through `impacts` impacts, or to where nobody meets any more.
-fn follow(boundary: &'static str, e: f64, grains: &[Grain], impacts: u64) -> Seen {
+/// Follows the engine event by event through `collisions` collisions, or to where there is no collision any more.
+fn follow(boundary: &'static str, e: f64, grains: &[Grain], collisions: u64) -> Seen {
     let mut simulation = start(&scenario(EVENTS, boundary, &restitution(e)), grains);
     let mut seen = Seen::default();
-    let mut turns = agglo_testing::Turns::at_most(10_000_000, "the impacts that are due");
-    while seen.impacts < impacts {
+    let mut turns = agglo_testing::Turns::at_most(10_000_000, "the collisions that are due");
+    while seen.collisions < collisions {
         turns.take();
         let mut brute = Brute::of(&simulation, boundary, e);
-        let before = (brute.impacts, brute.walls);
+        let before = (brute.collisions, brute.walls);
         let event = brute.fly_to_next(0.9);
         if event == Event::Nothing {
             advance_to(&mut simulation, 0.9);
-            let counts = &simulation.cloud().state.counts;
-            assert_eq!((counts.impacts, counts.walls), before, "events that brute force does not see");
+            let counts = &simulation.system().state.counts;
+            assert_eq!((counts.collisions, counts.walls), before, "events that brute force does not see");
             break;
         }
         let time = brute.time;
         assert!(time > simulation.clock().time - MOMENT, "time runs backwards");
         let early = time - MOMENT;
         advance_to(&mut simulation, early);
-        let counts = &simulation.cloud().state.counts;
-        assert_eq!((counts.impacts, counts.walls), before, "too soon: {event:?} at {time:e} in {boundary}");
+        let counts = &simulation.system().state.counts;
+        assert_eq!(
+            (counts.collisions, counts.walls),
+            before,
+            "too soon: {event:?} at {time:e} in {boundary}"
+        );
         let mut event = event;
         while event != Event::Nothing {
             brute.deal_with(event);
@@ -280,12 +284,17 @@ fn follow(boundary: &'static str, e: f64, grains: &[Grain], impacts: u64) -> See
 fn compare(simulation: &Simulation, brute: &Brute, time: f64, seen: &mut Seen) {
     let now = Brute::of(simulation, brute.boundary, brute.restitution);
     assert_eq!(now.lost(), 0, "overlapping spheres approach at {time:e} in {}", brute.boundary);
-    seen.cascades += u64::from(brute.impacts > seen.impacts + 1);
-    (seen.impacts, seen.walls, seen.merges) = (now.impacts, now.walls, now.merges);
+    seen.cascades += u64::from(brute.collisions > seen.collisions + 1);
+    (seen.collisions, seen.walls, seen.merges) = (now.collisions, now.walls, now.merges);
     if brute.ambiguous {
         return;
     }
-    assert_eq!((now.impacts, now.walls), (brute.impacts, brute.walls), "at {time:e} in {}", brute.boundary);
+    assert_eq!(
+        (now.collisions, now.walls),
+        (brute.collisions, brute.walls),
+        "at {time:e} in {}",
+        brute.boundary
+    );
     let mut expected = brute.balls.clone();
     expected.sort_by_key(|ball| ball.id);
     let names = |balls: &[Ball]| balls.iter().map(|ball| ball.id).collect::<Vec<_>>();
@@ -295,7 +304,7 @@ fn compare(simulation: &Simulation, brute: &Brute, time: f64, seen: &mut Seen) {
             let edges = if brute.boundary == "open" { 0.0 } else { (along / (2.0 * HALF)).round() };
             along - 2.0 * HALF * edges
         });
-        // One flight and one impact, rounded in two ways; a grazing impact loses half of all digits at the very worst.
+        // One flight and one collision, rounded in two ways; a grazing collision loses half of all digits at the very worst.
         assert!(Vec3::from(apart).norm() < 1e-9 * wanted.radius, "{found:?} {wanted:?} at {time:e}");
         let speed = 1.0 + wanted.velocity.norm();
         assert!((found.velocity - wanted.velocity).norm() < 1e-9 * speed, "{found:?} {wanted:?} at {time:e}");
@@ -306,9 +315,9 @@ fn compare(simulation: &Simulation, brute: &Brute, time: f64, seen: &mut Seen) {
     seen.compared += 1;
 }
 
-/// The engine has the event at its time to 1e-9 of the time that spheres take between two impacts, 1e-5 s and more.
+/// The engine has the event at its time to 1e-9 of the time that spheres take between two collisions, 1e-5 s and more.
 fn assert_times(simulation: &Simulation, time: f64) {
-    let spheres = &simulation.cloud().state.spheres;
+    let spheres = &simulation.system().state.spheres;
     for at in spheres.living() {
         let bounced = spheres.bulk[at as usize].bounced_at;
         let is_now = (bounced - time).abs() < 1e-9;
@@ -322,19 +331,22 @@ fn inwards(boundary: &str) -> f64 {
     if boundary == "open" { INWARDS } else { 0.0 }
 }
 
-fn clouds(e: f64, largest: f64, ratio: f64, impacts: u64) {
+fn clouds(e: f64, largest: f64, ratio: f64, collisions: u64) {
     for boundary in BOUNDARIES {
         let mut sum = Seen::default();
         for seed in 0..4 {
             let n = 30 + 20 * seed as usize;
-            let seen = follow(boundary, e, &crowd(n, largest, ratio, inwards(boundary), seed), impacts);
-            sum.impacts += seen.impacts;
+            let seen = follow(boundary, e, &crowd(n, largest, ratio, inwards(boundary), seed), collisions);
+            sum.collisions += seen.collisions;
             sum.walls += seen.walls;
             sum.compared += seen.compared;
             sum.cascades += seen.cascades;
         }
-        // An open cloud has one meeting and is gone.
-        assert!(sum.impacts > if boundary == "open" || e == 0.0 { 60 } else { 4 * impacts - 1 }, "{sum:?}");
+        // An open system has one collision and is gone.
+        assert!(
+            sum.collisions > if boundary == "open" || e == 0.0 { 60 } else { 4 * collisions - 1 },
+            "{sum:?}"
+        );
         assert!(sum.compared > 50 && (sum.walls > 20) == (boundary == "reflecting"), "{sum:?}");
     }
 }
@@ -384,12 +396,15 @@ fn spheres_nearly_as_wide_as_the_volume() {
             let seen = follow(boundary, e, &grains, 60);
             // Antipodal and open ones let the small spheres go.
             assert!(seen.compared >= 3, "{seen:?} in {boundary} with {e}");
-            assert!(seen.impacts >= 60 || boundary == "open" || e == 0.0, "{seen:?} in {boundary} with {e}");
+            assert!(
+                seen.collisions >= 60 || boundary == "open" || e == 0.0,
+                "{seen:?} in {boundary} with {e}"
+            );
         }
     }
 }
 
-/// Centers go through faces, edges and corners of the volume at the very moment of an impact, to rounding.
+/// Centers go through faces, edges and corners of the volume at the very moment of a collision, to rounding.
 #[test]
 fn impacts_at_the_moment_of_crossing_a_face() {
     let speed = [10.0, 7.0, 3.0];
@@ -412,7 +427,7 @@ fn impacts_at_the_moment_of_crossing_a_face() {
                 });
                 let grains = [(first, velocity, 1e-3), (second, moves, 1.1e-3)];
                 let seen = follow("periodic", e, &grains, 2);
-                assert!(seen.impacts >= 1 && seen.compared >= 1, "{axes} {delay} {e}");
+                assert!(seen.collisions >= 1 && seen.compared >= 1, "{axes} {delay} {e}");
             }
         }
     }

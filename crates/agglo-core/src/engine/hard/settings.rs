@@ -19,7 +19,7 @@ pub struct Settings {
     pub driver: Driver,
     /// The control volume.
     pub volume: Volume,
-    /// Materials by name; a grain's number of its material is the place in this map.
+    /// Materials by name; a grain's number of its material is the index in this map.
     pub materials: BTreeMap<String, Material>,
     /// What pairs of materials have in common, where it differs from the laws.
     pub mixtures: Vec<Mixture>,
@@ -30,7 +30,7 @@ pub struct Settings {
 /// What drives time.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Driver {
-    /// From impact to impact, each at its exact time.
+    /// From collision to collision, each at its exact time.
     EventDriven(EventDriven),
     /// Steps that are as long as gaps allow, [B] 6.14.
     TimeStepped(TimeStepped),

@@ -1,4 +1,4 @@
-//! A simulation of hard spheres: one of the two drivers, the spheres, the clock and the books.
+//! A simulation of hard spheres: one of the two drivers, the spheres, the clock and the ledger.
 
 use std::borrow::Cow;
 
@@ -13,14 +13,14 @@ use crate::math::Vec3;
 use crate::measure::SizeRates;
 use crate::particles::{Material, Particles};
 
-use super::collide::{Cloud, CloudState, Collapse};
+use super::collide::{Collapse, HardSystem, HardSystemState};
 use super::drive::{Clock, Events, EventsState, Steps};
 use super::grown::Grown;
-use super::record::{self, Balance, Books, Counts};
+use super::record::{self, Balance, Counts, HardLedger};
 use super::settings::{self, Settings};
 use super::spheres::Spheres;
 
-const UNEXPLAINED: &str = "energy that the books of impacts do not explain is above 0.001 of all energy";
+const UNEXPLAINED: &str = "energy that the ledger of collisions do not explain is above 0.001 of all energy";
 
 /// How the spheres are driven.
 #[derive(Clone, Debug)]
@@ -41,7 +41,7 @@ enum DriverState<'a> {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SimulationState<'a> {
     clock: Clock,
-    cloud: Cow<'a, CloudState>,
+    system: Cow<'a, HardSystemState>,
     driver: DriverState<'a>,
     grains_at_start: u64,
     primaries_at_start: u64,
@@ -54,24 +54,24 @@ impl SimulationState<'_> {
     /// # Errors
     /// What is wrong with it.
     fn validate(&self, settings: &Settings) -> Result<(), Fault> {
-        let (clock, cloud) = (&self.clock, &*self.cloud);
+        let (clock, system) = (&self.clock, &*self.system);
         finite("clock", clock)?;
         let times = [clock.time, clock.last_step, self.contact_duration];
         ensure(times.iter().all(|time| *time >= 0.0 && time.is_finite()), || {
             "clock: a time is below 0".to_owned()
         })?;
         ensure(clock.step < MOST_COUNTED, || "clock: too many steps".to_owned())?;
-        cloud.spheres.validate(settings.materials.len(), clock.time)?;
-        let living = cloud.spheres.bulk.iter().filter(|bulk| bulk.lives()).map(|bulk| bulk.primaries);
+        system.spheres.validate(settings.materials.len(), clock.time)?;
+        let living = system.spheres.bulk.iter().filter(|bulk| bulk.lives()).map(|bulk| bulk.primaries);
         let primaries: u64 = living.clone().map(u64::from).sum();
         ensure(primaries == self.primaries_at_start && self.grains_at_start <= primaries, || {
             "there are other grains than at the start".to_owned()
         })?;
-        cloud.rates.validate(living)?;
-        cloud.collapse.validate()?;
-        finite("ledger", &cloud.books)?;
-        finite("counts", &cloud.counts)?;
-        cloud.counts.validate()
+        system.rates.validate(living)?;
+        system.collapse.validate()?;
+        finite("ledger", &system.ledger)?;
+        finite("counts", &system.counts)?;
+        system.counts.validate()
     }
 
     /// Where the simulation stands in time.
@@ -80,7 +80,7 @@ impl SimulationState<'_> {
     }
 }
 
-/// The grains at one moment, in the order of their names.
+/// The grains at one moment, in the order of their ids.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Snapshot {
     /// The columns.
@@ -92,7 +92,7 @@ pub struct Snapshot {
 /// A simulation.
 #[derive(Clone, Debug)]
 pub struct Simulation {
-    cloud: Cloud,
+    system: HardSystem,
     driver: Driver,
     clock: Clock,
     grains_at_start: u64,
@@ -135,8 +135,8 @@ impl Simulation {
             bulk.heat_capacity = grown.heat_capacity;
         }
         let volume = settings.volume.volume();
-        let state = CloudState {
-            books: Books::open(&spheres),
+        let state = HardSystemState {
+            ledger: HardLedger::open(&spheres),
             counts: Counts::default(),
             rates: SizeRates::new(spheres.bulk.iter().map(|bulk| bulk.primaries), volume),
             warnings: Warnings::default(),
@@ -147,18 +147,18 @@ impl Simulation {
         let primaries_at_start = state.spheres.bulk.iter().map(|bulk| u64::from(bulk.primaries)).sum();
         let (clock, end) = (Clock::default(), settings.end);
         let options = settings.driver.clone();
-        let mut cloud = Self::cloud_of(settings, state);
-        for warning in cloud.laws.standing_warnings() {
-            cloud.state.warnings.add(warning);
+        let mut system = Self::system_of(settings, state);
+        for warning in system.laws.standing_warnings() {
+            system.state.warnings.add(warning);
         }
         let driver = match &options {
             settings::Driver::EventDriven(options) => {
-                cloud.contact_duration = options.duration(&cloud.state.spheres, cloud.volume.boundary);
-                Driver::Events(Box::new(Events::start(&mut cloud)?))
+                system.contact_duration = options.duration(&system.state.spheres, system.volume.boundary);
+                Driver::Events(Box::new(Events::start(&mut system)?))
             }
             settings::Driver::TimeStepped(options) => Driver::Steps(Box::new(Steps::new(options))),
         };
-        Ok(Self { cloud, driver, clock, grains_at_start, primaries_at_start, end })
+        Ok(Self { system, driver, clock, grains_at_start, primaries_at_start, end })
     }
 
     /// Goes on from a saved state.
@@ -178,12 +178,12 @@ impl Simulation {
         let forged = |reason| SimError::Forged { reason };
         state.validate(&settings).map_err(forged)?;
         let (end, options) = (settings.end, settings.driver.clone());
-        let mut cloud = Self::cloud_of(settings, state.cloud.into_owned());
-        cloud.contact_duration = state.contact_duration;
+        let mut system = Self::system_of(settings, state.system.into_owned());
+        system.contact_duration = state.contact_duration;
         let driver = match (&options, state.driver) {
             (settings::Driver::EventDriven(_), DriverState::Events(saved)) => {
-                saved.validate(&cloud, state.clock.time).map_err(forged)?;
-                Driver::Events(Box::new(Events::resume(&cloud, saved)))
+                saved.validate(&system, state.clock.time).map_err(forged)?;
+                Driver::Events(Box::new(Events::resume(&system, saved)))
             }
             (settings::Driver::TimeStepped(options), DriverState::Steps) => {
                 Driver::Steps(Box::new(Steps::new(options)))
@@ -191,11 +191,11 @@ impl Simulation {
             _ => return Err(forged("it is of the other driver of hard spheres".to_owned())),
         };
         let SimulationState { clock, grains_at_start, primaries_at_start, .. } = state;
-        Ok(Self { cloud, driver, clock, grains_at_start, primaries_at_start, end })
+        Ok(Self { system, driver, clock, grains_at_start, primaries_at_start, end })
     }
 
-    fn cloud_of(settings: Settings, state: CloudState) -> Cloud {
-        Cloud {
+    fn system_of(settings: Settings, state: HardSystemState) -> HardSystem {
+        HardSystem {
             state,
             laws: ImpactLaws::new(&settings.impact, &settings.materials, &settings.mixtures),
             volume: settings.volume,
@@ -204,7 +204,7 @@ impl Simulation {
             keeps_events: true,
             contact_duration: 0.0,
             seed: settings.seed,
-            pieces: Vec::new(),
+            fragments: Vec::new(),
         }
     }
 
@@ -212,26 +212,26 @@ impl Simulation {
     pub fn state(&self) -> SimulationState<'_> {
         SimulationState {
             clock: self.clock,
-            cloud: Cow::Borrowed(&self.cloud.state),
+            system: Cow::Borrowed(&self.system.state),
             driver: match &self.driver {
                 Driver::Events(events) => DriverState::Events(events.state()),
                 Driver::Steps(_) => DriverState::Steps,
             },
             grains_at_start: self.grains_at_start,
             primaries_at_start: self.primaries_at_start,
-            contact_duration: self.cloud.contact_duration,
+            contact_duration: self.system.contact_duration,
         }
     }
 
-    /// What another simulation can start from: grains with their names and what they are made of. The times of their last
+    /// What another simulation can start from: grains with their ids and what they are made of. The times of their last
     /// bounces end here.
     pub fn into_start(self) -> Start {
         Start { grown: self.grown(), ..Start::from(self.snapshot().grains) }
     }
 
-    /// What the grains keep of their parts, in the order of names [n].
+    /// What the grains keep of their parts, in the order of ids [n].
     pub(super) fn grown(&self) -> Vec<Grown> {
-        let spheres = &self.cloud.state.spheres;
+        let spheres = &self.system.state.spheres;
         let of = |at: &u32| {
             let bulk = &spheres.bulk[*at as usize];
             Grown { primaries: bulk.primaries, heat_capacity: bulk.heat_capacity }
@@ -261,17 +261,17 @@ impl Simulation {
 
     /// Grains now.
     pub fn grains(&self) -> usize {
-        self.cloud.state.spheres.len()
+        self.system.state.spheres.len()
     }
 
-    /// The spheres with their laws and books.
-    pub fn cloud(&self) -> &Cloud {
-        &self.cloud
+    /// The spheres with their laws and ledger.
+    pub fn system(&self) -> &HardSystem {
+        &self.system
     }
 
     /// The same, for taking events and warnings out.
-    pub fn cloud_mut(&mut self) -> &mut Cloud {
-        &mut self.cloud
+    pub fn system_mut(&mut self) -> &mut HardSystem {
+        &mut self.system
     }
 
     /// Goes on toward `until` [s], or the end if that is sooner. The event-driven engine stops exactly there, or before
@@ -282,8 +282,8 @@ impl Simulation {
     pub fn advance(&mut self, until: f64) -> Result<(), SimError> {
         let (until, before) = (until.min(self.end), self.clock.step);
         match &mut self.driver {
-            Driver::Events(events) => events.advance(&mut self.cloud, &mut self.clock, until)?,
-            Driver::Steps(steps) => steps.step(&mut self.cloud, &mut self.clock, self.end)?,
+            Driver::Events(events) => events.advance(&mut self.system, &mut self.clock, until)?,
+            Driver::Steps(steps) => steps.step(&mut self.system, &mut self.clock, self.end)?,
         }
         // Seldom enough to cost nothing beside the events.
         let every = (10 * self.grains() as u64).max(1000);
@@ -291,39 +291,39 @@ impl Simulation {
         if is_due || self.is_finished() { self.look_at_the_energy() } else { Ok(()) }
     }
 
-    /// Energy that the books do not explain is a warning at the end, and soon an error where it is much.
+    /// Energy that the ledger does not explain is a warning at the end, and soon an error where it is much.
     fn look_at_the_energy(&mut self) -> Result<(), SimError> {
         let limits = Limits::default();
         let balance = self.balance();
         if !balance.is_finite() {
-            let laws = self.cloud.laws.names().join(", ");
-            return Err(SimError::ImpactLedgerNotFinite { time: self.clock.time, laws });
+            let laws = self.system.laws.names().join(", ");
+            return Err(SimError::HardLedgerNotFinite { time: self.clock.time, laws });
         }
         let part = balance.unexplained();
         if self.is_finished() && part > limits.drift_warning {
-            self.cloud.state.warnings.add(UNEXPLAINED);
+            self.system.state.warnings.add(UNEXPLAINED);
         }
-        if part > limits.drift_error && self.cloud.laws.standing_warnings().is_empty() {
-            let laws = self.cloud.laws.names().join(", ");
-            return Err(SimError::ImpactUnexplained { time: self.clock.time, part, laws });
+        if part > limits.drift_error && self.system.laws.standing_warnings().is_empty() {
+            let laws = self.system.laws.names().join(", ");
+            return Err(SimError::HardUnexplained { time: self.clock.time, part, laws });
         }
         Ok(())
     }
 
     /// The grains now. Taking it changes nothing.
     pub fn snapshot(&self) -> Snapshot {
-        let (spheres, time) = (&self.cloud.state.spheres, self.clock.time);
+        let (spheres, time) = (&self.system.state.spheres, self.clock.time);
         let mut snapshot = Snapshot::default();
         // A step may leave a grain of an antipodal volume outside.
         let wraps = match self.driver {
-            Driver::Events(_) => self.cloud.volume.boundary.wraps(),
-            Driver::Steps(_) => self.cloud.volume.boundary == Boundary::Periodic,
+            Driver::Events(_) => self.system.volume.boundary.wraps(),
+            Driver::Steps(_) => self.system.volume.boundary == Boundary::Periodic,
         };
         for at in spheres.by_id() {
             let mut row = spheres.row(at, time);
-            row.temperature = self.cloud.cooled(at as usize, time).0;
+            row.temperature = self.system.cooled(at as usize, time).0;
             if wraps {
-                row.position = self.cloud.volume.wrap(row.position);
+                row.position = self.system.volume.wrap(row.position);
             }
             snapshot.grains.push(row);
             snapshot.primaries.push(spheres.bulk[at as usize].primaries);
@@ -333,28 +333,28 @@ impl Simulation {
 
     /// The ledger now.
     pub fn balance(&self) -> Balance {
-        let (spheres, time) = (&self.cloud.state.spheres, self.clock.time);
+        let (spheres, time) = (&self.system.state.spheres, self.clock.time);
         let order = spheres.by_id();
         let mut pending = 0.0;
-        let stores = record::stores(spheres, &order, |at| {
-            let (temperature, given_off) = self.cloud.cooled(at as usize, time);
+        let stored = record::stored(spheres, &order, |at| {
+            let (temperature, given_off) = self.system.cooled(at as usize, time);
             pending += given_off;
             temperature
         });
-        self.cloud.state.books.balance(stores, pending)
+        self.system.state.ledger.balance(stored, pending)
     }
 
     /// Momentum [kg m/s] now.
     pub fn momentum(&self) -> Vec3 {
-        let spheres = &self.cloud.state.spheres;
+        let spheres = &self.system.state.spheres;
         record::momentum(spheres, &spheres.by_id())
     }
 
     /// Momentum that walls do not explain, over the sum of the momenta's sizes at the start.
     pub fn momentum_drift_relative(&self) -> f64 {
-        let books = &self.cloud.state.books;
-        if books.momentum_size_at_start > 0.0 {
-            books.momentum_drift(self.momentum()).norm() / books.momentum_size_at_start
+        let ledger = &self.system.state.ledger;
+        if ledger.momentum_size_at_start > 0.0 {
+            ledger.momentum_drift(self.momentum()).norm() / ledger.momentum_size_at_start
         } else {
             0.0
         }

@@ -1,7 +1,7 @@
-//! Hard spheres in memory: what the search for impacts reads often, and what only an impact needs.
+//! Hard spheres in memory: what the search for collisions reads often, and what only a collision needs.
 //!
-//! A sphere's motion is one cache line. Places in the arrays are reused once a sphere has merged away; names
-//! (`id`) are never used twice.
+//! A sphere's motion is one cache line. Slots of the arrays are reused once a sphere has merged away; ids
+//! are never used twice.
 
 use serde::{Deserialize, Serialize};
 
@@ -34,7 +34,7 @@ impl Sphere {
         self.position + self.velocity * (time - self.time)
     }
 
-    /// What its place at a time [s] is rounded to [m]: coordinates and the clock have 53 binary digits.
+    /// What its position at a time [s] is rounded to [m]: coordinates and the clock have 53 binary digits.
     #[inline]
     pub fn rounding(&self, time: f64) -> f64 {
         resolution::spacing(self.at(time)) + f64::EPSILON * self.velocity.norm() * time
@@ -54,11 +54,11 @@ pub struct Bulk {
     pub heated_at: f64,
     /// Time of the last bounce [s]; minus infinity before the first.
     pub bounced_at: f64,
-    /// Stable name.
+    /// Its id, which no other sphere ever has.
     pub id: u32,
     /// Number of the material.
     pub material: u32,
-    /// How many primary grains it is made of; 0 where the place is empty.
+    /// How many primary grains it is made of; 0 where the slot is empty.
     pub primaries: u32,
 }
 
@@ -81,12 +81,12 @@ impl Bulk {
     }
 }
 
-/// All spheres, by their place in memory.
+/// All spheres, by their index in memory.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Spheres {
-    /// Motions [places].
+    /// Motions [slots].
     pub motion: Vec<Sphere>,
-    /// The rest [places].
+    /// The rest [slots].
     pub bulk: Vec<Bulk>,
     free: Vec<u32>,
     next_id: u32,
@@ -123,7 +123,7 @@ impl Spheres {
         let mut free = self.free.clone();
         free.sort_unstable();
         let empty = (0_u32..).zip(&self.bulk).filter(|(_, bulk)| !bulk.lives()).map(|(at, _)| at);
-        ensure(empty.eq(free), || "the list of free places is another".to_owned())
+        ensure(empty.eq(free), || "the list of free slots is another".to_owned())
     }
 
     /// Takes grains at time zero; `heat_capacity` gives that of a material [J/(kg K)] by its number.
@@ -155,8 +155,8 @@ impl Spheres {
         spheres
     }
 
-    /// Places in memory, empty ones included.
-    pub fn places(&self) -> usize {
+    /// Slots in memory, empty ones included.
+    pub fn slots(&self) -> usize {
         self.motion.len()
     }
 
@@ -170,12 +170,12 @@ impl Spheres {
         self.len() == 0
     }
 
-    /// Places of the spheres, in the order of memory.
+    /// Indices of the spheres, in the order of memory.
     pub fn living(&self) -> impl Iterator<Item = u32> + '_ {
-        (0..self.places() as u32).filter(|&at| self.bulk[at as usize].lives())
+        (0..self.slots() as u32).filter(|&at| self.bulk[at as usize].lives())
     }
 
-    /// A name that was never used.
+    /// An id that was never used.
     pub fn new_id(&mut self) -> u32 {
         self.next_id += 1;
         self.next_id - 1
@@ -187,7 +187,7 @@ impl Spheres {
         self.free.push(at);
     }
 
-    /// Puts a sphere into an empty place and says which.
+    /// Puts a sphere into an empty slot and gives its index.
     pub fn insert(&mut self, motion: Sphere, bulk: Bulk) -> u32 {
         if let Some(at) = self.free.pop() {
             self.motion[at as usize] = motion;
@@ -199,7 +199,7 @@ impl Spheres {
         (self.motion.len() - 1) as u32
     }
 
-    /// Puts the spheres into another order and drops empty places: the one at `order[k]` comes to place k.
+    /// Puts the spheres into another order and drops empty slots: the one at `order[k]` comes to index k.
     pub fn reorder(&mut self, order: &[u32]) {
         self.motion = order.iter().map(|&at| self.motion[at as usize]).collect();
         self.bulk = order.iter().map(|&at| self.bulk[at as usize]).collect();
@@ -222,9 +222,9 @@ impl Spheres {
         }
     }
 
-    /// Places in the order of names.
+    /// Indices in the order of ids.
     pub fn by_id(&self) -> Vec<u32> {
-        // Name and place in one number: sorting then looks nowhere else.
+        // Id and index in one number: sorting then looks nowhere else.
         let key = |at: u32| u64::from(self.bulk[at as usize].id) << 32 | u64::from(at);
         let mut keys: Vec<u64> = self.living().map(key).collect();
         keys.sort_unstable();

@@ -1,4 +1,4 @@
-//! Small clouds of hard spheres for tests of the engines, in a cube of 2 cm about the origin.
+//! Small systems of hard spheres for tests of the engines, in a cube of 2 cm about the origin.
 
 use super::Simulation;
 use crate::math::Vec3;
@@ -10,7 +10,7 @@ use crate::testing::Scenario;
 pub const DENSITY: f64 = 1000.0;
 /// The four kinds of faces.
 pub const BOUNDARIES: [&str; 4] = ["periodic", "antipodal", "reflecting", "open"];
-/// The engine from impact to impact without a guard against collapse, which a brute force does not know.
+/// The engine from collision to collision without a guard against collapse, which a brute force does not know.
 pub const EVENTS: &str = "[engine.event_driven]\ncontact_duration = \"0 s\"";
 
 /// A scenario of this engine, these laws and this kind of faces.
@@ -34,7 +34,7 @@ pub fn restitution(e: f64) -> String {
 /// A grain: position [m], velocity [m/s], radius [m].
 pub type Grain = ([f64; 3], [f64; 3], f64);
 
-/// Grains with names in their order.
+/// Grains with ids in their order.
 pub fn particles(grains: &[Grain]) -> Particles {
     let mut particles = Particles::default();
     for (&(position, velocity, radius), id) in grains.iter().zip(0..) {

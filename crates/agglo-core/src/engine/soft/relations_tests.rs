@@ -208,7 +208,7 @@ fn kinds(simulation: &Simulation) -> Vec<Kind> {
         by_grain("charge", "C", &|at| scalar(grains.charge[at])),
         by_grain("absorbed power", "W", &|at| scalar(grains.absorbed_power[at])),
         by_grain("force", "N", &|at| system.loads.force[at]),
-        by_grain("moment", "N m", &|at| system.loads.moment[at]),
+        by_grain("torque", "N m", &|at| system.loads.torque[at]),
     ];
     kinds.extend(of_pairs(simulation));
     kinds.extend(of_rays(simulation));
@@ -272,7 +272,7 @@ fn of_rays(simulation: &Simulation) -> Vec<Kind> {
 }
 
 fn of_books(simulation: &Simulation) -> Vec<Kind> {
-    let (flows, stores) = (&simulation.ledger.flows, simulation.stores());
+    let (flows, stored) = (&simulation.ledger.flows, simulation.stored_energy());
     let energies = [
         ("rays", flows.rays.power),
         ("drag", flows.supplies.drag.power),
@@ -282,11 +282,11 @@ fn of_books(simulation: &Simulation) -> Vec<Kind> {
         ("tangential", flows.tangential),
         ("bond damping", flows.bond_damping),
         ("broken bonds", flows.broken_bonds),
-        ("elastic", stores.elastic),
-        ("springs", stores.tangential_spring),
-        ("bonds", stores.bonds),
-        ("near field", stores.near_field),
-        ("kinetic", stores.kinetic),
+        ("elastic", stored.elastic),
+        ("springs", stored.tangential_spring),
+        ("bonds", stored.bonds),
+        ("near field", stored.near_field),
+        ("kinetic", stored.kinetic),
     ];
     // One kind each: none is measured by the size of another.
     let of_energy =

@@ -64,7 +64,7 @@ impl Simulation {
             None => Self::with(settings, start),
         };
         simulation.truncation = truncation;
-        simulation.open_books();
+        simulation.open_ledger();
         for warning in &warnings {
             simulation.warnings.add(warning);
         }

@@ -28,7 +28,7 @@ pub struct Settings {
     pub limits: Limits,
     /// The fluid around the grains.
     pub medium: Medium,
-    /// Materials by name; a grain's number of its material is the place in this map.
+    /// Materials by name; a grain's number of its material is the index in this map.
     pub materials: BTreeMap<String, Material>,
     /// What pairs of materials have in common, where it differs from the laws.
     pub mixtures: Vec<Mixture>,

@@ -214,7 +214,7 @@ impl Simulation {
         }
     }
 
-    /// What another simulation can start from: grains with their names, loaded springs and bonds. Rays in flight are left
+    /// What another simulation can start from: grains with their ids, loaded springs and bonds. Rays in flight are left
     /// behind, with a warning.
     pub fn into_start(self) -> Start {
         let rays = self.pulses.flight().rays().len();
@@ -412,10 +412,10 @@ impl Simulation {
         if names.is_empty() { "no law at all".to_owned() } else { names.join(", ") }
     }
 
-    pub(super) fn open_books(&mut self) {
-        let stores = self.stores();
+    pub(super) fn open_ledger(&mut self) {
+        let stored = self.stored_energy();
         let momentum = self.momentum();
-        self.ledger = Ledger::open(stores, momentum, self.momentum_size(), self.system.grains.len());
+        self.ledger = Ledger::open(stored, momentum, self.momentum_size(), self.system.grains.len());
         for warning in self.system.laws.standing_warnings() {
             self.warnings.add(warning);
         }

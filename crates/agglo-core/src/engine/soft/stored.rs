@@ -1,18 +1,18 @@
-//! What the ledger's stores hold at the committed state.
+//! Energy and momentum of the committed state, for the ledger.
 
 use std::ops::Range;
 
 use crate::contact::pass::contact_energy;
 use crate::math::parallel;
-use crate::measure::{Balance, Momentum, Stores};
+use crate::measure::{Balance, Momentum, StoredEnergy};
 
 use super::forces::laws::source;
 use super::simulation::Simulation;
 use super::system::LEAF;
 
 impl Simulation {
-    /// Energy in the stores.
-    pub fn stores(&self) -> Stores {
+    /// Energy that the grains hold.
+    pub fn stored_energy(&self) -> StoredEnergy {
         let system = &self.system;
         let contact = system.with_contacts(contact_energy);
         let grains = &system.grains;
@@ -26,7 +26,7 @@ impl Simulation {
             |a, b| (a.0 + b.0, a.1 + b.1),
             (0.0, 0.0),
         );
-        Stores {
+        StoredEnergy {
             kinetic,
             spin,
             elastic: contact.normal,
@@ -59,7 +59,7 @@ impl Simulation {
 
     /// The ledger's balance now.
     pub fn balance(&self) -> Balance {
-        self.ledger.balance(self.stores())
+        self.ledger.balance(self.stored_energy())
     }
 
     /// Relative drift of linear momentum now.

@@ -218,8 +218,8 @@ impl System {
             let [i, j] = ends.map(|grain| grain as usize);
             loads.force[i] -= load.force;
             loads.force[j] += load.force;
-            loads.moment[i] -= load.moment_i;
-            loads.moment[j] -= load.moment_j;
+            loads.torque[i] -= load.moment_i;
+            loads.torque[j] -= load.moment_j;
             rates.bond_damping -= load.damping_power;
         })
     }
@@ -352,8 +352,8 @@ impl Gather<'_> {
         let mut supplies = Supplies::default();
         let has_single = self.laws.has_single();
         for (slot, grain) in range.enumerate() {
-            let (mut force, mut moment) = self.contact_loads(grain);
-            self.network.gather(grain, &mut force, &mut moment);
+            let (mut force, mut torque) = self.contact_loads(grain);
+            self.network.gather(grain, &mut force, &mut torque);
             if let Some(law) = &self.laws.fields.near_field {
                 let push = |other: usize| near_force(law, self.grains, self.now.position, grain, other);
                 if law.cutoff.is_some() {
@@ -373,29 +373,29 @@ impl Gather<'_> {
             if has_single {
                 let single = self.laws.on_single(self.grains, &self.now, grain, self.time, &mut supplies);
                 force += single.force;
-                moment += single.moment;
+                torque += single.torque;
             }
             views.force[slot] = force;
-            views.moment[slot] = moment;
+            views.torque[slot] = torque;
         }
         supplies
     }
 
     #[inline]
     fn contact_loads(&self, grain: usize) -> (Vec3, Vec3) {
-        let (mut force, mut moment) = (Vec3::ZERO, Vec3::ZERO);
+        let (mut force, mut torque) = (Vec3::ZERO, Vec3::ZERO);
         for &pair in self.list.joined(grain) {
             if let Some(load) = self.contacts.load(pair as usize) {
                 force -= load.force;
-                moment += load.couple * load.arms[1];
+                torque += load.couple * load.arms[1];
             }
         }
         for pair in self.list.owned(grain) {
             if let Some(load) = self.contacts.load(pair) {
                 force += load.force;
-                moment += load.couple * load.arms[0];
+                torque += load.couple * load.arms[0];
             }
         }
-        (force, moment)
+        (force, torque)
     }
 }

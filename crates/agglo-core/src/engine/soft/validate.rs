@@ -19,7 +19,7 @@ impl SimulationState<'_> {
         let grains = &*self.grains;
         let n = grains.len();
         validate_grains(grains, settings)?;
-        for (what, loads) in [("forces", &self.loads.force), ("moments", &self.loads.moment)] {
+        for (what, loads) in [("forces", &self.loads.force), ("torques", &self.loads.torque)] {
             length(what, loads.len(), n)?;
             finite_vectors(what, loads)?;
         }
@@ -50,14 +50,14 @@ fn validate_grains(grains: &Particles, settings: &Settings) -> Result<(), Fault>
     let mut names = grains.id.clone();
     names.sort_unstable();
     ensure(names.iter().zip(0_u32..).all(|(name, due)| *name == due), || {
-        "grains: names are not 0, 1, 2 ...".to_owned()
+        "grains: ids are not 0, 1, 2 ...".to_owned()
     })?;
     let materials = settings.materials.len();
     let holds = grains.material.iter().all(|number| (*number as usize) < materials);
     ensure(holds, || format!("grains: there are {materials} materials"))
 }
 
-/// Bonds stand in the order of the names that they join, the lower name first.
+/// Bonds stand in the order of the ids that they join, the lower id first.
 fn validate_bonds(bonds: &[Bond], grains: &Particles) -> Result<(), Fault> {
     for bond in bonds {
         let [a, b] = bond.ids;

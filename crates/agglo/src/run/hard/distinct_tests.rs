@@ -8,7 +8,7 @@ use std::path::Path;
 use serde_json::json;
 
 use super::*;
-use crate::engine::hard::{Counts, Descent, EventKind, GrainEvent, Grown, Stores};
+use crate::engine::hard::{Counts, Descent, EventKind, GrainEvent, Grown, SphereEnergy};
 use crate::impact::ImpactEnergy;
 use crate::math::Vec3;
 use crate::record::frames::{FieldValues, Frame};
@@ -37,7 +37,7 @@ const IMPACTS: ImpactEnergy =
 
 fn counts() -> Counts {
     Counts {
-        impacts: 1000,
+        collisions: 1000,
         bounces: 611,
         merges: 302,
         fragmentations: 87,
@@ -78,20 +78,20 @@ pub(super) fn distinct() -> Hard {
     let grown = grown.map(|(&primaries, heat_capacity)| Grown { primaries, heat_capacity }).collect();
     let start = Start { grown, ..Start::from(grains) };
     let mut job = Hard::start(&scenario, start, &mut |_| ControlFlow::Continue(())).unwrap();
-    let cloud = job.simulation.cloud_mut();
-    cloud.contact_duration = 6.25e-6;
-    let state = &mut cloud.state;
+    let system = job.simulation.system_mut();
+    system.contact_duration = 6.25e-6;
+    let state = &mut system.state;
     for (motion, bulk) in state.spheres.motion.iter_mut().zip(&mut state.spheres.bulk) {
         let id = bulk.id as usize;
         (bulk.mass, bulk.temperature, bulk.bounced_at) = (MASSES[id], TEMPERATURES[id], 0.0);
         (motion.velocity, motion.time) = (VELOCITIES[id].into(), 0.25);
     }
     state.counts = counts();
-    let books = &mut state.books;
-    books.stores_at_start = Stores { kinetic: STORES_AT_START[0], thermal: STORES_AT_START[1] };
-    (books.momentum_at_start, books.momentum_size_at_start) = (MOMENTUM_AT_START, 40.0);
-    (books.flows.impacts, books.flows.walls) = (IMPACTS, WALLS);
-    (books.flows.unkept, books.flows.cooled, books.flows.kept) = (0.25, 8.5, 0.002);
+    let ledger = &mut state.ledger;
+    ledger.stored_at_start = SphereEnergy { kinetic: STORES_AT_START[0], thermal: STORES_AT_START[1] };
+    (ledger.momentum_at_start, ledger.momentum_size_at_start) = (MOMENTUM_AT_START, 40.0);
+    (ledger.flows.collisions, ledger.flows.walls) = (IMPACTS, WALLS);
+    (ledger.flows.unkept, ledger.flows.cooled, ledger.flows.kept) = (0.25, 8.5, 0.002);
     for (text, times) in [("one", 15), ("two", 16)] {
         state.warnings.add_times(text, times);
     }
@@ -386,8 +386,8 @@ fn events_of_hard_spheres_go_into_their_tables() {
     let folder = tempfile::tempdir().unwrap();
     let mut tables = tables(Hard::TABLES, folder.path());
     let mut job = distinct();
-    let cloud = job.simulation.cloud_mut();
-    cloud.events.push(GrainEvent {
+    let system = job.simulation.system_mut();
+    system.events.push(GrainEvent {
         number: 3,
         time: 0.125,
         kind: EventKind::Break,
@@ -397,7 +397,7 @@ fn events_of_hard_spheres_go_into_their_tables() {
         restitution: 0.75,
         energy: IMPACTS,
     });
-    cloud.descents.push(Descent { event: 3, parent: 4, child: 11, primaries: 12, mass: 0.625 });
+    system.descents.push(Descent { event: 3, parent: 4, child: 11, primaries: 12, mass: 0.625 });
     job.record_events(&mut tables).unwrap();
     tables.flush().unwrap();
     let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
@@ -414,7 +414,7 @@ fn tables_at_the_end_stand_under_their_names() {
     let folder = tempfile::tempdir().unwrap();
     let folder = RunFolder::create(&folder.path().join("run")).unwrap();
     let mut job = distinct();
-    let rates = &mut job.simulation.cloud_mut().state.rates;
+    let rates = &mut job.simulation.system_mut().state.rates;
     (0..7).for_each(|number| rates.collide([1, 2], number < 2));
     rates.collide_and_break([9, 1]);
     rates.shatter(9, &[4, 4, 1], 0.5);
@@ -435,9 +435,9 @@ fn tables_at_the_end_stand_under_their_names() {
     // One pair for 0.5 s in 8 m3.
     let exposure = 0.5 / 8.0;
     let wanted = [
-        ("impacts", 7.0),
+        ("collisions", 7.0),
         ("merges", 2.0),
-        ("breaking_impacts", 0.0),
+        ("breaking_collisions", 0.0),
         ("exposure_s_m3", exposure),
         ("collision_kernel_m3_s", 7.0 / exposure),
         ("aggregation_kernel_m3_s", 2.0 / exposure),
@@ -451,7 +451,7 @@ fn tables_at_the_end_stand_under_their_names() {
             "kernels.csv: column {column} is due {due}, found {found}"
         );
     }
-    assert_eq!(cell("kernels.csv", "breaking_impacts", &|row| begins(row, &["8", "15", "1", "1"])), 1.0);
+    assert_eq!(cell("kernels.csv", "breaking_collisions", &|row| begins(row, &["8", "15", "1", "1"])), 1.0);
     let wanted = [("grains", 0.0), ("grain_time_s", 0.5), ("breakages", 1.0), ("breakage_rate_1_s", 2.0)];
     for (column, due) in wanted {
         let found = cell("breakage.csv", column, &|row| begins(row, &["8", "15"]));
@@ -461,9 +461,9 @@ fn tables_at_the_end_stand_under_their_names() {
     assert_eq!(found, 0.5, "breakage.csv: the double was there for 0.5 s and is untouched: grain_time_s");
     let wanted = [
         ("breakages", 1.0),
-        ("pieces", 2.0),
+        ("fragments", 2.0),
         ("primaries", 8.0),
-        ("pieces_per_breakage", 2.0),
+        ("fragments_per_breakage", 2.0),
         ("mass_fraction", 8.0 / 9.0),
     ];
     for (column, due) in wanted {

@@ -69,7 +69,7 @@ impl Job for Hard {
     fn start(scenario: &Scenario, start: Start, _: &mut RestWatch<'_>) -> Result<Self, SimError> {
         let mut simulation = Simulation::start_grown(scenario, &start.grains, &start.grown)?;
         for warning in &start.warnings {
-            simulation.cloud_mut().state.warnings.add(warning);
+            simulation.system_mut().state.warnings.add(warning);
         }
         let mean_radius_at_start = Growth::of(&simulation.snapshot()).mean_radius;
         let memory = Memory { mean_radius_at_start, last_row: LastRow::of(&simulation) };
@@ -111,28 +111,28 @@ impl Job for Hard {
     }
 
     fn fresh_warnings(&mut self) -> Vec<String> {
-        self.simulation.cloud_mut().state.warnings.take_fresh()
+        self.simulation.system_mut().state.warnings.take_fresh()
     }
 
     fn now(&self) -> String {
         let (grains, start) = (self.simulation.grains(), self.simulation.grains_at_start());
-        let impacts = self.simulation.cloud().state.counts.impacts;
+        let impacts = self.simulation.system().state.counts.collisions;
         format!("{grains} of {start} grains, {impacts} impacts")
     }
 
     fn forget_events(&mut self) {
-        let cloud = self.simulation.cloud_mut();
-        cloud.keeps_events = false;
-        cloud.events.clear();
-        cloud.descents.clear();
+        let system = self.simulation.system_mut();
+        system.keeps_events = false;
+        system.events.clear();
+        system.descents.clear();
     }
 
     fn record_events(&mut self, tables: &mut Tables) -> Result<(), RecordError> {
-        let cloud = self.simulation.cloud_mut();
-        for event in cloud.events.drain(..) {
+        let system = self.simulation.system_mut();
+        for event in system.events.drain(..) {
             tables.cells(rows::EVENTS_TABLE, &rows::event(&event))?;
         }
-        for descent in cloud.descents.drain(..) {
+        for descent in system.descents.drain(..) {
             tables.cells(rows::GENEALOGY_TABLE, &rows::descent(&descent))?;
         }
         Ok(())
@@ -154,7 +154,7 @@ impl Job for Hard {
     }
 
     fn record_end(&self, folder: &RunFolder) -> Result<(), RecordError> {
-        let (rates, time) = (&self.simulation.cloud().state.rates, self.time());
+        let (rates, time) = (&self.simulation.system().state.rates, self.time());
         let kernels = rates.kernel_rows(time).into_iter().map(|row| row.values());
         write_once(folder, "kernels.csv", KernelRow::COLUMNS, kernels)?;
         let breakage = rates.breakage_rows(time).into_iter().map(|row| row.values());

@@ -123,7 +123,7 @@ pub struct LastRow {
 impl LastRow {
     /// What is so now.
     pub fn of(simulation: &Simulation) -> Self {
-        let impacts = simulation.cloud().state.counts.impacts;
+        let impacts = simulation.system().state.counts.collisions;
         Self { time: simulation.clock().time, grains: simulation.grains() as f64, impacts }
     }
 
@@ -149,7 +149,7 @@ pub fn rows(
         grains(time, growth, mean_radius_at_start),
         energy(time, &simulation.balance()),
         momentum(simulation),
-        impacts(time, &simulation.cloud().state.counts, free_time),
+        impacts(time, &simulation.system().state.counts, free_time),
         steps(simulation.clock()),
     ]
 }
@@ -183,8 +183,8 @@ fn grains(time: f64, growth: &Growth, mean_radius_at_start: f64) -> Vec<f64> {
 fn energy(time: f64, balance: &Balance) -> Vec<f64> {
     vec![
         time,
-        balance.stores.kinetic,
-        balance.stores.thermal,
+        balance.stored.kinetic,
+        balance.stored.thermal,
         balance.normal,
         balance.tangential,
         balance.reaction,
@@ -199,15 +199,15 @@ fn energy(time: f64, balance: &Balance) -> Vec<f64> {
 }
 
 fn momentum(simulation: &Simulation) -> Vec<f64> {
-    let (now, books) = (simulation.momentum(), &simulation.cloud().state.books);
-    let vectors = [now, books.flows.walls, books.momentum_drift(now)];
+    let (now, ledger) = (simulation.momentum(), &simulation.system().state.ledger);
+    let vectors = [now, ledger.flows.walls, ledger.momentum_drift(now)];
     std::iter::once(simulation.clock().time).chain(vectors.into_iter().flat_map(Vec3::to_array)).collect()
 }
 
 fn impacts(time: f64, counts: &Counts, free_time: f64) -> Vec<f64> {
     vec![
         time,
-        counts.impacts as f64,
+        counts.collisions as f64,
         counts.bounces as f64,
         counts.merges as f64,
         counts.fragmentations as f64,

@@ -49,8 +49,8 @@ fn growth_stands_under_its_columns() {
 #[test]
 fn energies_stand_under_the_names_of_the_summary() {
     let mut balance = Balance::default();
-    balance.stores.kinetic = 1.0;
-    balance.stores.thermal = 2.0;
+    balance.stored.kinetic = 1.0;
+    balance.stored.thermal = 2.0;
     (balance.normal, balance.tangential, balance.reaction, balance.surface) = (3.0, 4.0, 5.0, 6.0);
     (balance.heat, balance.unbalanced, balance.cooled) = (7.0, 8.0, 9.0);
     (balance.kinetic_drift_relative, balance.drift, balance.drift_relative) = (10.0, 11.0, 12.0);
@@ -64,7 +64,7 @@ fn energies_stand_under_the_names_of_the_summary() {
 #[test]
 fn counts_stand_under_their_columns() {
     let counts = Counts {
-        impacts: 100,
+        collisions: 100,
         bounces: 60,
         merges: 30,
         fragmentations: 10,

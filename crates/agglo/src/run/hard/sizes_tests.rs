@@ -12,7 +12,7 @@ fn sizes_of_hard_spheres_stand_under_their_names() {
     let mut tables = tables(Hard::TABLES, folder.path());
     let mut job = distinct();
     // Two in the class of the largest, so that their number is no number of classes.
-    let bulk = &mut job.simulation.cloud_mut().state.spheres.bulk;
+    let bulk = &mut job.simulation.system_mut().state.spheres.bulk;
     let double = bulk.iter_mut().find(|bulk| bulk.primaries == 2).unwrap();
     double.primaries = 11;
     job.record_rows(&mut tables).unwrap();

@@ -89,7 +89,7 @@ pub struct HardSummary {
     pub merges: u64,
     /// Agglomerates that broke.
     pub fragmentations: u64,
-    /// Agglomerates that did not break since there was no room for the pieces.
+    /// Agglomerates that did not break since there was no room for the fragments.
     pub fragmentations_without_room: u64,
     /// Bounces that were made elastic, since their pair had bounced again and again just before.
     pub impacts_guarded: u64,
@@ -145,7 +145,7 @@ impl HardSummary {
         let growth = Growth::of(&now);
         let scales = Scales::of(scenario, &now, growth.largest);
         let per = |whole: f64, parts: u64| (parts > 0).then(|| whole / parts as f64);
-        let impacts = simulation.cloud().state.counts.impacts;
+        let impacts = simulation.system().state.counts.collisions;
         Self {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             title: scenario.title.clone(),
@@ -154,20 +154,20 @@ impl HardSummary {
             steps: clock.step,
             steps_are: steps_are.to_owned(),
             step_mean_s: per(clock.time, clock.step),
-            contact_duration_s: simulation.cloud().contact_duration,
+            contact_duration_s: simulation.system().contact_duration,
             threads: rayon::current_num_threads(),
             seed: scenario.seed,
             grains_start: simulation.grains_at_start(),
             events_per_impact: per(clock.step as f64, impacts),
             energy: simulation.balance(),
             momentum_drift_relative: simulation.momentum_drift_relative(),
-            warnings: simulation.cloud().state.warnings.counts().clone(),
+            warnings: simulation.system().state.warnings.counts().clone(),
             ..Self::default()
         }
         .with_growth(&growth, mean_radius_start_m)
         .with_scales(&scales)
-        .with_counts(&simulation.cloud().state.counts)
-        .with_guard(simulation.cloud().state.books.flows.kept)
+        .with_counts(&simulation.system().state.counts)
+        .with_guard(simulation.system().state.ledger.flows.kept)
     }
 
     fn with_growth(self, growth: &Growth, mean_radius_start_m: f64) -> Self {
@@ -205,9 +205,9 @@ impl HardSummary {
     }
 
     fn with_counts(self, counts: &Counts) -> Self {
-        let solves = (counts.impacts > 0).then_some(counts.impacts);
+        let solves = (counts.collisions > 0).then_some(counts.collisions);
         Self {
-            impacts: counts.impacts,
+            impacts: counts.collisions,
             bounces: counts.bounces,
             merges: counts.merges,
             fragmentations: counts.fragmentations,

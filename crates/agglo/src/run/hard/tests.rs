@@ -58,7 +58,7 @@ fn a_run_resumed_at_any_moment_ends_in_the_same_state() {
             saved.push(bytes(&whole));
         }
         advance_to(&mut whole, end);
-        let counts = &whole.simulation.cloud().state.counts;
+        let counts = &whole.simulation.system().state.counts;
         assert!(counts.merges > 20 && counts.fragmentations > 5, "{counts:?}");
         let wanted = bytes(&whole);
         for (turn, state) in saved.iter().enumerate() {

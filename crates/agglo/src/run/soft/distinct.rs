@@ -10,7 +10,7 @@ use super::*;
 use crate::acoustics::PulseCount;
 use crate::engine::soft::{Supplies, Supply};
 use crate::math::Vec3;
-use crate::measure::{Flows, Ledger, Momentum, Stores};
+use crate::measure::{Flows, Ledger, Momentum, StoredEnergy};
 
 /// Radii [m] and places [m] of the grains by their names: 0 presses on 1, cement holds 2 to 1, the pairs 3-4 and 5 alone are
 /// 10 mm away, and 6 is farther.
@@ -105,12 +105,12 @@ pub fn ledger() -> Ledger {
     let supply = |power: f64| Supply {
         power,
         force: Vec3::new(0.11 * power, -0.07 * power, 0.05 * power + 0.3),
-        moment: Vec3::new(0.02 * power - 0.4, 0.013 * power, -0.03 * power),
+        torque: Vec3::new(0.02 * power - 0.4, 0.013 * power, -0.03 * power),
     };
     let mut supplies = Supplies::default();
     (supplies.drag, supplies.gravity, supplies.field) = (supply(-2.125), supply(5.0), supply(9.5));
     Ledger {
-        stores_at_start: Stores {
+        stored_at_start: StoredEnergy {
             kinetic: 1.0,
             spin: 0.6,
             elastic: 0.35,
@@ -245,7 +245,7 @@ fn vector(vector: Vec3) -> Json {
 /// What the sums over grains come to, worked out here from the numbers above.
 pub struct ByHand {
     /// Energies now [J].
-    pub stores: Stores,
+    pub stored: StoredEnergy,
     /// Linear [kg m/s] and angular [kg m²/s] momentum now.
     pub momentum: [Vec3; 2],
     /// The same that impulses do not explain.
@@ -287,9 +287,9 @@ pub fn by_hand() -> ByHand {
     let (flows, start) = (&books.flows, &books.momentum_at_start);
     let supplies = [flows.rays, flows.supplies.drag, flows.supplies.gravity, flows.supplies.field];
     let impulse: Vec3 = supplies.iter().map(|supply| supply.force).sum();
-    let twist: Vec3 = supplies.iter().map(|supply| supply.moment).sum();
+    let twist: Vec3 = supplies.iter().map(|supply| supply.torque).sum();
     ByHand {
-        stores: Stores {
+        stored: StoredEnergy {
             kinetic,
             spin: spinning,
             elastic: 8.0 / 15.0 * effective * shared.sqrt() * overlap.powf(2.5),
@@ -305,25 +305,25 @@ pub fn by_hand() -> ByHand {
 /// What energies are due under the names of the table and of the summary, drawn up from [`by_hand`] and the flows of
 /// [`ledger`].
 pub fn energies() -> [(&'static str, f64); 16] {
-    let (stores, start) = (by_hand().stores, ledger().stores_at_start);
-    let all = |stores: &Stores| {
-        stores.kinetic
-            + stores.spin
-            + stores.elastic
-            + stores.tangential_spring
-            + stores.bonds
-            + stores.near_field
+    let (stored, start) = (by_hand().stored, ledger().stored_at_start);
+    let all = |stored: &StoredEnergy| {
+        stored.kinetic
+            + stored.spin
+            + stored.elastic
+            + stored.tangential_spring
+            + stored.bonds
+            + stored.near_field
     };
     // Of the 4.5 J that tangential forces took, the springs gave back what they had more at the start.
-    let friction = 4.5 + 0.4 - stores.tangential_spring;
-    let drift = all(&stores) - all(&start) - (20.0 + 5.0 + 9.5) + (2.125 + 3.25 + friction + 6.5 + 7.75);
+    let friction = 4.5 + 0.4 - stored.tangential_spring;
+    let drift = all(&stored) - all(&start) - (20.0 + 5.0 + 9.5) + (2.125 + 3.25 + friction + 6.5 + 7.75);
     [
-        ("kinetic_J", stores.kinetic),
-        ("spin_J", stores.spin),
-        ("elastic_J", stores.elastic),
-        ("tangential_spring_J", stores.tangential_spring),
-        ("bonds_J", stores.bonds),
-        ("near_field_J", stores.near_field),
+        ("kinetic_J", stored.kinetic),
+        ("spin_J", stored.spin),
+        ("elastic_J", stored.elastic),
+        ("tangential_spring_J", stored.tangential_spring),
+        ("bonds_J", stored.bonds),
+        ("near_field_J", stored.near_field),
         ("work_rays_J", 20.0),
         ("work_gravity_J", 5.0),
         ("work_fields_J", 9.5),

@@ -121,15 +121,15 @@ pub fn rows(simulation: &Simulation, cluster_gap: f64, start: &Clusters) -> [Vec
 
 fn energy(simulation: &Simulation) -> Vec<f64> {
     let balance = simulation.balance();
-    let stores = &balance.stores;
+    let stored = &balance.stored;
     vec![
         simulation.clock().time,
-        stores.kinetic,
-        stores.spin,
-        stores.elastic,
-        stores.tangential_spring,
-        stores.bonds,
-        stores.near_field,
+        stored.kinetic,
+        stored.spin,
+        stored.elastic,
+        stored.tangential_spring,
+        stored.bonds,
+        stored.near_field,
         balance.rays,
         balance.gravity,
         balance.fields,

@@ -5,7 +5,7 @@ use super::{Check, used_materials};
 use crate::engine::Engine;
 use crate::engine::soft::Limits;
 use crate::impact::cooling::Integration;
-use crate::impact::fragmentation::Pieces;
+use crate::impact::fragmentation::Fragments;
 use crate::impact::restitution::hardness::{FixedPoint, Solver};
 use crate::impact::restitution::{Constant, Hardness};
 use crate::impact::{Cooling, Fragmentation, Impact, Restitution};
@@ -138,8 +138,8 @@ fn fragmentation(check: &mut Check, scenario: &Scenario, law: &Fragmentation) {
             "give a material one, such as surface_energy = \"1 J/m2\", or remove [impact.fragmentation]";
         check.fail_with("impact.fragmentation", message, help);
     }
-    if let Pieces::PowerLaw(law) = &law.pieces {
-        check.exponent("impact.fragmentation.pieces.power_law.exponent", law.exponent);
+    if let Fragments::PowerLaw(law) = &law.fragments {
+        check.exponent("impact.fragmentation.fragments.power_law.exponent", law.exponent);
     }
 }
 

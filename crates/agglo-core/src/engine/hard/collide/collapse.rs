@@ -14,7 +14,7 @@
 //! | n      | `BEFORE`           | -    | bounces of a pair that lose energy, however fast they follow  |
 //!
 //! # Valid when
-//! What bounces keep that are made elastic is small beside what impacts take. The summary has both, and warns where not.
+//! What bounces keep that are made elastic is small beside what collisions take. The summary has both, and warns where not.
 //!
 //! # Compared with others
 //! Luding and McNamara make every bounce elastic of which a partner bounced less than t_c before. That takes first bounces of
@@ -36,7 +36,7 @@ const MANY: usize = 64;
 /// duration is not remembered.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Collapse {
-    /// By the two names, the smaller first.
+    /// By the two ids, the smaller first.
     pairs: BTreeMap<[u32; 2], Succession>,
     /// How many are remembered before it is looked for some to forget.
     most: usize,

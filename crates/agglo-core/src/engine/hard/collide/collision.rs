@@ -1,12 +1,12 @@
-//! Two spheres at the moment at which they meet, and what became of them.
+//! Two spheres at the moment at which they collide, and what became of them.
 
 use crate::engine::hard::search::Contact;
 use crate::impact::Body;
 use crate::math::Vec3;
 
-/// Two spheres at the moment at which they meet.
+/// Two spheres at the moment at which they collide.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Encounter {
+pub(super) struct Collision {
     pub contact: Contact,
     /// When [s].
     pub time: f64,
@@ -22,19 +22,19 @@ pub(super) struct Encounter {
     pub overlaps: bool,
 }
 
-/// What became of two spheres that met.
+/// What became of two spheres that collided.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Change {
     /// Both go on, with new velocities.
     Bounced,
     /// The first went on as both; the second is no more.
     Merged {
-        /// Place of the sphere that is both now, larger and elsewhere.
+        /// Index of the sphere that is both now, larger and elsewhere.
         kept: u32,
-        /// Empty place.
+        /// The empty slot.
         gone: u32,
     },
-    /// One or both broke: [`Cloud::pieces`](super::Cloud::pieces) has the places of all pieces and of a partner that stayed whole, and the
-    /// places of both partners were given up or reused.
+    /// One or both broke: [`HardSystem::fragments`](super::HardSystem::fragments) has the indices of all fragments and of a
+    /// partner that stayed whole, and the slots of both partners were given up or reused.
     Broke,
 }

@@ -8,4 +8,4 @@ mod system;
 
 pub(super) use collapse::Collapse;
 pub use collision::Change;
-pub use system::{Cloud, CloudState};
+pub use system::{HardSystem, HardSystemState};

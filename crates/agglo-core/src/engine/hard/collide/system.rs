@@ -1,9 +1,9 @@
-//! The spheres of a run with their laws and books.
+//! The spheres of a run with their laws and ledger.
 
 use serde::{Deserialize, Serialize};
 
 use crate::domain::{Volume, resolution};
-use crate::engine::hard::record::{Books, Counts, Descent, EventKind, GrainEvent};
+use crate::engine::hard::record::{Counts, Descent, EventKind, GrainEvent, HardLedger};
 use crate::engine::hard::spheres::Spheres;
 use crate::engine::{SimError, Warnings};
 use crate::impact::{Body, Draws, ImpactLaws, Outcome};
@@ -11,15 +11,15 @@ use crate::math::Vec3;
 use crate::measure::SizeRates;
 
 use super::collapse::Collapse;
-use super::collision::Encounter;
+use super::collision::Collision;
 
 /// All that changes and is not a driver's own; a checkpoint holds it.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct CloudState {
+pub struct HardSystemState {
     /// The spheres.
     pub spheres: Spheres,
     /// The ledger.
-    pub books: Books,
+    pub ledger: HardLedger,
     /// Counts.
     pub counts: Counts,
     /// Collision and aggregation by size.
@@ -32,9 +32,9 @@ pub struct CloudState {
 
 /// The spheres of a run.
 #[derive(Clone, Debug)]
-pub struct Cloud {
+pub struct HardSystem {
     /// All that changes.
-    pub state: CloudState,
+    pub state: HardSystemState,
     /// Laws of impact.
     pub laws: ImpactLaws,
     /// Control volume.
@@ -49,36 +49,36 @@ pub struct Cloud {
     pub contact_duration: f64,
     /// Seed of random numbers.
     pub seed: u64,
-    /// Places of the spheres that came out of the last fragmentation.
-    pub pieces: Vec<u32>,
+    /// Indices of the spheres that came out of the last fragmentation.
+    pub fragments: Vec<u32>,
 }
 
-impl Cloud {
+impl HardSystem {
     /// Gives a partner that stays whole its new velocity and temperature.
-    pub(super) fn settle(&mut self, side: usize, encounter: &Encounter, outcome: &Outcome) {
-        let at = encounter.contact.spheres[side] as usize;
+    pub(super) fn settle(&mut self, side: usize, collision: &Collision, outcome: &Outcome) {
+        let at = collision.contact.spheres[side] as usize;
         self.state.spheres.motion[at].velocity = outcome.velocities[side];
         let bulk = &mut self.state.spheres.bulk[at];
         bulk.temperature = outcome.temperatures[side];
-        bulk.bounced_at = encounter.time;
+        bulk.bounced_at = collision.time;
     }
 
-    /// Random numbers for the sizes of each partner's pieces. They belong to places in space, not to the order in which the
+    /// Random numbers for the sizes of each partner's fragments. They belong to positions in space, not to the order in which the
     /// partners are named.
-    pub(super) fn draws(&self, encounter: &Encounter) -> Draws {
-        let [a, b] = encounter.contact.spheres;
+    pub(super) fn draws(&self, collision: &Collision) -> Draws {
+        let [a, b] = collision.contact.spheres;
         let counts = &self.state.counts;
         let event = 2 * (counts.fragmentations + counts.no_room) as u32;
         let draws = Draws::new(self.seed, event);
-        if !self.laws.draws_pieces() || self.is_first(a, b) { draws } else { draws.swapped() }
+        if !self.laws.draws_fragments() || self.is_first(a, b) { draws } else { draws.swapped() }
     }
 
-    pub(super) fn book(&mut self, encounter: &Encounter, outcome: &Outcome) {
-        let (books, bodies) = (&mut self.state.books, &encounter.bodies);
-        books.add(&outcome.energy);
+    pub(super) fn book(&mut self, collision: &Collision, outcome: &Outcome) {
+        let (ledger, bodies) = (&mut self.state.ledger, &collision.bodies);
+        ledger.add(&outcome.energy);
         if bodies.iter().any(|body| body.heat_capacity == 0.0) {
             let kept = |k: usize| bodies[k].heat_capacity * (outcome.temperatures[k] - bodies[k].temperature);
-            books.add_unkept(outcome.energy.heat - (kept(0) + kept(1)));
+            ledger.add_unkept(outcome.energy.heat - (kept(0) + kept(1)));
         }
     }
 
@@ -96,11 +96,11 @@ impl Cloud {
             let bulk = &mut self.state.spheres.bulk[at];
             bulk.temperature = temperature;
             bulk.heated_at = time;
-            self.state.books.flows.cooled += given_off;
+            self.state.ledger.flows.cooled += given_off;
         }
     }
 
-    /// Temperature [K] of the sphere at a place at `time` [s], and the heat [J] that it has given off since its last
+    /// Temperature [K] of the sphere of an index at `time` [s], and the heat [J] that it has given off since its last
     /// heating.
     pub fn cooled(&self, at: usize, time: f64) -> (f64, f64) {
         let bulk = &self.state.spheres.bulk[at];
@@ -122,32 +122,32 @@ impl Cloud {
         }
     }
 
-    /// Which of two spheres goes on when they merge: the heavier one; of equals the one whose place comes first in
-    /// space, so that names do not matter.
+    /// Which of two spheres goes on when they merge: the heavier one; of equals the one whose position comes first in
+    /// space, so that ids do not matter.
     pub(in crate::engine::hard) fn is_first(&self, a: u32, b: u32) -> bool {
         let spheres = &self.state.spheres;
         let mass = |at: u32| spheres.bulk[at as usize].mass;
-        let place = |at: u32| self.volume.wrap(spheres.motion[at as usize].position);
-        mass(b).total_cmp(&mass(a)).then_with(|| place(a).total_cmp(&place(b))).is_le()
+        let position = |at: u32| self.volume.wrap(spheres.motion[at as usize].position);
+        mass(b).total_cmp(&mass(a)).then_with(|| position(a).total_cmp(&position(b))).is_le()
     }
 
     /// Writes an event down and gives its number.
-    pub(super) fn note(&mut self, kind: EventKind, encounter: &Encounter, outcome: &Outcome) -> u64 {
+    pub(super) fn note(&mut self, kind: EventKind, collision: &Collision, outcome: &Outcome) -> u64 {
         self.state.counts.events += 1;
         let number = self.state.counts.events;
         if self.keeps_events {
-            let mut partners = encounter.contact.spheres.map(|at| {
+            let mut partners = collision.contact.spheres.map(|at| {
                 let bulk = &self.state.spheres.bulk[at as usize];
                 (bulk.id, bulk.mass)
             });
             partners.sort_unstable_by_key(|partner| partner.0);
             self.events.push(GrainEvent {
                 number,
-                time: encounter.time,
+                time: collision.time,
                 kind,
                 grains: partners.map(|partner| partner.0),
                 masses: partners.map(|partner| partner.1),
-                speed: encounter.approach,
+                speed: collision.approach,
                 restitution: outcome.restitution,
                 energy: outcome.energy,
             });
@@ -169,7 +169,7 @@ impl Cloud {
         }
     }
 
-    /// Whether a sphere has a motion, and is where doubles can tell its place well enough for its radius.
+    /// Whether a sphere has a motion, and is where doubles can tell its position well enough for its radius.
     ///
     /// # Errors
     /// [`SimError`] where not.
@@ -183,9 +183,9 @@ impl Cloud {
             return Err(self.not_finite(at, time));
         }
         let grain = self.state.spheres.bulk[at as usize].id;
-        let (place, speed) = (motion.at(time).norm(), motion.velocity.norm());
+        let (distance, speed) = (motion.at(time).norm(), motion.velocity.norm());
         let (rounding, radius) = (motion.rounding(time), motion.radius);
-        Err(SimError::OutOfDigits { time, grain, place, speed, rounding, radius })
+        Err(SimError::OutOfDigits { time, grain, distance, speed, rounding, radius })
     }
 
     /// The same for all spheres.
@@ -199,10 +199,10 @@ impl Cloud {
     /// The error of a sphere whose motion is not finite at `time` [s].
     pub(in crate::engine::hard) fn not_finite(&self, at: u32, time: f64) -> SimError {
         let grain = self.state.spheres.bulk[at as usize].id;
-        SimError::ImpactNotFinite { time, grain, laws: self.laws.names().join(", ") }
+        SimError::CollisionNotFinite { time, grain, laws: self.laws.names().join(", ") }
     }
 
-    /// Lets a sphere bounce off a smooth wall whose inward normal is along `axis`, and books the momentum.
+    /// Lets a sphere bounce off a smooth wall whose inward normal is along `axis`, and enters the momentum in the ledger.
     pub fn bounce_off_wall(&mut self, at: u32, axis: usize, time: f64) {
         self.bring_up(at as usize, time);
         let mass = self.state.spheres.bulk[at as usize].mass;
@@ -212,7 +212,7 @@ impl Cloud {
         impulse[axis] = -2.0 * mass * along[axis];
         along[axis] = -along[axis];
         *velocity = along.into();
-        self.state.books.flows.walls += Vec3::from(impulse);
+        self.state.ledger.flows.walls += Vec3::from(impulse);
         self.state.counts.walls += 1;
     }
 }

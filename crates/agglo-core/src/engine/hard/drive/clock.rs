@@ -11,6 +11,6 @@ pub struct Clock {
     pub lag: f64,
     /// Events dealt with, or steps.
     pub step: u64,
-    /// Length of the last step [s]; mean time between two impacts for the event-driven engine.
+    /// Length of the last step [s]; mean time between two collisions for the event-driven engine.
     pub last_step: f64,
 }

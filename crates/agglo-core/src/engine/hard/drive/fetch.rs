@@ -1,6 +1,6 @@
 //! What the next events will need, fetched from memory ahead of them.
 
-use crate::engine::hard::search::{Agenda, Grid};
+use crate::engine::hard::search::{Grid, NextEvent};
 use crate::engine::hard::spheres::Spheres;
 use crate::math::prefetch;
 
@@ -12,29 +12,29 @@ const MANY: usize = 40_000;
 /// Fetches from memory what the next event of a sphere will need: first its own, then what says which of the cells about it
 /// hold any, then those cells, then the spheres there.
 #[inline]
-pub fn fetch(soon: Soon, agendas: &[Agenda], grid: &Grid, spheres: &Spheres, sphere: u32) {
-    if agendas.len() < MANY {
+pub fn fetch(soon: Soon, next_events: &[NextEvent], grid: &Grid, spheres: &Spheres, sphere: u32) {
+    if next_events.len() < MANY {
         return;
     }
     let at = sphere as usize;
     match soon {
         Soon::Someday => {
-            prefetch(agendas, at);
+            prefetch(next_events, at);
             prefetch(&spheres.motion, at);
             grid.fetch_link(sphere);
         }
         Soon::Later => {
-            let agenda = &agendas[at];
-            if agenda.collision < agenda.crossing {
-                let partner = agenda.partner as usize;
-                prefetch(agendas, partner);
+            let next_event = &next_events[at];
+            if next_event.collision < next_event.crossing {
+                let partner = next_event.partner as usize;
+                prefetch(next_events, partner);
                 prefetch(&spheres.motion, partner);
                 prefetch(&spheres.bulk, partner);
                 prefetch(&spheres.bulk, at);
             }
-            grid.fetch_words(&agendas[at]);
+            grid.fetch_words(&next_events[at]);
         }
-        Soon::Next => grid.fetch_cells(&agendas[at]),
-        Soon::Now => grid.fetch_spheres(&agendas[at], &spheres.motion, agendas),
+        Soon::Next => grid.fetch_cells(&next_events[at]),
+        Soon::Now => grid.fetch_spheres(&next_events[at], &spheres.motion, next_events),
     }
 }

@@ -4,6 +4,7 @@ mod cascade;
 mod clock;
 mod event_driven;
 mod fetch;
+mod filed;
 mod queue;
 mod standstill;
 mod time_stepped;
@@ -11,5 +12,6 @@ mod validate;
 mod walls;
 
 pub use clock::Clock;
-pub(super) use event_driven::{Events, EventsState};
+pub(super) use event_driven::Events;
+pub(super) use filed::EventsState;
 pub(super) use time_stepped::Steps;

@@ -4,14 +4,14 @@
 //! heap when its time comes. So filing and taking cost the same for any number of spheres (after G. Paul, J. Comput.
 //! Phys. 221, 615 (2007)), and where many events crowd one bin, the logarithm of their number. Bins cover an epoch;
 //! what is due after it waits in a list of its own. A sphere that is filed anew is not taken out of its old bin: what
-//! its agenda says tells which entry counts. The order is by time, then by name, and does not depend on the bins.
+//! its next event says tells which entry counts. The order is by time, then by id, and does not depend on the bins.
 //!
 //! A bin is one cache line. Spheres are announced before their bin is opened, so that they come from memory side by side.
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BinaryHeap};
 
-use crate::engine::hard::search::Agenda;
+use crate::engine::hard::search::NextEvent;
 use crate::engine::hard::spheres::NONE;
 use crate::math::prefetch;
 
@@ -21,7 +21,7 @@ const PER_BIN: f64 = 6.0;
 const ROOM: usize = 15;
 /// How many bins before its turn a bin is fetched from memory.
 const BINS_AHEAD: usize = 8;
-/// Code of the heap in [`Agenda::bin`].
+/// Code of the heap in [`NextEvent::bin`].
 const HEAP: u32 = NONE - 1;
 /// Code of the list of what is due after the epoch.
 const FAR: u32 = NONE - 2;
@@ -30,7 +30,7 @@ const FEWEST_BINS: usize = 64;
 /// Time that an epoch covers, over the mean time to the next event of a sphere.
 const EPOCH: f64 = 4.0;
 
-/// An event in the heap; stale when the sphere's agenda says another time.
+/// An event in the heap; stale when the next event of the sphere has another time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Entry {
     time: f64,
@@ -92,8 +92,8 @@ pub struct Queue {
 
 impl Queue {
     /// Files all spheres anew.
-    pub fn rebuild(&mut self, now: f64, agendas: &mut [Agenda]) {
-        let finite = || agendas.iter().map(Agenda::due).filter(|time| time.is_finite());
+    pub fn rebuild(&mut self, now: f64, next_events: &mut [NextEvent]) {
+        let finite = || next_events.iter().map(NextEvent::due).filter(|time| time.is_finite());
         let count = finite().count().max(1) as f64;
         let mean = finite().map(|time| time - now).sum::<f64>() / count;
         let bins = (EPOCH * count / PER_BIN) as usize;
@@ -107,35 +107,35 @@ impl Queue {
         self.per_second = if mean > 0.0 { count / (PER_BIN * mean) } else { f64::MAX };
         self.current = 0;
         self.taken = 0;
-        for sphere in 0..agendas.len() as u32 {
-            agendas[sphere as usize].bin = NONE;
-            self.file(agendas, sphere);
+        for sphere in 0..next_events.len() as u32 {
+            next_events[sphere as usize].bin = NONE;
+            self.file(next_events, sphere);
             self.put_pending();
         }
     }
 
-    /// Files a sphere under the time that its agenda says, wherever it was filed before.
+    /// Files a sphere under the time of its next event, wherever it was filed before.
     #[inline]
-    pub fn file(&mut self, agendas: &mut [Agenda], sphere: u32) {
-        let agenda = &mut agendas[sphere as usize];
-        let time = agenda.due();
+    pub fn file(&mut self, next_events: &mut [NextEvent], sphere: u32) {
+        let next_event = &mut next_events[sphere as usize];
+        let time = next_event.due();
         if time == f64::INFINITY {
-            agenda.bin = NONE;
+            next_event.bin = NONE;
             return;
         }
         let bin = self.bin_of(time);
         if bin <= self.current {
-            agenda.bin = HEAP;
-            self.heap.push(Entry { time, id: agenda.id, sphere });
+            next_event.bin = HEAP;
+            self.heap.push(Entry { time, id: next_event.id, sphere });
         } else if bin < self.bins.len() {
             // Where it is in this bin already, it need not be put there again.
-            if agenda.bin != bin as u32 {
-                agenda.bin = bin as u32;
+            if next_event.bin != bin as u32 {
+                next_event.bin = bin as u32;
                 prefetch(&self.bins, bin);
                 self.pending.push((bin as u32, sphere));
             }
-        } else if agenda.bin != FAR {
-            agenda.bin = FAR;
+        } else if next_event.bin != FAR {
+            next_event.bin = FAR;
             self.far.push(sphere);
         }
     }
@@ -145,14 +145,14 @@ impl Queue {
     #[inline]
     pub fn next(
         &mut self,
-        agendas: &mut [Agenda],
+        next_events: &mut [NextEvent],
         until: f64,
-        announce: impl Fn(Soon, &[Agenda], u32),
+        announce: impl Fn(Soon, &[NextEvent], u32),
     ) -> Option<(f64, u32)> {
         loop {
             while let Some(first) = self.heap.peek() {
-                let agenda = &agendas[first.sphere as usize];
-                if agenda.bin != HEAP || agenda.due() != first.time {
+                let next_event = &next_events[first.sphere as usize];
+                if next_event.bin != HEAP || next_event.due() != first.time {
                     self.heap.pop();
                     continue;
                 }
@@ -164,7 +164,7 @@ impl Queue {
                 self.taken += 1;
                 return Some((first.time, first.sphere));
             }
-            if !self.open_next_bin(agendas, &announce) {
+            if !self.open_next_bin(next_events, &announce) {
                 return None;
             }
         }
@@ -196,12 +196,16 @@ impl Queue {
     }
 
     /// Moves the spheres of the next bin that has any into the heap; false where none is left.
-    fn open_next_bin(&mut self, agendas: &mut [Agenda], announce: &impl Fn(Soon, &[Agenda], u32)) -> bool {
+    fn open_next_bin(
+        &mut self,
+        next_events: &mut [NextEvent],
+        announce: &impl Fn(Soon, &[NextEvent], u32),
+    ) -> bool {
         self.put_pending();
         loop {
             self.current += 1;
             prefetch(&self.bins, self.current + BINS_AHEAD);
-            if self.current >= self.bins.len() && !self.begin_epoch(agendas) {
+            if self.current >= self.bins.len() && !self.begin_epoch(next_events) {
                 self.current = self.bins.len();
                 return false;
             }
@@ -209,16 +213,16 @@ impl Queue {
                 if let Some(bin) = self.bins.get(self.current + ahead) {
                     bin.spheres[..bin.count as usize]
                         .iter()
-                        .for_each(|&sphere| announce(soon, agendas, sphere));
+                        .for_each(|&sphere| announce(soon, next_events, sphere));
                 }
             }
             let bin = std::mem::take(&mut self.bins[self.current]);
             for &sphere in &bin.spheres[..bin.count as usize] {
-                self.open(agendas, sphere);
+                self.open(next_events, sphere);
             }
             if bin.count as usize == ROOM {
                 for sphere in self.spilled.remove(&(self.current as u32)).unwrap_or_default() {
-                    self.open(agendas, sphere);
+                    self.open(next_events, sphere);
                 }
             }
             if !self.heap.is_empty() {
@@ -229,19 +233,20 @@ impl Queue {
 
     /// Puts a sphere of the bin that is being opened into the heap, if it still belongs to it.
     #[inline]
-    fn open(&mut self, agendas: &mut [Agenda], sphere: u32) {
-        let agenda = &mut agendas[sphere as usize];
-        if agenda.bin == self.current as u32 {
-            agenda.bin = HEAP;
-            self.heap.push(Entry { time: agenda.due(), id: agenda.id, sphere });
+    fn open(&mut self, next_events: &mut [NextEvent], sphere: u32) {
+        let next_event = &mut next_events[sphere as usize];
+        if next_event.bin == self.current as u32 {
+            next_event.bin = HEAP;
+            self.heap.push(Entry { time: next_event.due(), id: next_event.id, sphere });
         }
     }
 
     /// Files what was due after the epoch into the bins of a new one; false where there is nothing.
-    fn begin_epoch(&mut self, agendas: &mut [Agenda]) -> bool {
+    fn begin_epoch(&mut self, next_events: &mut [NextEvent]) -> bool {
         let mut far = std::mem::take(&mut self.far);
-        far.retain(|&sphere| agendas[sphere as usize].bin == FAR);
-        let first = far.iter().map(|&sphere| agendas[sphere as usize].due()).fold(f64::INFINITY, f64::min);
+        far.retain(|&sphere| next_events[sphere as usize].bin == FAR);
+        let first =
+            far.iter().map(|&sphere| next_events[sphere as usize].due()).fold(f64::INFINITY, f64::min);
         if first == f64::INFINITY {
             return false;
         }
@@ -254,14 +259,14 @@ impl Queue {
         let mut kept = 0;
         for at in 0..far.len() {
             let sphere = far[at];
-            let agenda = &mut agendas[sphere as usize];
+            let next_event = &mut next_events[sphere as usize];
             // Twice in the list: it was filed already.
-            if agenda.bin != FAR {
+            if next_event.bin != FAR {
                 continue;
             }
-            let bin = self.bin_of(agenda.due());
+            let bin = self.bin_of(next_event.due());
             if bin < self.bins.len() {
-                agenda.bin = bin as u32;
+                next_event.bin = bin as u32;
                 self.put(bin, sphere);
             } else {
                 far[kept] = sphere;

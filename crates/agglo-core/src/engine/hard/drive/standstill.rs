@@ -6,7 +6,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::engine::SimError;
-use crate::engine::hard::collide::Cloud;
+use crate::engine::hard::collide::HardSystem;
 use crate::engine::hard::spheres::NONE;
 use crate::math::Vec3;
 
@@ -30,7 +30,7 @@ pub struct Watch {
     since: f64,
     /// Events since.
     events: u64,
-    /// Stable names of those who bounced last; [`NONE`] for a wall.
+    /// Ids of those who bounced last; [`NONE`] for a wall.
     last: [u32; 2],
 }
 
@@ -41,10 +41,10 @@ impl Default for Watch {
 }
 
 impl Watch {
-    /// Takes note of who bounces, by their places; [`NONE`] for a wall.
+    /// Takes note of who bounces, by their indices; [`NONE`] for a wall.
     #[inline]
-    pub fn bounced(&mut self, cloud: &Cloud, places: [u32; 2]) {
-        self.last = places.map(|at| cloud.state.spheres.bulk.get(at as usize).map_or(NONE, |bulk| bulk.id));
+    pub fn bounced(&mut self, system: &HardSystem, indices: [u32; 2]) {
+        self.last = indices.map(|at| system.state.spheres.bulk.get(at as usize).map_or(NONE, |bulk| bulk.id));
     }
 
     /// Counts an event at `time` [s], and looks at the clock now and then; `drift` is the velocity of the cells [m/s].
@@ -52,17 +52,17 @@ impl Watch {
     /// # Errors
     /// [`SimError::Standstill`] where the clock does not go on.
     #[inline]
-    pub fn look(&mut self, cloud: &Cloud, drift: Vec3, time: f64) -> Result<(), SimError> {
+    pub fn look(&mut self, system: &HardSystem, drift: Vec3, time: f64) -> Result<(), SimError> {
         self.events += 1;
-        if self.events <= EVENTS * (cloud.state.spheres.len() as u64 + 100) {
+        if self.events <= EVENTS * (system.state.spheres.len() as u64 + 100) {
             return Ok(());
         }
-        self.look_closely(cloud, drift, time)
+        self.look_closely(system, drift, time)
     }
 
     #[cold]
-    fn look_closely(&mut self, cloud: &Cloud, drift: Vec3, time: f64) -> Result<(), SimError> {
-        let spheres = &cloud.state.spheres;
+    fn look_closely(&mut self, system: &HardSystem, drift: Vec3, time: f64) -> Result<(), SimError> {
+        let spheres = &system.state.spheres;
         let living = || spheres.living().map(|at| &spheres.motion[at as usize]);
         let smallest = living().map(|sphere| sphere.radius).fold(f64::MAX, f64::min);
         let fastest = living().map(|sphere| (sphere.velocity - drift).norm()).fold(0.0, f64::max);
@@ -72,12 +72,12 @@ impl Watch {
             return Ok(());
         }
         let who = in_words(self.last);
-        let help = if cloud.contact_duration > 0.0 { NO_ROOM } else { NO_GUARD };
+        let help = if system.contact_duration > 0.0 { NO_ROOM } else { NO_GUARD };
         Err(SimError::Standstill { time, lasted, events, who, help })
     }
 }
 
-/// Who met last, by the names of the grains.
+/// Who collided last, by the ids of the grains.
 fn in_words([a, b]: [u32; 2]) -> String {
     match b {
         NONE => format!("grain {a} and a wall"),

@@ -4,7 +4,7 @@
 //! $$ \Delta t = f \min_{i,j} \frac{g_{ij}}{c_{ij}}, \qquad g_{ij} = |r_j - r_i| - b_i - b_j, \qquad
 //!    c_{ij} = -(v_j - v_i) \cdot \frac{r_j - r_i}{|r_j - r_i|} > 0 $$          ([B] 6.14)
 //! as printed (`distance = "centers"`): $|r_j - r_i|/|c_{ij}|$, of pairs that part too;
-//! held between `shortest_step` and `longest_step`; then $r_i \leftarrow r_i + v_i \Delta t$, then the faces, then impacts.
+//! held between `shortest_step` and `longest_step`; then $r_i \leftarrow r_i + v_i \Delta t$, then the faces, then collisions.
 //!
 //! # Source
 //! T. I. Zohdi, Proc. R. Soc. Lond. A 460, 3421 (2004), equations 6.14 and 6.21 and the staggering scheme of section 6.
@@ -28,17 +28,17 @@
 //! 2. Free flight, and the faces. A sphere bounces when its surface is at the wall. One that has left an antipodal volume
 //!    is mirrored in its middle, r -> -r: from e beyond a face to e before the opposite one ([B], section 7). With `cooling.integration =
 //!    "published"` all temperatures go one explicit step on ([B] 6.21); else cooling is exact and takes no steps.
-//! 3. Impacts: every pair that touches and approaches. The pair that has been touching for the longest time comes
+//! 3. Collisions: every pair that touches and approaches. The pair that has been touching for the longest time comes
 //!    first, by going back along the straight lines they flew on; of equals the one that comes first in space. After
-//!    each impact its spheres, or what became of them, are searched anew for whom they touch. A pair that bounced and
+//!    each collision its spheres, or what became of them, are searched anew for whom they touch. A pair that bounced and
 //!    comes together again in the same step, being pushed by others, waits for the next step, and is counted in the
 //!    warnings; merging and breaking begin afresh. None is lost: it still touches and approaches in the next step.
 //!
 //! # Valid when
 //! The distance of two spheres in free flight is convex in time. So with `gap` and f up to 1 no pair touches before the
-//! step ends, and what overlap there is comes from `shortest_step`: at most c times that. Places and times of impacts
+//! step ends, and what overlap there is comes from `shortest_step`: at most c times that. Positions and times of collisions
 //! err in proportion to it. Steps are short when spheres are many; [`event_driven`](crate::engine::hard::EventDriven) has no such
-//! error and is faster. A sphere that enters an antipodal volume on the other side may find its place taken; that pair
+//! error and is faster. A sphere that enters an antipodal volume on the other side may find its position taken; that pair
 //! then counts as touching.
 //!
 //! # Compared with others
@@ -60,7 +60,7 @@
 
 use crate::domain::{Boundary, resolution};
 use crate::engine::SimError;
-use crate::engine::hard::collide::Cloud;
+use crate::engine::hard::collide::HardSystem;
 use crate::engine::hard::search::{Approach, Near, Nearest};
 use crate::engine::hard::spheres::{Sphere, Spheres};
 use crate::engine::hard::types::{Distance, Pairs, TimeStepped};
@@ -70,7 +70,7 @@ use super::cascade::Cascade;
 use super::clock::Clock;
 use super::walls;
 
-/// Steps between two looks at places that doubles do not resolve.
+/// Steps between two looks at positions that doubles do not resolve.
 const LOOK_EVERY: u64 = 100;
 
 /// Speeds of all spheres.
@@ -118,73 +118,73 @@ impl Steps {
     ///
     /// # Errors
     /// [`SimError`] where the motion is not finite or a sphere is wider than a periodic volume.
-    pub fn step(&mut self, cloud: &mut Cloud, clock: &mut Clock, end: f64) -> Result<(), SimError> {
+    pub fn step(&mut self, system: &mut HardSystem, clock: &mut Clock, end: f64) -> Result<(), SimError> {
         let speeds = match self.speeds {
             Some(speeds) => speeds,
-            None => *self.speeds.insert(Speeds::of(cloud, clock.time)?),
+            None => *self.speeds.insert(Speeds::of(system, clock.time)?),
         };
         if clock.step.is_multiple_of(LOOK_EVERY) {
-            cloud.check_motions(clock.time)?;
+            system.check_motions(clock.time)?;
         }
-        let dt = self.length(cloud, speeds);
+        let dt = self.length(system, speeds);
         // The clock goes on by a bit at least, and comes to the end exactly; what rounding has taken from it makes no step
         // of its own before the end.
         let reaches_end = clock.time + clock.lag + dt * (1.0 + 1e-9) >= end;
         let next = if reaches_end { end } else { (clock.time + dt).max(clock.time.next_up()) };
         let lag = clock.lag + if next == clock.time + dt { rounding_of_sum(clock.time, dt) } else { 0.0 };
         let dt = next - clock.time;
-        self.fly(cloud, dt, next);
-        if cloud.laws.cools_in_steps() {
-            let places = 0..cloud.state.spheres.places();
-            places.for_each(|at| cool(cloud, at, next));
+        self.fly(system, dt, next);
+        if system.laws.cools_in_steps() {
+            let slots = 0..system.state.spheres.slots();
+            slots.for_each(|at| cool(system, at, next));
         }
         self.near.moved(speeds.greatest * dt, speeds.apart * dt);
-        self.near.refresh(&cloud.state.spheres, &cloud.volume);
-        self.impacts(cloud, next)?;
+        self.near.refresh(&system.state.spheres, &system.volume);
+        self.collisions(system, next)?;
         if clock.step.is_multiple_of(LOOK_EVERY) {
-            warn_of_places(cloud, dt, end);
+            warn_of_positions(system, dt, end);
         }
         *clock = Clock { time: next, lag, step: clock.step + 1, last_step: dt };
         Ok(())
     }
 
     /// Length of the next step [s], [B] 6.14.
-    fn length(&mut self, cloud: &Cloud, speeds: Speeds) -> f64 {
+    fn length(&mut self, system: &HardSystem, speeds: Speeds) -> f64 {
         let (shortest, longest) = (self.options.shortest_step.si(), self.options.longest_step.si());
         let shortest_approach = match self.options.pairs {
-            Pairs::All => self.shortest_of_all(cloud, speeds, longest / self.options.fraction),
-            Pairs::Nearest => self.shortest_of_nearest(cloud),
+            Pairs::All => self.shortest_of_all(system, speeds, longest / self.options.fraction),
+            Pairs::Nearest => self.shortest_of_nearest(system),
         };
         let mut dt = self.options.fraction * shortest_approach;
-        if cloud.volume.boundary == Boundary::Reflecting {
-            dt = dt.min(walls::time_left(&cloud.state.spheres, &cloud.volume));
+        if system.volume.boundary == Boundary::Reflecting {
+            dt = dt.min(walls::time_left(&system.state.spheres, &system.volume));
         }
         let consistent = self.options.pairs == Pairs::All && self.options.distance == Distance::Gap;
         let too_long = DEEPEST * 2.0 * speeds.smallest < speeds.apart * shortest;
         if dt < shortest && consistent && too_long {
-            return self.length_for_small(cloud, speeds, dt).min(longest);
+            return self.length_for_small(system, speeds, dt).min(longest);
         }
         dt.max(shortest).min(longest)
     }
 
     /// Length [s] in place of `dt`, which is below the shortest step, where that would let small spheres through one another:
     /// as long as none comes deep into another, and none turns round at a wall on the way.
-    fn length_for_small(&mut self, cloud: &Cloud, speeds: Speeds, dt: f64) -> f64 {
-        let (spheres, shortest) = (&cloud.state.spheres, self.options.shortest_step.si());
-        while self.near.slack() < speeds.apart * shortest && self.near.widen(spheres, &cloud.volume) {}
+    fn length_for_small(&mut self, system: &HardSystem, speeds: Speeds, dt: f64) -> f64 {
+        let (spheres, shortest) = (&system.state.spheres, self.options.shortest_step.si());
+        while self.near.slack() < speeds.apart * shortest && self.near.widen(spheres, &system.volume) {}
         let times = self.near.contacts().map(|contact| Approach::of(spheres, &contact).time_to_sink(DEEPEST));
         let mut allowed = times.fold(self.near.slack() / speeds.apart, f64::min);
-        if cloud.volume.boundary == Boundary::Reflecting {
-            allowed = allowed.min(walls::time_left(spheres, &cloud.volume));
+        if system.volume.boundary == Boundary::Reflecting {
+            allowed = allowed.min(walls::time_left(spheres, &system.volume));
         }
         allowed.max(dt).min(shortest)
     }
 
     /// Shortest time of approach of all pairs [s], or of what may come from beyond the reach; `enough` is as good as
     /// anything longer.
-    fn shortest_of_all(&mut self, cloud: &Cloud, speeds: Speeds, enough: f64) -> f64 {
-        let spheres = &cloud.state.spheres;
-        self.near.refresh(spheres, &cloud.volume);
+    fn shortest_of_all(&mut self, system: &HardSystem, speeds: Speeds, enough: f64) -> f64 {
+        let spheres = &system.state.spheres;
+        self.near.refresh(spheres, &system.volume);
         loop {
             let times = self
                 .near
@@ -192,18 +192,18 @@ impl Steps {
                 .map(|contact| Approach::of(spheres, &contact).time_left(self.options.distance));
             let shortest = times.fold(f64::INFINITY, f64::min);
             let unseen = if speeds.apart > 0.0 { self.near.slack() / speeds.apart } else { f64::INFINITY };
-            if shortest.min(enough) <= unseen || !self.near.widen(spheres, &cloud.volume) {
+            if shortest.min(enough) <= unseen || !self.near.widen(spheres, &system.volume) {
                 return shortest.min(unseen);
             }
         }
     }
 
-    fn shortest_of_nearest(&mut self, cloud: &Cloud) -> f64 {
-        let spheres = &cloud.state.spheres;
-        // Without impacts since the last flight it is known already.
+    fn shortest_of_nearest(&mut self, system: &HardSystem) -> f64 {
+        let spheres = &system.state.spheres;
+        // Without collisions since the last flight it is known already.
         if !self.nearest_is_known {
-            self.near.refresh(spheres, &cloud.volume);
-            self.nearest.find(spheres, &self.near, &cloud.volume);
+            self.near.refresh(spheres, &system.volume);
+            self.nearest.find(spheres, &self.near, &system.volume);
         }
         let contacts = self.nearest.contacts().iter();
         let times = contacts.map(|contact| Approach::of(spheres, contact).time_left(self.options.distance));
@@ -211,18 +211,18 @@ impl Steps {
     }
 
     /// Moves all spheres on to `time`, `dt` later, and deals with the faces.
-    fn fly(&mut self, cloud: &mut Cloud, dt: f64, time: f64) {
-        let (boundary, edges) = (cloud.volume.boundary, cloud.volume.edges());
-        for at in 0..cloud.state.spheres.places() {
-            if !cloud.state.spheres.bulk[at].lives() {
+    fn fly(&mut self, system: &mut HardSystem, dt: f64, time: f64) {
+        let (boundary, edges) = (system.volume.boundary, system.volume.edges());
+        for at in 0..system.state.spheres.slots() {
+            if !system.state.spheres.bulk[at].lives() {
                 continue;
             }
-            let motion = &mut cloud.state.spheres.motion[at];
+            let motion = &mut system.state.spheres.motion[at];
             motion.position = motion.at(time);
             motion.time = time;
             let goes_on = match boundary {
-                Boundary::Periodic => cloud.volume.wrap(motion.position),
-                Boundary::Antipodal => cloud.volume.mirrored(motion.position, motion.velocity),
+                Boundary::Periodic => system.volume.wrap(motion.position),
+                Boundary::Antipodal => system.volume.mirrored(motion.position, motion.velocity),
                 Boundary::Reflecting | Boundary::Open => motion.position,
             };
             if goes_on != motion.position {
@@ -230,28 +230,28 @@ impl Steps {
                 motion.position = goes_on;
             }
             if boundary == Boundary::Reflecting {
-                walls::reflect(cloud, at, dt, time);
+                walls::reflect(system, at, dt, time);
             }
         }
     }
 
-    /// Lets all spheres meet that touch and approach.
-    fn impacts(&mut self, cloud: &mut Cloud, time: f64) -> Result<(), SimError> {
-        self.cascade.open(cloud);
+    /// Lets all spheres collide that touch and approach.
+    fn collisions(&mut self, system: &mut HardSystem, time: f64) -> Result<(), SimError> {
+        self.cascade.open(system);
         let all = self.options.pairs == Pairs::All;
         if all {
             for contact in self.near.contacts() {
-                self.cascade.offer(cloud, contact);
+                self.cascade.offer(system, contact);
             }
         } else {
-            self.nearest.find(&cloud.state.spheres, &self.near, &cloud.volume);
+            self.nearest.find(&system.state.spheres, &self.near, &system.volume);
             for contact in self.nearest.contacts() {
-                self.cascade.offer(cloud, *contact);
+                self.cascade.offer(system, *contact);
             }
         }
-        let impacts = self.cascade.run(cloud, &mut self.near, time, all)?;
-        self.nearest_is_known = impacts == 0;
-        if impacts > 0 {
+        let collisions = self.cascade.run(system, &mut self.near, time, all)?;
+        self.nearest_is_known = collisions == 0;
+        if collisions > 0 {
             self.speeds = None;
         }
         Ok(())
@@ -259,21 +259,21 @@ impl Steps {
 }
 
 /// Where spheres are too far out, or too slow for the steps, doubles do not move them.
-fn warn_of_places(cloud: &mut Cloud, dt: f64, end: f64) {
-    let spheres = &cloud.state.spheres;
+fn warn_of_positions(system: &mut HardSystem, dt: f64, end: f64) {
+    let spheres = &system.state.spheres;
     let motions = spheres.living().map(|at| {
         let Sphere { position, velocity, radius, .. } = spheres.motion[at as usize];
         (position, velocity, radius)
     });
     if let Some(warning) = resolution::warning(motions, dt, end) {
-        cloud.state.warnings.add(warning);
+        system.state.warnings.add(warning);
     }
 }
 
 /// Takes a temperature one explicit step on, [B] 6.21. Where cooling is exact that is left to whoever asks for it.
-fn cool(cloud: &mut Cloud, at: usize, time: f64) {
-    if cloud.state.spheres.bulk[at].lives() {
-        cloud.bring_up(at, time);
+fn cool(system: &mut HardSystem, at: usize, time: f64) {
+    if system.state.spheres.bulk[at].lives() {
+        system.bring_up(at, time);
     }
 }
 
@@ -283,11 +283,11 @@ fn crossings(back: Vec3, edges: Vec3) -> [i32; 3] {
 }
 
 impl Speeds {
-    fn of(cloud: &Cloud, time: f64) -> Result<Self, SimError> {
-        let spheres: &Spheres = &cloud.state.spheres;
+    fn of(system: &HardSystem, time: f64) -> Result<Self, SimError> {
+        let spheres: &Spheres = &system.state.spheres;
         let velocity = |at: u32| spheres.motion[at as usize].velocity;
         if let Some(at) = spheres.living().find(|at| !velocity(*at).norm_squared().is_finite()) {
-            return Err(cloud.not_finite(at, time));
+            return Err(system.not_finite(at, time));
         }
         let first = spheres.living().next().map_or(Vec3::ZERO, velocity);
         let (low, high) = spheres
@@ -296,7 +296,7 @@ impl Speeds {
             .fold((first, first), |(low, high), velocity| (low.min(velocity), high.max(velocity)));
         // Walls turn velocities round within a step; there only their size counts.
         let middle =
-            if cloud.volume.boundary == Boundary::Reflecting { Vec3::ZERO } else { (low + high) * 0.5 };
+            if system.volume.boundary == Boundary::Reflecting { Vec3::ZERO } else { (low + high) * 0.5 };
         let radius = |at: u32| spheres.motion[at as usize].radius;
         let smallest = spheres.living().map(radius).fold(f64::INFINITY, f64::min);
         let farthest = |from: Vec3| {

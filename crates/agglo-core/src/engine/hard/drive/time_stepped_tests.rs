@@ -42,7 +42,7 @@ fn bits(simulation: &Simulation) -> Vec<[u64; 8]> {
     all
 }
 
-/// What the page promises for a pair alone: the impact comes late by no more than the shortest step, and that error falls
+/// What the page promises for a pair alone: the collision comes late by no more than the shortest step, and that error falls
 /// with it.
 #[test]
 fn head_on_impact_comes_at_its_time() {
@@ -57,7 +57,7 @@ fn head_on_impact_comes_at_its_time() {
             let engine = format!("fraction = {fraction}\nshortest_step = \"{shortest:e} s\"");
             let mut simulation = start(&scenario("open", &engine, impact, end), &grains);
             run(&mut simulation);
-            assert_eq!(simulation.cloud().state.counts.impacts, 1);
+            assert_eq!(simulation.system().state.counts.collisions, 1);
             let at_end = simulation.snapshot().grains;
             let after = [0, 1].map(|k| at_end.velocity[k].x);
             // Equal masses: (10 - 5)/2 -+ e 15/2, but for rounding.
@@ -108,10 +108,10 @@ fn newtons_cradle_in_one_step() {
     let mut simulation = start(&scenario("open", CONSISTENT, ELASTIC, 1.0), &grains);
     simulation.advance(1.0).unwrap();
     let after = simulation.snapshot().grains.velocity;
-    // Three impacts that each round once.
+    // Three collisions that each round once.
     assert_all!(after[..3].iter(), |velocity| velocity.norm() < 1e-14);
     assert_near_vector!(after[3], Vec3::new(7.0, 0.0, 0.0), 1e-14);
-    assert_eq!(simulation.cloud().state.counts.impacts, 3);
+    assert_eq!(simulation.system().state.counts.collisions, 3);
 }
 
 /// A light ball between two heavy ones that close in on it: it is hit again in the same step, waits, and in the end all
@@ -125,14 +125,14 @@ fn a_pair_bounces_once_per_step() {
     ];
     let mut simulation = start(&scenario("open", CONSISTENT, ELASTIC, 1e-4), &grains);
     simulation.advance(1.0).unwrap();
-    assert_eq!(simulation.cloud().state.counts.impacts, 2);
-    assert_above!(simulation.cloud().state.warnings.counts().values().sum::<u64>(), 0);
+    assert_eq!(simulation.system().state.counts.collisions, 2);
+    assert_above!(simulation.system().state.warnings.counts().values().sum::<u64>(), 0);
     run(&mut simulation);
     let after = simulation.snapshot().grains;
     assert_below!(after.velocity[0].x, after.velocity[1].x, "in m/s");
     assert_below!(after.velocity[1].x, after.velocity[2].x, "in m/s");
-    assert_above!(simulation.cloud().state.counts.impacts, 4);
-    // The rounding of a few ten impacts.
+    assert_above!(simulation.system().state.counts.collisions, 4);
+    // The rounding of a few ten collisions.
     assert_below!(simulation.balance().kinetic_drift_relative.abs(), 1e-13);
     assert_below!(simulation.momentum_drift_relative(), 1e-14);
 }
@@ -161,14 +161,14 @@ fn walls_reflect_exactly() {
             assert!((place[axis] - expected).abs() < 1e-15, "{axis} at {time}");
         }
     }
-    let cloud = simulation.cloud();
+    let system = simulation.system();
     // The last bounce of each axis may be due at the very end.
     assert_at_least!(bounces, 20);
-    assert_eq!(cloud.state.counts.walls, bounces);
+    assert_eq!(system.state.counts.walls, bounces);
     // Each bounce gives twice the momentum; those of one axis take turns.
-    let mass = cloud.state.spheres.bulk[0].mass;
-    let gained = cloud.state.spheres.motion[0].velocity - Vec3::from(velocity);
-    assert_near_vector!(cloud.state.books.flows.walls, gained * mass, 1e-15 * mass * 29.0);
+    let mass = system.state.spheres.bulk[0].mass;
+    let gained = system.state.spheres.motion[0].velocity - Vec3::from(velocity);
+    assert_near_vector!(system.state.ledger.flows.walls, gained * mass, 1e-15 * mass * 29.0);
 }
 
 /// A large ball and a small one that is faster than it: the small one is turned round at the wall within a long step if
@@ -180,8 +180,8 @@ fn nobody_is_passed_behind_a_wall() {
     let mut simulation = start(&scenario("reflecting", engine, ELASTIC, 60e-6), &grains);
     run(&mut simulation);
     // There after 1.5 mm, back after 3 mm less the radii: 15 us + (3 mm - 15 us * 1 m/s)/101 m/s = 44.6 us.
-    assert_eq!(simulation.cloud().state.counts.impacts, 1);
-    assert_eq!(simulation.cloud().state.counts.walls, 1);
+    assert_eq!(simulation.system().state.counts.collisions, 1);
+    assert_eq!(simulation.system().state.counts.walls, 1);
 }
 
 #[test]
@@ -189,12 +189,12 @@ fn faces_of_a_periodic_volume_are_no_borders() {
     // 4 mm apart through the face, 2 mm to go at 20 m/s.
     let grains =
         [([8e-3, 0.0, 9.9e-3], [10.0, 0.0, 0.0], 1e-3), ([-8e-3, 0.0, -9.9e-3], [-10.0, 0.0, 0.0], 1e-3)];
-    for (boundary, impacts) in [("periodic", 1), ("antipodal", 0)] {
+    for (boundary, collisions) in [("periodic", 1), ("antipodal", 0)] {
         let mut simulation = start(&scenario(boundary, CONSISTENT, ELASTIC, 0.3e-3), &grains);
         run(&mut simulation);
-        assert_eq!(simulation.cloud().state.counts.impacts, impacts, "{boundary}");
-        for place in &simulation.cloud().state.spheres.motion {
-            let inside = simulation.cloud().volume.wrap(place.position) == place.position;
+        assert_eq!(simulation.system().state.counts.collisions, collisions, "{boundary}");
+        for place in &simulation.system().state.spheres.motion {
+            let inside = simulation.system().volume.wrap(place.position) == place.position;
             assert!(inside || boundary == "antipodal", "a grain has left a volume with {boundary} faces");
         }
         let x = simulation.snapshot().grains.position[0].x;
@@ -222,7 +222,7 @@ fn who_leaves_an_antipodal_volume_is_mirrored() {
             let x = simulation.snapshot().grains.position[0].x;
             assert!((x - wanted).abs() < 1e-16, "{x} and not {wanted}");
         }
-        assert_eq!(simulation.cloud().state.spheres.motion[0].velocity.x, turn * 100.0);
+        assert_eq!(simulation.system().state.spheres.motion[0].velocity.x, turn * 100.0);
     }
 }
 
@@ -248,7 +248,7 @@ fn entering_an_antipodal_volume_where_somebody_is() {
     let grains = [([9.99e-3, 0.0, 0.0], [50.0, 0.0, 0.0], 1e-3), ([-8.5e-3, 0.0, 0.0], [0.0; 3], 1e-3)];
     let mut simulation = start(&scenario("antipodal", "longest_step = \"1 us\"", ELASTIC, 2e-6), &grains);
     run(&mut simulation);
-    assert_eq!(simulation.cloud().state.counts.overlapping, 1);
+    assert_eq!(simulation.system().state.counts.overlapping, 1);
     assert_near!(simulation.snapshot().grains.velocity[1].x, 50.0, 1e-13, "in m/s");
 }
 
@@ -262,7 +262,7 @@ fn nothing_overlaps_more_than_one_shortest_step() {
         while !simulation.is_finished() {
             turns.take();
             simulation.advance(1.0).unwrap();
-            let spheres = &simulation.cloud().state.spheres;
+            let spheres = &simulation.system().state.spheres;
             let deepest = images(spheres, boundary)
                 .map(|contact| {
                     let [a, b] = contact.spheres.map(|at| &spheres.motion[at as usize]);
@@ -272,9 +272,9 @@ fn nothing_overlaps_more_than_one_shortest_step() {
             // Two of them part at up to 2 * 150 m/s; an antipodal volume puts spheres into others.
             assert!(deepest < 300.0 * 0.1e-6 || boundary == "antipodal", "{deepest:e} in {boundary}");
         }
-        let impacts = simulation.cloud().state.counts.impacts;
-        assert!(impacts > 50, "{impacts} in {boundary}");
-        // Some hundred impacts, rounded each.
+        let collisions = simulation.system().state.counts.collisions;
+        assert!(collisions > 50, "{collisions} in {boundary}");
+        // Some hundred collisions, rounded each.
         assert_below!(simulation.balance().drift_relative.abs(), 1e-12);
         assert_below!(simulation.momentum_drift_relative(), 1e-12);
     }
@@ -305,9 +305,9 @@ fn steps_are_as_long_as_all_pairs_allow() {
             let scenario = scenario(boundary, "shortest_step = \"1 ns\"\nfraction = 0.4", impact, 1.0);
             let mut simulation = start(&scenario, &crowd(120, 1e-3, 20.0, 5));
             for _ in 0..400 {
-                let (cloud, speeds) =
-                    (simulation.cloud().clone(), Speeds::of(simulation.cloud(), 0.0).unwrap());
-                let spheres = &cloud.state.spheres;
+                let (system, speeds) =
+                    (simulation.system().clone(), Speeds::of(simulation.system(), 0.0).unwrap());
+                let spheres = &system.state.spheres;
                 let mut least: f64 = images(spheres, boundary)
                     .map(|contact| Approach::of(spheres, &contact).time_left(Distance::Gap))
                     .fold(f64::INFINITY, f64::min);
@@ -318,7 +318,7 @@ fn steps_are_as_long_as_all_pairs_allow() {
                 }
                 let mut expected = 0.4 * least;
                 if boundary == "reflecting" {
-                    expected = expected.min(walls::time_left(spheres, &cloud.volume));
+                    expected = expected.min(walls::time_left(spheres, &system.volume));
                 }
                 simulation.advance(1.0).unwrap();
                 let step = simulation.clock().last_step;
@@ -336,10 +336,10 @@ fn nearest_neighbors_against_brute_force() {
         for n in [2, 3, 40, 200] {
             let scenario = scenario(boundary, "", ELASTIC, 1.0);
             let simulation = start(&scenario, &crowd(n, 0.7e-3, 20.0, 9));
-            let (cloud, mut near, mut nearest) = (simulation.cloud(), Near::new(0.3), Nearest::default());
-            let spheres = &cloud.state.spheres;
-            near.refresh(spheres, &cloud.volume);
-            nearest.find(spheres, &near, &cloud.volume);
+            let (system, mut near, mut nearest) = (simulation.system(), Near::new(0.3), Nearest::default());
+            let spheres = &system.state.spheres;
+            near.refresh(spheres, &system.volume);
+            nearest.find(spheres, &near, &system.volume);
             for at in spheres.living() {
                 let squares = images(spheres, boundary)
                     .filter(|contact| contact.spheres.contains(&at))
@@ -367,11 +367,11 @@ fn books_close() {
             let mut simulation =
                 start(&scenario(boundary, engine, impact, 1e-3), &crowd(200, 1.2e-3, 2.0, 1));
             run(&mut simulation);
-            let (state, balance) = (&simulation.cloud().state, simulation.balance());
+            let (state, balance) = (&simulation.system().state, simulation.balance());
             assert!(state.counts.merges + state.counts.fragmentations > 20, "{boundary}: {:?}", state.counts);
             let mass: f64 = state.spheres.bulk.iter().map(|bulk| bulk.mass).sum();
-            // Sums of 200 terms over some thousand impacts.
-            assert_close!(mass, state.books.mass_at_start, 1e-13, "in kg");
+            // Sums of 200 terms over some thousand collisions.
+            assert_close!(mass, state.ledger.mass_at_start, 1e-13, "in kg");
             assert!(balance.kinetic_drift_relative.abs() < 1e-12, "{boundary} {engine} {balance:?}");
             assert!(balance.drift_relative.abs() < 1e-12, "{boundary} {engine} {balance:?}");
             assert_below!(simulation.momentum_drift_relative(), 1e-12);
@@ -406,7 +406,7 @@ fn grains_in_any_order_have_the_same_bits() {
                 simulation
             });
             assert_eq!(a.clock(), b.clock(), "{boundary} {engine} {impact}");
-            assert_eq!(a.cloud().state.counts, b.cloud().state.counts);
+            assert_eq!(a.system().state.counts, b.system().state.counts);
             assert_eq!(bits(&a), bits(&b));
         }
     }
@@ -435,7 +435,7 @@ fn resumed_runs_are_the_same_runs() {
             }
             assert_eq!(simulation.clock(), resumed.clock(), "{boundary} {engine} {impact}");
             assert_eq!(bits(&simulation), bits(&resumed));
-            assert_eq!(simulation.cloud().state.books, resumed.cloud().state.books);
+            assert_eq!(simulation.system().state.ledger, resumed.system().state.ledger);
         }
     }
 }
@@ -470,5 +470,5 @@ fn trouble_is_told() {
     assert_matches!(simulation.advance(1.0), Err(SimError::Outgrown { grain: 1, .. }));
     let grains = [([-5e-3, 0.0, 0.0], [1e160, 0.0, 0.0], 5e-3), ([5e-3, 0.0, 0.0], [-1.0, 0.0, 0.0], 5e-3)];
     let mut simulation = start(&scenario("open", "", ELASTIC, 1.0), &grains);
-    assert_matches!(simulation.advance(1.0), Err(SimError::ImpactNotFinite { grain: 0, .. }));
+    assert_matches!(simulation.advance(1.0), Err(SimError::CollisionNotFinite { grain: 0, .. }));
 }

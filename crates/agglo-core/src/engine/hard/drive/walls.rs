@@ -1,7 +1,7 @@
 //! Smooth hard walls around hard spheres that move step by step.
 
 use crate::domain::Volume;
-use crate::engine::hard::collide::Cloud;
+use crate::engine::hard::collide::HardSystem;
 use crate::engine::hard::spheres::Spheres;
 
 /// Time until the first sphere's surface gets to a wall [s].
@@ -22,10 +22,10 @@ pub(super) fn time_left(spheres: &Spheres, volume: &Volume) -> f64 {
 }
 
 /// Turns a sphere round that got to a wall within the last `dt` [s], at most once along each axis.
-pub(super) fn reflect(cloud: &mut Cloud, at: usize, dt: f64, time: f64) {
-    let (lower, upper) = (cloud.volume.lower(), cloud.volume.lower() + cloud.volume.edges());
+pub(super) fn reflect(system: &mut HardSystem, at: usize, dt: f64, time: f64) {
+    let (lower, upper) = (system.volume.lower(), system.volume.lower() + system.volume.edges());
     for axis in 0..3 {
-        let motion = &mut cloud.state.spheres.motion[at];
+        let motion = &mut system.state.spheres.motion[at];
         let (along, speed) = (motion.position[axis], motion.velocity[axis]);
         let beyond = if speed > 0.0 {
             along + motion.radius - upper[axis]
@@ -34,10 +34,10 @@ pub(super) fn reflect(cloud: &mut Cloud, at: usize, dt: f64, time: f64) {
         };
         if beyond >= 0.0 && speed != 0.0 {
             // It flies back what it flew too far. One that had grown into the wall only turns round.
-            let mut place = motion.position.to_array();
-            place[axis] -= 2.0 * beyond.min(speed.abs() * dt).copysign(speed);
-            motion.position = place.into();
-            cloud.bounce_off_wall(at as u32, axis, time);
+            let mut position = motion.position.to_array();
+            position[axis] -= 2.0 * beyond.min(speed.abs() * dt).copysign(speed);
+            motion.position = position.into();
+            system.bounce_off_wall(at as u32, axis, time);
         }
     }
 }

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::impact::ImpactEnergy;
 
-/// What an impact did to the number of grains.
+/// What a collision did to the number of grains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum EventKind {
     /// Two grains became one.
@@ -13,7 +13,7 @@ pub enum EventKind {
     Break,
 }
 
-/// An impact that changed the number of grains.
+/// A collision that changed the number of grains.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GrainEvent {
     /// Number of the event, from 1.
@@ -22,7 +22,7 @@ pub struct GrainEvent {
     pub time: f64,
     /// What happened.
     pub kind: EventKind,
-    /// Names of the partners, the one with the smaller name first.
+    /// Ids of the partners, the smaller first.
     pub grains: [u32; 2],
     /// Their masses [kg].
     pub masses: [f64; 2],

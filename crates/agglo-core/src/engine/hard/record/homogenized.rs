@@ -1,4 +1,4 @@
-//! What a continuum code wants to know of the grains in a point of the flow: means, stores and rates.
+//! What a continuum code wants to know of the grains in a point of the flow: means, energies and rates.
 //!
 //! # Equation
 //! ```text
@@ -77,16 +77,16 @@ pub struct Homogenized {
     /// Momentum [kg m/s].
     #[serde(rename = "momentum_kg_m_s")]
     pub momentum: Vec3,
-    /// Impacts per volume and time [1/(m³ s)].
-    #[serde(rename = "impact_rate_1_m3_s")]
-    pub impact_rate: f64,
+    /// Collisions per volume and time [1/(m³ s)].
+    #[serde(rename = "collision_rate_1_m3_s")]
+    pub collision_rate: f64,
     /// Merges per volume and time [1/(m³ s)].
     #[serde(rename = "merge_rate_1_m3_s")]
     pub merge_rate: f64,
     /// Grains that broke per volume and time [1/(m³ s)].
     #[serde(rename = "breakage_rate_1_m3_s")]
     pub breakage_rate: f64,
-    /// Heat of all impacts in the step [J].
+    /// Heat of all collisions in the step [J].
     #[serde(rename = "heat_J")]
     pub heat: f64,
     /// Of this, heat of reactions [J].
@@ -108,8 +108,8 @@ pub(in crate::engine::hard) fn homogenize(
     duration: f64,
 ) -> Homogenized {
     let (grains, balance) = (&state.grains, simulation.balance());
-    let cloud = &simulation.cloud().state;
-    let volume = simulation.cloud().volume.volume();
+    let system = &simulation.system().state;
+    let volume = simulation.system().volume.volume();
     let (mass, momentum): (f64, Vec3) = (grains.mass.iter().sum(), simulation.momentum());
     let mean_velocity = momentum / mass;
     let velocity_covariance = covariance(grains, mean_velocity, mass);
@@ -129,17 +129,17 @@ pub(in crate::engine::hard) fn homogenize(
         velocity_covariance,
         granular_temperature: (0..3).map(|axis| velocity_covariance[axis][axis]).sum::<f64>() / 3.0,
         mean_temperature: mean_temperature(state),
-        kinetic: balance.stores.kinetic,
-        thermal: balance.stores.thermal,
+        kinetic: balance.stored.kinetic,
+        thermal: balance.stored.thermal,
         momentum,
-        impact_rate: rate(cloud.counts.impacts),
-        merge_rate: rate(cloud.counts.merges),
-        breakage_rate: rate(cloud.counts.fragmentations),
+        collision_rate: rate(system.counts.collisions),
+        merge_rate: rate(system.counts.merges),
+        breakage_rate: rate(system.counts.fragmentations),
         heat: balance.heat,
         reaction: balance.reaction,
         cooled: balance.cooled,
-        kernels: cloud.rates.kernel_rows(duration),
-        daughters: cloud.rates.daughter_rows(),
+        kernels: system.rates.kernel_rows(duration),
+        daughters: system.rates.daughter_rows(),
     }
 }
 

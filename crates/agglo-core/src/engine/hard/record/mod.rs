@@ -7,5 +7,5 @@ mod ledger;
 pub use events::{Descent, EventKind, GrainEvent};
 pub use homogenized::Homogenized;
 pub(super) use homogenized::homogenize;
-pub use ledger::{Balance, Books, Counts, Flows, Stores};
-pub(super) use ledger::{momentum, stores};
+pub use ledger::{Balance, Counts, Flows, HardLedger, SphereEnergy};
+pub(super) use ledger::{momentum, stored};

@@ -29,9 +29,9 @@ impl Surroundings for Around<'_> {
                 let middle = center - self.grid.frame.flown(time);
                 self.grid.visit_within(number, [middle - corner, middle + corner], |at, image| {
                     let sphere = &spheres.motion[at as usize];
-                    let place = sphere.at(time) + self.grid.shift(image);
-                    if (place - center).norm() <= reach + sphere.radius {
-                        visit(at, place);
+                    let position = sphere.at(time) + self.grid.shift(image);
+                    if (position - center).norm() <= reach + sphere.radius {
+                        visit(at, position);
                     }
                 });
             }

@@ -29,7 +29,7 @@ struct Level {
     lower: Vec3,
     per_metre: [f64; 3],
     counts: [i64; 3],
-    places: Vec<u32>,
+    indices: Vec<u32>,
     starts: Vec<u32>,
     members: Vec<u32>,
 }
@@ -56,7 +56,7 @@ impl Level {
     /// Lays cells that are at least `width` wide over a block.
     fn lay(&mut self, lower: Vec3, edges: Vec3, mut width: f64) {
         self.lower = lower;
-        let most = (CELLS_PER_SPHERE * self.places.len() as f64).max(FEW_CELLS);
+        let most = (CELLS_PER_SPHERE * self.indices.len() as f64).max(FEW_CELLS);
         let count = |axis: usize, width: f64| {
             let cells = (edges[axis] / width).floor();
             if cells.is_finite() { cells.max(1.0) } else { 1.0 }
@@ -75,7 +75,7 @@ impl Level {
         let buckets = self.counts.iter().product::<i64>() as usize;
         self.starts.clear();
         self.starts.resize(buckets + 1, 0);
-        for &at in &self.places {
+        for &at in &self.indices {
             let bucket = self.home(spheres.motion[at as usize].position);
             self.starts[bucket] += 1;
         }
@@ -85,8 +85,8 @@ impl Level {
             *start = sum;
         }
         self.members.clear();
-        self.members.resize(self.places.len(), 0);
-        for &at in self.places.iter().rev() {
+        self.members.resize(self.indices.len(), 0);
+        for &at in self.indices.iter().rev() {
             let bucket = self.home(spheres.motion[at as usize].position);
             self.starts[bucket] -= 1;
             self.members[self.starts[bucket] as usize] = at;
@@ -130,13 +130,13 @@ impl Cells {
     pub fn fill(&mut self, spheres: &Spheres, volume: &Volume, margin: f64) {
         self.periodic = volume.boundary == Boundary::Periodic;
         for level in &mut self.levels {
-            level.places.clear();
+            level.indices.clear();
             level.largest_radius = 0.0;
         }
         let radius = |at: u32| spheres.motion[at as usize].radius;
         let smallest = spheres.living().map(radius).fold(f64::INFINITY, f64::min);
         self.level_of.clear();
-        self.level_of.resize(spheres.places(), 0);
+        self.level_of.resize(spheres.slots(), 0);
         for at in spheres.living() {
             let octave = (radius(at) / smallest).log2().max(0.0) as u8;
             self.level_of[at as usize] = octave;
@@ -144,14 +144,14 @@ impl Cells {
                 self.levels.resize_with(octave as usize + 1, Level::default);
             }
             let level = &mut self.levels[octave as usize];
-            level.places.push(at);
+            level.indices.push(at);
             level.largest_radius = level.largest_radius.max(radius(at));
         }
         for level in &mut self.levels {
             let (lower, edges) = if volume.boundary.wraps() {
                 (volume.lower(), volume.edges())
             } else {
-                extent(spheres, &level.places)
+                extent(spheres, &level.indices)
             };
             level.lay(lower, edges, 2.0 * level.largest_radius + margin);
             level.sort(spheres);
@@ -161,7 +161,7 @@ impl Cells {
     /// Visits every sphere, with the number of the image, whose surface was nearer to `center` than `reach` [m] when
     /// the cells were filled; visits more.
     pub fn visit_all(&self, center: Vec3, reach: f64, visit: &mut impl FnMut(u32, [i8; 3])) {
-        for level in self.levels.iter().filter(|level| !level.places.is_empty()) {
+        for level in self.levels.iter().filter(|level| !level.indices.is_empty()) {
             level.visit(self.periodic, center, reach + level.largest_radius, visit);
         }
     }
@@ -170,7 +170,7 @@ impl Cells {
     pub fn visit_partners(&self, of: u32, center: Vec3, reach: f64, visit: &mut impl FnMut(u32, [i8; 3])) {
         let own = self.level_of[of as usize] as usize;
         for (number, level) in self.levels.iter().enumerate().skip(own) {
-            if !level.places.is_empty() {
+            if !level.indices.is_empty() {
                 level.visit(self.periodic, center, reach + level.largest_radius, &mut |at, image| {
                     if number > own || at > of {
                         visit(at, image);
@@ -182,10 +182,10 @@ impl Cells {
 }
 
 /// Lower corner and edges of the block around spheres.
-fn extent(spheres: &Spheres, places: &[u32]) -> (Vec3, Vec3) {
+fn extent(spheres: &Spheres, indices: &[u32]) -> (Vec3, Vec3) {
     let position = |at: &u32| spheres.motion[*at as usize].position;
-    let first = places.first().map_or(Vec3::ZERO, position);
+    let first = indices.first().map_or(Vec3::ZERO, position);
     let (lower, upper) =
-        places.iter().map(position).fold((first, first), |(low, high), at| (low.min(at), high.max(at)));
+        indices.iter().map(position).fold((first, first), |(low, high), at| (low.min(at), high.max(at)));
     (lower, upper - lower)
 }

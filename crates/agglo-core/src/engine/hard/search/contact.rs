@@ -1,14 +1,14 @@
-//! What a search finds: two spheres that meet, and the spheres near a point.
+//! What a search finds: two spheres that collide, and the spheres near a point.
 
 use crate::engine::hard::spheres::Spheres;
 use crate::math::Vec3;
 
-/// Two spheres that meet.
+/// Two spheres that collide.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
-    /// Their places.
+    /// Their indices.
     pub spheres: [u32; 2],
-    /// What is added to the second one's position to get the image that meets the first [m].
+    /// What is added to the second one's position to get the image that collides with the first [m].
     pub shift: Vec3,
 }
 

@@ -16,5 +16,5 @@ pub use contact::{Contact, Surroundings};
 pub(super) use grid::{Frame, Grid};
 pub(super) use near::Near;
 pub(super) use nearest::Nearest;
-pub(super) use next_event::Agenda;
-pub(super) use seeker::{Candidate, Meeting, Seeker};
+pub(super) use next_event::NextEvent;
+pub(super) use seeker::{Candidate, NextCollision, Seeker};

@@ -32,7 +32,7 @@ struct Pair {
 pub(in crate::engine::hard) struct Near {
     cells: Cells,
     pairs: Vec<Pair>,
-    /// How often each sphere crossed faces since the cells were filled [places].
+    /// How often each sphere crossed faces since the cells were filled [slots].
     crossings: Vec<[i32; 3]>,
     /// Spheres that are not where the cells say, or not at all there.
     newcomers: Vec<u32>,
@@ -86,10 +86,10 @@ impl Near {
     fn fill(&mut self, spheres: &Spheres, volume: &Volume) {
         self.cells.fill(spheres, volume, self.reach);
         self.crossings.clear();
-        self.crossings.resize(spheres.places(), [0; 3]);
+        self.crossings.resize(spheres.slots(), [0; 3]);
         self.newcomers.clear();
         self.is_newcomer.clear();
-        self.is_newcomer.resize(spheres.places(), false);
+        self.is_newcomer.resize(spheres.slots(), false);
         self.drift = 0.0;
     }
 
@@ -156,8 +156,8 @@ impl Near {
     /// Takes note that a sphere is new, or elsewhere, or gone.
     pub fn changed(&mut self, at: u32, spheres: &Spheres, volume: &Volume) {
         self.valid = false;
-        self.is_newcomer.resize(spheres.places(), false);
-        self.crossings.resize(spheres.places(), [0; 3]);
+        self.is_newcomer.resize(spheres.slots(), false);
+        self.crossings.resize(spheres.slots(), [0; 3]);
         if !self.is_newcomer[at as usize] {
             self.is_newcomer[at as usize] = true;
             self.newcomers.push(at);

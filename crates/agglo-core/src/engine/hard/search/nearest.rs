@@ -12,11 +12,11 @@ use super::near::Near;
 struct Neighbor {
     /// Square of the distance of the centers [m²].
     distance_squared: f64,
-    place: u32,
+    index: u32,
     shift: Vec3,
 }
 
-const NOBODY: Neighbor = Neighbor { distance_squared: f64::INFINITY, place: u32::MAX, shift: Vec3::ZERO };
+const NOBODY: Neighbor = Neighbor { distance_squared: f64::INFINITY, index: u32::MAX, shift: Vec3::ZERO };
 
 /// The nearest neighbors of all.
 #[derive(Clone, Debug, Default)]
@@ -29,7 +29,7 @@ impl Nearest {
     /// Finds everybody's nearest neighbor; of several at the same distance the one that comes first in space.
     pub fn find(&mut self, spheres: &Spheres, near: &Near, volume: &Volume) {
         self.of.clear();
-        self.of.resize(spheres.places(), NOBODY);
+        self.of.resize(spheres.slots(), NOBODY);
         for contact in near.contacts() {
             let [a, b] = contact.spheres;
             self.offer(spheres, a, b, contact.shift);
@@ -62,16 +62,16 @@ impl Nearest {
         self.gather();
     }
 
-    fn offer(&mut self, spheres: &Spheres, at: u32, place: u32, shift: Vec3) {
+    fn offer(&mut self, spheres: &Spheres, at: u32, index: u32, shift: Vec3) {
         let position = |at: u32| spheres.motion[at as usize].position;
-        let distance_squared = ((position(place) - position(at)) + shift).norm_squared();
+        let distance_squared = ((position(index) - position(at)) + shift).norm_squared();
         let best = &mut self.of[at as usize];
         let is_nearer = distance_squared < best.distance_squared
             || (distance_squared == best.distance_squared
                 && distance_squared.is_finite()
-                && position(place).total_cmp(&position(best.place)).is_lt());
+                && position(index).total_cmp(&position(best.index)).is_lt());
         if is_nearer {
-            *best = Neighbor { distance_squared, place, shift };
+            *best = Neighbor { distance_squared, index, shift };
         }
     }
 
@@ -79,13 +79,13 @@ impl Nearest {
     fn gather(&mut self) {
         self.contacts.clear();
         for (neighbor, at) in self.of.iter().zip(0..) {
-            if neighbor.place == u32::MAX {
+            if neighbor.index == u32::MAX {
                 continue;
             }
-            let back = &self.of[neighbor.place as usize];
-            let is_mutual = back.place == at && back.distance_squared == neighbor.distance_squared;
-            if !is_mutual || at < neighbor.place {
-                self.contacts.push(Contact { spheres: [at, neighbor.place], shift: neighbor.shift });
+            let back = &self.of[neighbor.index as usize];
+            let is_mutual = back.index == at && back.distance_squared == neighbor.distance_squared;
+            if !is_mutual || at < neighbor.index {
+                self.contacts.push(Contact { spheres: [at, neighbor.index], shift: neighbor.shift });
             }
         }
     }
@@ -102,9 +102,9 @@ fn farthest(spheres: &Spheres, volume: &Volume) -> f64 {
     if volume.boundary == Boundary::Periodic {
         return edges.norm();
     }
-    let mut places = spheres.living().map(|at| spheres.motion[at as usize].position);
-    let first = places.next().unwrap_or(Vec3::ZERO);
-    let (lower, upper) = places.fold((first, first), |(low, high), at| (low.min(at), high.max(at)));
+    let mut positions = spheres.living().map(|at| spheres.motion[at as usize].position);
+    let first = positions.next().unwrap_or(Vec3::ZERO);
+    let (lower, upper) = positions.fold((first, first), |(low, high), at| (low.min(at), high.max(at)));
     (upper - lower).norm()
 }
 

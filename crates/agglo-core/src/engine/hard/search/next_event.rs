@@ -7,17 +7,17 @@ use crate::engine::hard::spheres::NONE;
 /// What a sphere does next, and where it is filed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[repr(C, align(64))]
-pub struct Agenda {
-    /// Time of its next impact [s]. Without a partner it is the time before which it has none, and at which it must look
+pub struct NextEvent {
+    /// Time of its next collision [s]. Without a partner it is the time before which it has none, and at which it must look
     /// again. Infinite where none is known.
     pub collision: f64,
-    /// Time at which it leaves its cell or meets a wall [s].
+    /// Time at which it leaves its cell or comes to a wall [s].
     pub crossing: f64,
-    /// Its stable name, which decides between events of one moment.
+    /// Its id, which decides between events of one moment.
     pub id: u32,
     /// Its cell; beyond the grid where the volume is open.
     pub cell: [i32; 3],
-    /// Whom it meets; [`NONE`] if it must look again.
+    /// Whom it collides with; [`NONE`] if it must look again.
     pub partner: u32,
     /// Number of the cell in its level.
     #[serde(skip)]
@@ -27,7 +27,7 @@ pub struct Agenda {
     pub bin: u32,
     /// Edges of the volume that are added to the partner's position.
     pub image: [i8; 3],
-    /// Its level of the grid; [`Agenda::NOWHERE`] for an empty place.
+    /// Its level of the grid; [`NextEvent::NOWHERE`] for an empty slot.
     pub level: u8,
     /// What `crossing` is.
     pub exit: Exit,
@@ -44,11 +44,11 @@ pub struct Exit {
     pub is_wall: bool,
 }
 
-impl Agenda {
-    /// Level of an empty place.
+impl NextEvent {
+    /// Level of an empty slot.
     pub const NOWHERE: u8 = u8::MAX;
 
-    /// Of an empty place.
+    /// Of an empty slot.
     pub const EMPTY: Self = Self {
         collision: f64::INFINITY,
         crossing: f64::INFINITY,
@@ -62,7 +62,7 @@ impl Agenda {
         exit: Exit { axis: 0, side: 1, is_wall: false },
     };
 
-    /// The partner is met so many edges of the volume farther along an axis.
+    /// The collision with the partner is so many edges of the volume farther along an axis.
     #[inline]
     pub fn shift(&mut self, axis: usize, edges: i8) {
         self.image[axis] = self.image[axis].saturating_add(edges);

@@ -36,7 +36,7 @@ pub struct SingleLoad {
     /// Force [N].
     pub force: Vec3,
     /// Moment about the center [N m].
-    pub moment: Vec3,
+    pub torque: Vec3,
 }
 
 impl Laws {
@@ -96,7 +96,7 @@ impl Laws {
         grains.mass[at] + added
     }
 
-    /// Force and moment of gravity, drag and fields on one grain; what each supplies is added to `supplies`.
+    /// Force and torque of gravity, drag and fields on one grain; what each supplies is added to `supplies`.
     #[inline]
     pub fn on_single(
         &self,
@@ -125,9 +125,9 @@ impl Laws {
         if let Some(drag) = &self.fields.drag {
             let (flow, spin) = (self.flow_at(position, time), motion.spin[at]);
             book(&mut supplies.drag, drag.force(&self.medium, radius, velocity, &flow));
-            total.moment = Drag::moment(&self.medium, radius, spin, &flow);
-            supplies.drag.power += total.moment.dot(spin);
-            supplies.drag.moment += total.moment;
+            total.torque = Drag::torque(&self.medium, radius, spin, &flow);
+            supplies.drag.power += total.torque.dot(spin);
+            supplies.drag.torque += total.torque;
         }
         total
     }

@@ -1,4 +1,4 @@
-//! Forces and moments on all grains, and the rates at which they feed or drain the ledger.
+//! Forces and torques on all grains, and the rates at which they feed or drain the ledger.
 
 use std::ops::{Add, Range};
 
@@ -7,36 +7,36 @@ use serde::{Deserialize, Serialize};
 use crate::contact::pass::ContactRates;
 use crate::math::{Vec3, parallel::Split};
 
-/// Force [N] and moment about the center [N m] on every grain; [n] each.
+/// Force [N] and torque about the center [N m] on every grain; [n] each.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Loads {
     /// Forces [N].
     pub force: Vec<Vec3>,
     /// Moments [N m].
-    pub moment: Vec<Vec3>,
+    pub torque: Vec<Vec3>,
 }
 
 impl Loads {
     /// No load on `n` grains.
     pub fn none(n: usize) -> Self {
-        Self { force: vec![Vec3::ZERO; n], moment: vec![Vec3::ZERO; n] }
+        Self { force: vec![Vec3::ZERO; n], torque: vec![Vec3::ZERO; n] }
     }
 
     /// Takes all loads away.
     pub fn clear(&mut self) {
         self.force.fill(Vec3::ZERO);
-        self.moment.fill(Vec3::ZERO);
+        self.torque.fill(Vec3::ZERO);
     }
 
     /// Puts the grains into another order.
     pub fn reorder(&mut self, order: &[u32]) {
         self.force = order.iter().map(|&at| self.force[at as usize]).collect();
-        self.moment = order.iter().map(|&at| self.moment[at as usize]).collect();
+        self.torque = order.iter().map(|&at| self.torque[at as usize]).collect();
     }
 
     /// Views that can be cut between grains.
     pub fn views(&mut self) -> LoadViews<'_> {
-        LoadViews { force: &mut self.force, moment: &mut self.moment }
+        LoadViews { force: &mut self.force, torque: &mut self.torque }
     }
 }
 
@@ -45,14 +45,14 @@ pub struct LoadViews<'a> {
     /// Forces [N].
     pub force: &'a mut [Vec3],
     /// Moments [N m].
-    pub moment: &'a mut [Vec3],
+    pub torque: &'a mut [Vec3],
 }
 
 impl Split for LoadViews<'_> {
     fn split(self, range: &Range<usize>, at: usize) -> (Self, Self) {
         let (force, force_after) = self.force.split(range, at);
-        let (moment, moment_after) = self.moment.split(range, at);
-        (Self { force, moment }, Self { force: force_after, moment: moment_after })
+        let (torque, torque_after) = self.torque.split(range, at);
+        (Self { force, torque }, Self { force: force_after, torque: torque_after })
     }
 }
 
@@ -64,14 +64,14 @@ pub struct Supply {
     /// Force [N].
     pub force: Vec3,
     /// Moment about the origin [N m].
-    pub moment: Vec3,
+    pub torque: Vec3,
 }
 
 impl Supply {
     /// A force at a point of a grain with this position and velocity.
     #[inline]
     pub fn of(force: Vec3, position: Vec3, velocity: Vec3) -> Self {
-        Self { power: force.dot(velocity), force, moment: position.cross(force) }
+        Self { power: force.dot(velocity), force, torque: position.cross(force) }
     }
 
     /// The weighted sum with another.
@@ -80,7 +80,7 @@ impl Supply {
         Self {
             power: self.power + weight * other.power,
             force: self.force + other.force * weight,
-            moment: self.moment + other.moment * weight,
+            torque: self.torque + other.torque * weight,
         }
     }
 }
@@ -104,14 +104,14 @@ pub struct Supplies {
 }
 
 impl Supplies {
-    /// Forces [N] and a moment [N m] by which the loads on a grain at a point [m] changed when its velocity was solved
+    /// Forces [N] and a torque [N m] by which the loads on a grain at a point [m] changed when its velocity was solved
     /// for. What they supply is of second order in the step and left out.
     #[inline]
     pub fn note_correction(&mut self, position: Vec3, drag: Vec3, magnetic: Vec3, spun: Vec3) {
         self.drag.force += drag;
-        self.drag.moment += position.cross(drag) + spun;
+        self.drag.torque += position.cross(drag) + spun;
         self.field.force += magnetic;
-        self.field.moment += position.cross(magnetic);
+        self.field.torque += position.cross(magnetic);
     }
 }
 
@@ -126,7 +126,7 @@ impl Add for Supplies {
     }
 }
 
-/// What solving for velocities changes in the books of a step.
+/// What solving for velocities changes in the ledger of a step.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Correction {
     /// Changes of the supplies at the end of the step.
@@ -142,7 +142,7 @@ impl Add for Correction {
     }
 }
 
-/// All rates at one moment.
+/// All rates at one time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rates {
     /// Power lost in contact dashpots [W].

@@ -17,7 +17,7 @@
 //! |--------|--------------|---------|---------|
 //! | c      | `drag`       | N s/m   | drag over slip |
 //! | b      | `turning`    | kg/s    | q B |
-//! | g      | `spin`       | N m s   | moment over angular velocity |
+//! | g      | `spin`       | N m s   | torque over angular velocity |
 //! | h      |              | s/kg    | φ Δt/m |
 
 use crate::math::Vec3;
@@ -47,7 +47,7 @@ impl Response {
             spin: guess.1 + turn,
             drag: change * -self.drag,
             magnetic: change.cross(self.turning),
-            moment: turn * -self.spin,
+            torque: turn * -self.spin,
         }
     }
 
@@ -79,17 +79,17 @@ pub struct Solved {
     drag: Vec3,
     /// Change of the magnetic force [N].
     magnetic: Vec3,
-    /// Change of the moment [N m].
-    moment: Vec3,
+    /// Change of the torque [N m].
+    torque: Vec3,
 }
 
 impl Solved {
     /// Brings the loads of the grain in this slot and at this position [m] along.
     #[inline]
-    pub fn correct(&self, slot: usize, loads: &mut LoadViews<'_>, position: Vec3, books: &mut Correction) {
+    pub fn correct(&self, slot: usize, loads: &mut LoadViews<'_>, position: Vec3, ledger: &mut Correction) {
         loads.force[slot] += self.drag + self.magnetic;
-        loads.moment[slot] += self.moment;
-        books.supplies.note_correction(position, self.drag, self.magnetic, self.moment);
+        loads.torque[slot] += self.torque;
+        ledger.supplies.note_correction(position, self.drag, self.magnetic, self.torque);
     }
 }
 
@@ -104,7 +104,7 @@ mod tests {
         let solved = response.solved((explicit, explicit), (guess, guess), (0.8, 0.6));
         let back = explicit + (solved.drag + solved.magnetic) * 0.8;
         assert!((back - solved.velocity).norm() < 1e-15, "{back:?}");
-        assert_near_vector!(explicit + solved.moment * 0.6, solved.spin, 1e-15);
+        assert_near_vector!(explicit + solved.torque * 0.6, solved.spin, 1e-15);
     }
 
     /// A rotation keeps the speed, whatever the step.

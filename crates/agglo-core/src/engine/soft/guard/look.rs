@@ -64,8 +64,8 @@ impl Simulation {
     }
 
     fn look_at_the_energy(&mut self) -> Result<(), SimError> {
-        let stores = self.stores();
-        let part = self.ledger.note(stores);
+        let stored = self.stored_energy();
+        let part = self.ledger.note(stored);
         let clock = self.clock();
         let at = Moment { step: clock.step, time: clock.time, dt: clock.last_step };
         if part.is_nan() {

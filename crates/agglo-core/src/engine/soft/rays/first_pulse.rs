@@ -19,13 +19,13 @@ const MOST_PARTS: u32 = 4000;
 /// A pulse that has flown.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FirstPulse {
-    /// Its books.
+    /// Its counts and powers.
     pub count: PulseCount,
     /// Time until its last ray has left [s], a little more.
     pub flight_s: f64,
     /// How long a hit presses [s].
     pub duration_s: f64,
-    /// Change of velocity of each grain [m/s], by the grains' names; [n].
+    /// Change of velocity of each grain [m/s], by the grains' ids; [n].
     pub kicks: Vec<Vec3>,
 }
 

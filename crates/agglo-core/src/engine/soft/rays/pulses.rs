@@ -228,7 +228,7 @@ impl Pulses {
     pub fn fly(&mut self, system: &mut System, now: f64, dt: f64, warnings: &mut Warnings) {
         for &grain in &self.hit_grains {
             system.ray_loads.force[grain as usize] = Vec3::ZERO;
-            system.ray_loads.moment[grain as usize] = Vec3::ZERO;
+            system.ray_loads.torque[grain as usize] = Vec3::ZERO;
         }
         self.hit_grains.clear();
         system.has_ray_loads = false;
@@ -249,7 +249,7 @@ impl Pulses {
                 let force = law.force(hit, impedances[grains.material[grain] as usize], medium);
                 let load = if impulses { force * setup.duration } else { force };
                 loads.force[grain] += load;
-                loads.moment[grain] += (hit.point - grains.position[grain]).cross(load);
+                loads.torque[grain] += (hit.point - grains.position[grain]).cross(load);
                 absorbed_power[grain] += hit.power_in * (1.0 - hit.reflectance);
                 hit_grains.push(hit.grain);
             }
@@ -264,7 +264,7 @@ impl Pulses {
         system.has_ray_loads = !self.hit_grains.is_empty();
     }
 
-    /// Energy, impulse and moment of the impulse that the rays' loads give in the step that is tried.
+    /// Energy, impulse and angular impulse that the rays' loads give in the step that is tried.
     pub fn supply(&self, system: &System, dt: f64) -> Supply {
         let scale = system.ray_load_scale(dt) * dt;
         let (grains, trial) = (&system.grains, &system.trial);
@@ -272,12 +272,12 @@ impl Pulses {
         for &grain in &self.hit_grains {
             let grain = grain as usize;
             let impulse = system.ray_loads.force[grain] * scale;
-            let twist = system.ray_loads.moment[grain] * scale;
+            let twist = system.ray_loads.torque[grain] * scale;
             let (r, s) = (grains.position[grain], trial.position[grain]);
             let mean_spin = (grains.spin[grain] + trial.spin[grain]) * 0.5;
             let work = impulse.dot(s - r) / dt + twist.dot(mean_spin);
-            let moment = ((r + s) * 0.5).cross(impulse) + twist;
-            sum = sum + Supply { power: work, force: impulse, moment };
+            let torque = ((r + s) * 0.5).cross(impulse) + twist;
+            sum = sum + Supply { power: work, force: impulse, torque };
         }
         sum
     }

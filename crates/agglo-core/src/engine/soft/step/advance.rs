@@ -92,16 +92,16 @@ impl System {
             let (mut change, mut correction) = (Change::default(), Correction::default());
             for (slot, grain) in range.enumerate() {
                 if from_start {
-                    (end.force[slot], end.moment[slot]) = (loads.force[grain], loads.moment[grain]);
+                    (end.force[slot], end.torque[slot]) = (loads.force[grain], loads.torque[grain]);
                 }
                 let mut force = end.force[slot] * phi + loads.force[grain] * (1.0 - phi);
-                let mut moment = end.moment[slot] * phi + loads.moment[grain] * (1.0 - phi);
+                let mut torque = end.torque[slot] * phi + loads.torque[grain] * (1.0 - phi);
                 if let Some(scale) = ray_scale {
                     force += ray_loads.force[grain] * scale;
-                    moment += ray_loads.moment[grain] * scale;
+                    torque += ray_loads.torque[grain] * scale;
                 }
                 let (per_mass, per_inertia) = (dt / inertial_mass[grain], dt / grains.inertia(grain));
-                let (mut kick, mut twist) = (force * per_mass, moment * per_inertia);
+                let (mut kick, mut twist) = (force * per_mass, torque * per_inertia);
                 if has_response {
                     let (velocity, spin) = (grains.velocity[grain], grains.spin[grain]);
                     // Where and how fast the loads at the end are taken.
@@ -144,14 +144,14 @@ impl System {
             let mut correction = Correction::default();
             for (slot, grain) in range.enumerate() {
                 let mut force = (end.force[slot] + loads.force[grain]) * 0.5;
-                let mut moment = (end.moment[slot] + loads.moment[grain]) * 0.5;
+                let mut torque = (end.torque[slot] + loads.torque[grain]) * 0.5;
                 if let Some(scale) = ray_scale {
                     force += ray_loads.force[grain] * scale;
-                    moment += ray_loads.moment[grain] * scale;
+                    torque += ray_loads.torque[grain] * scale;
                 }
                 let (per_mass, per_inertia) = (dt / inertial_mass[grain], dt / grains.inertia(grain));
                 let explicit =
-                    (grains.velocity[grain] + force * per_mass, grains.spin[grain] + moment * per_inertia);
+                    (grains.velocity[grain] + force * per_mass, grains.spin[grain] + torque * per_inertia);
                 if has_response {
                     let guess = (v[slot], w[slot]);
                     let response = laws.response(grains, grain, (position[grain], guess.0), time);

@@ -84,7 +84,7 @@ fn rays_push_and_turn_each_grain() {
         for grain in 0..3 {
             let share = grain as f64 / if are_impulses { 1.0 } else { dt };
             system.ray_loads.force[grain] = push * share;
-            system.ray_loads.moment[grain] = twist * share;
+            system.ray_loads.torque[grain] = twist * share;
         }
         (system.has_ray_loads, system.rays_are_impulses) = (true, are_impulses);
         let inertia = 0.4 * 1e-8 * RADIUS * RADIUS;

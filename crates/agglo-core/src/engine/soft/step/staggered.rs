@@ -26,7 +26,7 @@
 //! iteration, not that of the time discretization: `largest_step` bounds the latter.
 //!
 //! # Compared with others
-//! Velocity-dependent forces, moments and the memory of contacts iterate with the rest. The loads at the start of
+//! Velocity-dependent forces, torques and the memory of contacts iterate with the rest. The loads at the start of
 //! a step are those of the last iterate of the step before, which spares one evaluation a step and is within the
 //! tolerance of evaluating them anew.
 

@@ -17,8 +17,8 @@ impl Grid {
     }
 
     /// Edges [m] to add to the position of a sphere so that it is in the cells at a time [s].
-    pub fn way_back(&self, place: Vec3, time: f64) -> Vec3 {
-        self.whole_edges(place - self.frame.flown(time) - self.frame.lower)
+    pub fn way_back(&self, position: Vec3, time: f64) -> Vec3 {
+        self.whole_edges(position - self.frame.flown(time) - self.frame.lower)
     }
 
     /// Edges [m] that take a vector into the block of one volume at the origin.
@@ -43,9 +43,9 @@ impl Grid {
         self.widths.x.min(self.widths.y).min(self.widths.z)
     }
 
-    /// Whether a place at a time [s] is so far from an open volume that the numbers of cells there are about to end.
-    pub fn is_beyond(&self, place: Vec3, time: f64) -> bool {
-        let way = place - self.frame.flown(time) - self.frame.lower;
+    /// Whether a position at a time [s] is so far from an open volume that the numbers of cells there are about to end.
+    pub fn is_beyond(&self, position: Vec3, time: f64) -> bool {
+        let way = position - self.frame.flown(time) - self.frame.lower;
         self.boundary == Boundary::Open && way.sum_of_sizes() > FARTHEST_CELL * self.narrowest_cell()
     }
 
@@ -57,15 +57,15 @@ impl Grid {
         back
     }
 
-    /// The images of a place along an axis that lie between two coordinates [m]: the first and the last number of edges
+    /// The images of a position along an axis that lie between two coordinates [m]: the first and the last number of edges
     /// to add.
     #[inline]
-    pub fn images(&self, axis: usize, place: f64, [from, to]: [f64; 2]) -> (i8, i8) {
+    pub fn images(&self, axis: usize, position: f64, [from, to]: [f64; 2]) -> (i8, i8) {
         if self.boundary == Boundary::Periodic {
             let edge = self.edges[axis];
-            (((from - place) / edge).ceil() as i8, ((to - place) / edge).floor() as i8)
+            (((from - position) / edge).ceil() as i8, ((to - position) / edge).floor() as i8)
         } else {
-            (0, if from <= place && place <= to { 0 } else { -1 })
+            (0, if from <= position && position <= to { 0 } else { -1 })
         }
     }
 }

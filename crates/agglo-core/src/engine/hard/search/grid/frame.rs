@@ -1,6 +1,6 @@
 //! Cells that fly with the spheres.
 //!
-//! Spheres that all fly one way would pass through cells that lie still, one event for each, without meeting anyone. So the
+//! Spheres that all fly one way would pass through cells that lie still, one event for each, without a collision. So the
 //! cells fly at the mean velocity of the spheres, where no face of the volume does anything but bring spheres back by an
 //! edge. Positions are those of the images in the flying block; what is given out is folded into the volume.
 

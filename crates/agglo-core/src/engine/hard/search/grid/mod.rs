@@ -1,7 +1,7 @@
 //! The cells that spheres are filed in: levels of cells for spheres of different size, nested in one another.
 //!
 //! A sphere lies in the finest level whose cells are as wide as it is. Two spheres that touch lie in neighboring cells
-//! of the coarser of their two levels, so each sphere knows whom it may meet from the 27 cells about its own in its own
+//! of the coarser of their two levels, so each sphere knows whom it may collide with from the 27 cells about its own in its own
 //! level and in every coarser one. A coarse cell is made of whole finer ones, two along each axis, or three where one would
 //! be left over, up to a single cell that is the volume: a sphere that leaves a coarse cell leaves a fine one too.
 //!
@@ -21,7 +21,7 @@ use crate::domain::{Boundary, Volume};
 use crate::engine::hard::spheres::{NONE, Sphere};
 use crate::math::Vec3;
 
-use super::next_event::{Agenda, Exit};
+use super::next_event::{Exit, NextEvent};
 use level::SLACK;
 use spans::Spans;
 
@@ -128,9 +128,9 @@ impl Grid {
     }
 
     /// Seats a sphere in the level and the cell where it is at a time [s]; it is not filed there yet.
-    pub fn seat(&self, agenda: &mut Agenda, sphere: &Sphere, time: f64) {
-        agenda.level = self.level_of(sphere.radius);
-        agenda.cell = self.cell_of(agenda.level, sphere.at(time) - self.frame.flown(time));
+    pub fn seat(&self, next_event: &mut NextEvent, sphere: &Sphere, time: f64) {
+        next_event.level = self.level_of(sphere.radius);
+        next_event.cell = self.cell_of(next_event.level, sphere.at(time) - self.frame.flown(time));
     }
 
     /// Level for spheres of a radius [m].
@@ -139,11 +139,11 @@ impl Grid {
         (self.levels.iter().rposition(fits).unwrap_or(0)) as u8
     }
 
-    /// Cell of a place in a level; what the cells have flown is taken off already, as in all that follows.
-    pub fn cell_of(&self, level: u8, place: Vec3) -> [i32; 3] {
+    /// Cell of a position in a level; what the cells have flown is taken off already, as in all that follows.
+    pub fn cell_of(&self, level: u8, position: Vec3) -> [i32; 3] {
         let (finest, level) = (self.finest(), &self.levels[level as usize]);
         [0, 1, 2].map(|axis| {
-            let along = self.finest_along(axis, place[axis]);
+            let along = self.finest_along(axis, position[axis]);
             let along = match self.boundary {
                 Boundary::Open => along,
                 _ => along.clamp(0, finest.counts[axis] - 1),
@@ -156,12 +156,12 @@ impl Grid {
         &self.levels[self.levels.len() - 1]
     }
 
-    /// Coordinate of the finest cell at a place along an axis [m], which may lie beyond the volume.
-    fn finest_along(&self, axis: usize, place: f64) -> i32 {
-        let along = ((place - self.frame.lower[axis]) / self.widths[axis]).floor() as i32;
+    /// Coordinate of the finest cell at a position along an axis [m], which may lie beyond the volume.
+    fn finest_along(&self, axis: usize, position: f64) -> i32 {
+        let along = ((position - self.frame.lower[axis]) / self.widths[axis]).floor() as i32;
         // A single cell is its own finest one.
         if self.finest().doublings > 0 {
-            ((place - self.frame.lower[axis]) / self.edges[axis]).floor() as i32
+            ((position - self.frame.lower[axis]) / self.edges[axis]).floor() as i32
         } else {
             along
         }
@@ -178,33 +178,36 @@ impl Grid {
         f64::from(round) * self.edges[axis] + f64::from(within << level.doublings) * self.widths[axis]
     }
 
-    /// Makes room for the links of this many places.
-    pub fn hold(&mut self, places: usize) {
-        self.after.resize(places, NONE);
+    /// Makes room for the links of this many slots.
+    pub fn hold(&mut self, slots: usize) {
+        self.after.resize(slots, NONE);
     }
 
-    /// Files a sphere under the cell that its agenda names.
+    /// Files a sphere under the cell that its next event names.
     #[inline]
-    pub fn link(&mut self, agenda: &mut Agenda, sphere: u32) {
-        agenda.flat = self.flat(agenda);
-        self.after[sphere as usize] = self.levels[agenda.level as usize].put_first(agenda.flat, sphere);
+    pub fn link(&mut self, next_event: &mut NextEvent, sphere: u32) {
+        next_event.flat = self.flat(next_event);
+        self.after[sphere as usize] =
+            self.levels[next_event.level as usize].put_first(next_event.flat, sphere);
     }
 
-    /// Number of the cell that an agenda names.
+    /// Number of the cell that a next event names.
     #[inline]
-    fn flat(&self, agenda: &Agenda) -> u32 {
-        let level = &self.levels[agenda.level as usize];
+    fn flat(&self, next_event: &NextEvent) -> u32 {
+        let level = &self.levels[next_event.level as usize];
         level.flat(match self.boundary {
-            Boundary::Open => [0, 1, 2].map(|axis| agenda.cell[axis].rem_euclid(level.counts[axis]) as u32),
-            _ => agenda.cell.map(|along| along as u32),
+            Boundary::Open => {
+                [0, 1, 2].map(|axis| next_event.cell[axis].rem_euclid(level.counts[axis]) as u32)
+            }
+            _ => next_event.cell.map(|along| along as u32),
         })
     }
 
     /// Takes a sphere out of its cell.
     #[inline]
-    pub fn unlink(&mut self, agenda: &Agenda, sphere: u32) {
-        let level = &mut self.levels[agenda.level as usize];
-        let (flat, after) = (agenda.flat, self.after[sphere as usize]);
+    pub fn unlink(&mut self, next_event: &NextEvent, sphere: u32) {
+        let level = &mut self.levels[next_event.level as usize];
+        let (flat, after) = (next_event.flat, self.after[sphere as usize]);
         let mut at = level.heads[flat as usize];
         if at == sphere {
             level.take_first(flat, after);
@@ -218,9 +221,9 @@ impl Grid {
     }
 
     /// The first cell of the finest level in a sphere's cell.
-    pub fn finest_cell(&self, agenda: &Agenda) -> [i32; 3] {
-        let level = &self.levels[agenda.level as usize];
-        agenda.cell.map(|along| along << level.doublings)
+    pub fn finest_cell(&self, next_event: &NextEvent) -> [i32; 3] {
+        let level = &self.levels[next_event.level as usize];
+        next_event.cell.map(|along| along << level.doublings)
     }
 
     /// Keeps in mind how fast spheres of a level are along each axis [m/s].
@@ -230,11 +233,11 @@ impl Grid {
         (*low, *high) = (low.min(lowest), high.max(highest));
     }
 
-    /// When and how a sphere leaves its cell or meets a wall, at `now` [s] or later.
+    /// When and how a sphere leaves its cell or comes to a wall, at `now` [s] or later.
     #[inline]
-    pub fn exit(&self, agenda: &Agenda, sphere: &Sphere, now: f64) -> (f64, Exit) {
-        let level = &self.levels[agenda.level as usize];
-        let place = sphere.at(now) - self.frame.flown(now);
+    pub fn exit(&self, next_event: &NextEvent, sphere: &Sphere, now: f64) -> (f64, Exit) {
+        let level = &self.levels[next_event.level as usize];
+        let position = sphere.at(now) - self.frame.flown(now);
         let velocity = sphere.velocity - self.frame.drift;
         let mut first = (f64::INFINITY, Exit::default());
         for axis in 0..3 {
@@ -243,15 +246,15 @@ impl Grid {
                 continue;
             }
             let side = if speed > 0.0 { 1 } else { -1 };
-            let cell = agenda.cell[axis];
+            let cell = next_event.cell[axis];
             let face = self.face(level, axis, if side > 0 { cell + 1 } else { cell });
-            let mut time = (self.frame.lower[axis] + face - place[axis]) / speed;
+            let mut time = (self.frame.lower[axis] + face - position[axis]) / speed;
             let mut is_wall = false;
             if self.boundary == Boundary::Reflecting
                 && cell + side == if side > 0 { level.counts[axis] } else { -1 }
             {
                 let wall = if side > 0 { self.edges[axis] - sphere.radius } else { sphere.radius };
-                time = (self.frame.lower[axis] + wall - place[axis]) / speed;
+                time = (self.frame.lower[axis] + wall - position[axis]) / speed;
                 is_wall = true;
             }
             if time < first.0 {
@@ -264,16 +267,16 @@ impl Grid {
     /// Moves a sphere's cell through the face that it leaves by. Gives the edges of the volume that must be added to its
     /// position along that axis: 0 unless it left the volume.
     #[inline]
-    pub fn step_over(&self, agenda: &mut Agenda) -> i8 {
-        let axis = agenda.exit.axis as usize;
-        let count = self.levels[agenda.level as usize].counts[axis];
-        let cell = agenda.cell[axis] + i32::from(agenda.exit.side);
+    pub fn step_over(&self, next_event: &mut NextEvent) -> i8 {
+        let axis = next_event.exit.axis as usize;
+        let count = self.levels[next_event.level as usize].counts[axis];
+        let cell = next_event.cell[axis] + i32::from(next_event.exit.side);
         if self.boundary == Boundary::Open || (0..count).contains(&cell) {
-            agenda.cell[axis] = cell;
+            next_event.cell[axis] = cell;
             return 0;
         }
-        agenda.cell[axis] = cell.rem_euclid(count);
-        -agenda.exit.side
+        next_event.cell[axis] = cell.rem_euclid(count);
+        -next_event.exit.side
     }
 
     /// Cells from `cell + from` to `cell + to` along an axis, at most three.
@@ -354,18 +357,21 @@ impl Grid {
         [0, 1, 2].map(|axis| coarser.coarsened(axis, finer, cell[axis]))
     }
 
-    /// Visits the spheres of its own and of coarser levels that a sphere may meet before it leaves its cell: their
+    /// Visits the spheres of its own and of coarser levels that a sphere may collide with before it leaves its cell: their
     /// numbers, and the edges to add to their positions. It may visit the sphere itself.
     #[inline]
-    pub fn visit_around(&self, agenda: &Agenda, mut visit: impl FnMut(u32, [i8; 3])) {
-        for number in (0..=agenda.level as usize).rev() {
+    pub fn visit_around(&self, next_event: &NextEvent, mut visit: impl FnMut(u32, [i8; 3])) {
+        for number in (0..=next_event.level as usize).rev() {
             let level = &self.levels[number];
             if level.population == 0 {
                 continue;
             }
-            let is_own = number == agenda.level as usize;
-            let cell =
-                if is_own { agenda.cell } else { self.coarser_cell(agenda.cell, agenda.level, number) };
+            let is_own = number == next_event.level as usize;
+            let cell = if is_own {
+                next_event.cell
+            } else {
+                self.coarser_cell(next_event.cell, next_event.level, number)
+            };
             self.each_cell(level, &Block::around(cell), |flat, image| {
                 self.visit_cell(level, flat, image, &mut visit);
             });
@@ -375,19 +381,19 @@ impl Grid {
     /// Visits those that come into view when a sphere has just moved into its cell the way that `exit` says: the nine
     /// cells ahead, in each level whose face it went through.
     #[inline]
-    pub fn visit_ahead(&self, agenda: &Agenda, exit: Exit, mut visit: impl FnMut(u32, [i8; 3])) {
+    pub fn visit_ahead(&self, next_event: &NextEvent, exit: Exit, mut visit: impl FnMut(u32, [i8; 3])) {
         let (axis, side) = (exit.axis as usize, i32::from(exit.side));
-        for number in (0..=agenda.level as usize).rev() {
+        for number in (0..=next_event.level as usize).rev() {
             let level = &self.levels[number];
             if level.population == 0 {
                 continue;
             }
-            let mut cell = agenda.cell;
-            if number < agenda.level as usize {
-                let mut behind = agenda.cell;
+            let mut cell = next_event.cell;
+            if number < next_event.level as usize {
+                let mut behind = next_event.cell;
                 behind[axis] -= side;
-                cell = self.coarser_cell(agenda.cell, agenda.level, number);
-                if self.coarser_cell(behind, agenda.level, number) == cell {
+                cell = self.coarser_cell(next_event.cell, next_event.level, number);
+                if self.coarser_cell(behind, next_event.level, number) == cell {
                     return;
                 }
             }

@@ -13,7 +13,7 @@ fn volume(boundary: Boundary) -> Volume {
 struct Filed {
     grid: Grid,
     spheres: Vec<Sphere>,
-    agendas: Vec<Agenda>,
+    next_events: Vec<NextEvent>,
 }
 
 /// Spheres of radii 1 : 30 at random, which may overlap; an open volume has them `spread` times as far out.
@@ -36,13 +36,13 @@ fn filed(boundary: Boundary, count: usize, spread: f64, seed: u64) -> Filed {
     let smallest = spheres.iter().map(|sphere| 2.0 * sphere.radius).fold(f64::MAX, f64::min);
     let mut grid = Grid::new(&volume, smallest, count);
     grid.hold(count);
-    let mut agendas = vec![Agenda::EMPTY; count];
-    for ((agenda, sphere), number) in agendas.iter_mut().zip(&spheres).zip(0..) {
-        agenda.level = grid.level_of(sphere.radius);
-        agenda.cell = grid.cell_of(agenda.level, sphere.position);
-        grid.link(agenda, number);
+    let mut next_events = vec![NextEvent::EMPTY; count];
+    for ((next_event, sphere), number) in next_events.iter_mut().zip(&spheres).zip(0..) {
+        next_event.level = grid.level_of(sphere.radius);
+        next_event.cell = grid.cell_of(next_event.level, sphere.position);
+        grid.link(next_event, number);
     }
-    Filed { grid, spheres, agendas }
+    Filed { grid, spheres, next_events }
 }
 
 fn images(boundary: Boundary) -> Vec<[i8; 3]> {
@@ -58,16 +58,16 @@ fn neighbors_are_those_of_brute_force() {
     for boundary in BOUNDARIES {
         for (count, spread, seed) in [(2, 1.0, 1), (9, 1.0, 2), (60, 1.0, 3), (400, 1.0, 4), (60, 3.0, 5)] {
             let spread = if boundary == Boundary::Open { spread } else { 1.0 };
-            let Filed { grid, spheres, agendas } = filed(boundary, count, spread, seed);
+            let Filed { grid, spheres, next_events } = filed(boundary, count, spread, seed);
             for (a, one) in spheres.iter().enumerate() {
                 let mut seen: Vec<(u32, [i8; 3])> = Vec::new();
-                grid.visit_around(&agendas[a], |other, image| seen.push((other, image)));
+                grid.visit_around(&next_events[a], |other, image| seen.push((other, image)));
                 let visits = seen.len();
                 seen.sort_unstable();
                 seen.dedup();
                 assert_eq!(seen.len(), visits, "seen twice with {boundary:?}");
                 for (b, other) in spheres.iter().enumerate() {
-                    if b == a || agendas[b].level > agendas[a].level {
+                    if b == a || next_events[b].level > next_events[a].level {
                         continue;
                     }
                     for image in images(boundary) {
@@ -100,16 +100,16 @@ fn an_open_volume_has_no_end() {
             .collect();
         found.grid.hold(80);
         for (twin, number) in twins.iter().zip(40..) {
-            let mut agenda = Agenda { level: found.grid.level_of(twin.radius), ..Agenda::EMPTY };
-            agenda.cell = found.grid.cell_of(agenda.level, twin.position);
-            found.grid.link(&mut agenda, number);
+            let mut next_event = NextEvent { level: found.grid.level_of(twin.radius), ..NextEvent::EMPTY };
+            next_event.cell = found.grid.cell_of(next_event.level, twin.position);
+            found.grid.link(&mut next_event, number);
         }
         for at in 0..40 {
             let mut seen = Vec::new();
-            found.grid.visit_around(&found.agendas[at], |other, image| seen.push((other, image)));
+            found.grid.visit_around(&found.next_events[at], |other, image| seen.push((other, image)));
             assert!(seen.contains(&(at as u32 + 40, [0; 3])), "{at} at {spread}");
             let mut near = Vec::new();
-            let level = found.agendas[at].level as usize;
+            let level = found.next_events[at].level as usize;
             let (place, reach) = (found.spheres[at].position, 1.6 * found.spheres[at].radius);
             found.grid.visit_within(level, block(place, reach), |other, image| near.push((other, image)));
             assert_has!(near, &(at as u32 + 40, [0; 3]));
@@ -128,7 +128,7 @@ fn block(place: Vec3, reach: f64) -> [Vec3; 2] {
 #[test]
 fn searches_within_a_reach() {
     for boundary in BOUNDARIES {
-        let Filed { grid, spheres, agendas } = filed(boundary, 120, 1.0, 11);
+        let Filed { grid, spheres, next_events } = filed(boundary, 120, 1.0, 11);
         for (center, reach) in spheres.iter().zip([0.01, 0.05, 0.2, 0.5, 1.1].into_iter().cycle()) {
             for number in 0..grid.levels().len() {
                 let mut seen = Vec::new();
@@ -140,7 +140,7 @@ fn searches_within_a_reach() {
                 seen.dedup();
                 assert_eq!(seen.len(), visits, "seen twice with {boundary:?}");
                 for (b, other) in
-                    spheres.iter().enumerate().filter(|(b, _)| agendas[*b].level as usize == number)
+                    spheres.iter().enumerate().filter(|(b, _)| next_events[*b].level as usize == number)
                 {
                     for image in images(boundary) {
                         let between = (other.position + grid.shift(image) - center.position).to_array();
@@ -156,15 +156,15 @@ fn searches_within_a_reach() {
 /// Each sphere lies in the finest level whose cells are as wide as it, and a fine cell lies in one coarse cell.
 #[test]
 fn levels_are_nested() {
-    let Filed { grid, spheres, agendas } = filed(Boundary::Periodic, 400, 1.0, 13);
+    let Filed { grid, spheres, next_events } = filed(Boundary::Periodic, 400, 1.0, 13);
     assert!(grid.levels().len() >= 3, "{}", grid.levels().len());
-    for (sphere, agenda) in spheres.iter().zip(&agendas) {
+    for (sphere, next_event) in spheres.iter().zip(&next_events) {
         let fits = |level: usize| 2.0 * sphere.radius <= grid.levels()[level].widest();
-        let own = agenda.level as usize;
+        let own = next_event.level as usize;
         assert!(own == 0 || fits(own), "a grain does not fit into its level {own}");
         assert_all!(own + 1..grid.levels().len(), |finer| !fits(finer));
         for coarser in 0..own {
-            let cell = grid.coarser_cell(agenda.cell, agenda.level, coarser);
+            let cell = grid.coarser_cell(next_event.cell, next_event.level, coarser);
             assert_eq!(cell, grid.cell_of(coarser as u8, sphere.position));
         }
     }
@@ -174,12 +174,12 @@ fn levels_are_nested() {
 #[test]
 fn exits_are_at_faces() {
     for boundary in BOUNDARIES {
-        let Filed { grid, spheres, agendas } = filed(boundary, 200, 1.0, 17);
-        for (sphere, agenda) in spheres.iter().zip(&agendas) {
-            let (time, exit) = grid.exit(agenda, sphere, 0.0);
-            let level = &grid.levels()[agenda.level as usize];
+        let Filed { grid, spheres, next_events } = filed(boundary, 200, 1.0, 17);
+        for (sphere, next_event) in spheres.iter().zip(&next_events) {
+            let (time, exit) = grid.exit(next_event, sphere, 0.0);
+            let level = &grid.levels()[next_event.level as usize];
             let (place, axis) = (sphere.at(time), exit.axis as usize);
-            let face = agenda.cell[axis] + i32::from(exit.side > 0);
+            let face = next_event.cell[axis] + i32::from(exit.side > 0);
             let mut at = grid.frame.lower[axis] + grid.face(level, axis, face);
             if exit.is_wall {
                 at -= f64::from(exit.side) * sphere.radius;
@@ -190,7 +190,7 @@ fn exits_are_at_faces() {
             assert_eq!(exit.side > 0, sphere.velocity[axis] > 0.0);
             assert!(!exit.is_wall || boundary == Boundary::Reflecting, "a wall in {boundary:?}");
             let before = sphere.at(time * (1.0 - 1e-9));
-            assert_eq!(grid.cell_of(agenda.level, before), agenda.cell);
+            assert_eq!(grid.cell_of(next_event.level, before), next_event.cell);
         }
     }
 }
@@ -212,21 +212,21 @@ fn cells_fly_with_a_wind() {
             // Positions of some hundred edges are rounded at 1e-14 of an edge.
             assert!((-1e-12..grid.edges[axis] + 1e-12).contains(&from_corner), "{from_corner}");
         }
-        let mut agenda = Agenda::EMPTY;
-        grid.seat(&mut agenda, &sphere, time);
-        let (exit, _) = grid.exit(&agenda, &sphere, time);
-        let cell = |time: f64| grid.cell_of(agenda.level, sphere.at(time) - grid.frame.flown(time));
+        let mut next_event = NextEvent::EMPTY;
+        grid.seat(&mut next_event, &sphere, time);
+        let (exit, _) = grid.exit(&next_event, &sphere, time);
+        let cell = |time: f64| grid.cell_of(next_event.level, sphere.at(time) - grid.frame.flown(time));
         let stay = exit - time;
         assert_above!(stay, 0.0);
         assert_finite!(stay);
-        assert_eq!(cell(time + stay * (1.0 - 1e-6)), agenda.cell);
+        assert_eq!(cell(time + stay * (1.0 - 1e-6)), next_event.cell);
         // Beyond a face of the whole block cells are clamped.
         let later = time + stay * (1.0 + 1e-6);
         let after = sphere.at(later) - grid.frame.flown(later);
         assert!(
-            !volume.contains(after) || cell(later) != agenda.cell,
+            !volume.contains(after) || cell(later) != next_event.cell,
             "still in cell {:?} at {after:?}",
-            agenda.cell
+            next_event.cell
         );
     }
     let back = grid.take_back(&volume, 7.0);
