@@ -17,9 +17,9 @@
 //! | symbol | name in code     | unit | meaning                                                  |
 //! |--------|------------------|------|----------------------------------------------------------|
 //! | b0, V0 | `radius`         | m, m³| of the whole                                             |
-//! | b, b_k |                  | m    | of the fragments                                            |
-//! | n      | `fragments`         | -    |                                                          |
-//! | p, p_k | `primaries`      | -    | primary grains of the whole and of the fragments            |
+//! | b, b_k |                  | m    | of the fragments                                         |
+//! | n      | `fragments`      | -    |                                                          |
+//! | p, p_k | `primaries`      | -    | primary grains of the whole and of the fragments         |
 //! | ΔK     | `energy`         | J    | that breaks the partner                                  |
 //! | ΔZ     | `surface`        | J    | energy of the new surfaces                               |
 //! | γ      | `surface_energy` | J/m² | of the material; without it nothing breaks               |
