@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 
 use agglo::math::Vec3;
 use agglo::particles::{Particles, Row};
-use agglo::record::Series;
 use agglo::record::frames::{Collection, Field, write_bonds, write_grains, write_rays};
+use agglo::record::{Cell, Series};
 
 /// Five grains; the one named k is in memory at place 4 - k.
 fn grains(time: f64) -> Particles {
@@ -37,7 +37,8 @@ fn table(path: &Path) -> Result<(), Box<dyn Error>> {
         [0.1, 1.0 / 3.0, 1e-28, -1e-28, 5e-324, f64::MAX, 1e22, 1e16, 123_456_789.125, 2.5e-7, 1512.0]
     {
         let bits = value.to_bits();
-        table.row(&[value, (bits >> 32) as f64, f64::from(bits as u32), 1512.0])?;
+        let halves = [bits >> 32, bits & 0xffff_ffff, 1512].map(Cell::Count);
+        table.row([Cell::Number(value)].into_iter().chain(halves).collect::<Vec<_>>())?;
     }
     table.flush()?;
     Ok(())

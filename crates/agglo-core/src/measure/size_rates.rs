@@ -304,7 +304,7 @@ impl SizeRates {
     }
 }
 
-/// Kernels of one pair of classes. Quantities that nothing can be said of are left out; they are NaN in a table.
+/// Kernels of one pair of classes. Quantities that nothing can be said of are left out.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct KernelRow {
     /// Fewest and most primaries of the larger class.
@@ -329,43 +329,6 @@ pub struct KernelRow {
     pub sticking_probability: Option<f64>,
 }
 
-impl KernelRow {
-    /// Columns of a table of kernels: bounds of the two classes in primaries, counts, exposure, kernels.
-    pub const COLUMNS: &[&str] = &[
-        "a_lower_primaries",
-        "a_upper_primaries",
-        "b_lower_primaries",
-        "b_upper_primaries",
-        "collisions",
-        "merges",
-        "breaking_collisions",
-        "exposure_s_m3",
-        "collision_kernel_m3_s",
-        "aggregation_kernel_m3_s",
-        "breaking_kernel_m3_s",
-        "sticking_probability",
-    ];
-
-    /// The values of [`KernelRow::COLUMNS`].
-    pub fn values(&self) -> [f64; 12] {
-        let known = |value: Option<f64>| value.unwrap_or(f64::NAN);
-        [
-            f64::from(self.a[0]),
-            f64::from(self.a[1]),
-            f64::from(self.b[0]),
-            f64::from(self.b[1]),
-            self.collisions as f64,
-            self.merges as f64,
-            self.breaking as f64,
-            self.exposure,
-            known(self.collision_kernel),
-            known(self.aggregation_kernel),
-            known(self.breaking_kernel),
-            known(self.sticking_probability),
-        ]
-    }
-}
-
 /// Breakage of one class.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BreakageRow {
@@ -379,24 +342,6 @@ pub struct BreakageRow {
     pub breakages: u64,
     /// Breakages over the integral of the number [1/s].
     pub breakage_rate: Option<f64>,
-}
-
-impl BreakageRow {
-    /// Columns of a table of breakage: bounds of the class in primaries, grains now, their number integrated, breakage.
-    pub const COLUMNS: &[&str] =
-        &["lower_primaries", "upper_primaries", "grains", "grain_time_s", "breakages", "breakage_rate_1_s"];
-
-    /// The values of [`BreakageRow::COLUMNS`].
-    pub fn values(&self) -> [f64; 6] {
-        [
-            f64::from(self.class[0]),
-            f64::from(self.class[1]),
-            self.grains as f64,
-            self.grain_time,
-            self.breakages as f64,
-            self.breakage_rate.unwrap_or(f64::NAN),
-        ]
-    }
 }
 
 /// Daughters of one class from parents of one class.
@@ -416,36 +361,6 @@ pub struct DaughterRow {
     pub fragments_per_breakage: f64,
     /// Primaries in them over those in all parents of the class that broke.
     pub mass_fraction: f64,
-}
-
-impl DaughterRow {
-    /// Columns of a table of daughters: bounds of the two classes in primaries, counts, means.
-    pub const COLUMNS: &[&str] = &[
-        "parent_lower_primaries",
-        "parent_upper_primaries",
-        "daughter_lower_primaries",
-        "daughter_upper_primaries",
-        "breakages",
-        "fragments",
-        "primaries",
-        "fragments_per_breakage",
-        "mass_fraction",
-    ];
-
-    /// The values of [`DaughterRow::COLUMNS`].
-    pub fn values(&self) -> [f64; 9] {
-        [
-            f64::from(self.parent[0]),
-            f64::from(self.parent[1]),
-            f64::from(self.daughter[0]),
-            f64::from(self.daughter[1]),
-            self.breakages as f64,
-            self.fragments as f64,
-            self.primaries as f64,
-            self.fragments_per_breakage,
-            self.mass_fraction,
-        ]
-    }
 }
 
 #[cfg(test)]

@@ -89,6 +89,16 @@ impl<W> Marked<W> {
         Self { inner, marking: Marking::default() }
     }
 
+    /// Over a writer that goes on after what was marked.
+    pub fn after(inner: W, marking: Marking) -> Self {
+        Self { inner, marking }
+    }
+
+    /// What is written into.
+    pub fn inner(&self) -> &W {
+        &self.inner
+    }
+
     /// The mark of what went through.
     pub fn mark(&self) -> Mark {
         self.marking.mark()

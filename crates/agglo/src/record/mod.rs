@@ -4,12 +4,16 @@
 
 pub mod atomic;
 pub mod checkpoint;
+pub mod columns;
 pub mod door;
 mod error;
 pub mod frames;
 mod json;
+mod rows;
 mod series;
 
+pub use columns::{About, Cell, Column, Declared, Panel, Table};
 pub use error::RecordError;
 pub use json::json;
-pub use series::{Cell, Opened, Series};
+pub use rows::{Rows, Unknown};
+pub use series::{Opened, Series};

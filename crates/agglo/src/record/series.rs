@@ -1,35 +1,22 @@
 //! Tables that grow by a row now and then.
 
-use std::fmt::Write as _;
 use std::fs::{File, OpenOptions};
-use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
+use std::io::{BufWriter, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
+use super::columns::{Cell, Column};
+use super::rows::{Rows, Unknown};
 use super::{RecordError, atomic};
-use crate::folder::{Mark, Marking, files};
-use crate::text::Number;
+use crate::folder::{Mark, Marked, Marking, files};
 
-/// An entry of a row that mixes numbers and words.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Cell {
-    /// A quantity.
-    Number(f64),
-    /// A name or a count.
-    Count(u64),
-    /// A word without commas.
-    Word(&'static str),
-}
-
-/// A CSV table of numbers with one header line; names of columns carry their unit (`time_s`).
+/// A CSV table with one header line; names of columns carry their unit (`time_s`).
 ///
-/// Numbers are written with as few digits as bring back the same bits.
+/// Numbers are written with as few digits as bring back the same bits. What cannot be had is `NaN`.
 #[derive(Debug)]
 pub struct Series {
     path: PathBuf,
     columns: usize,
-    file: BufWriter<File>,
-    marking: Marking,
-    line: String,
+    rows: Rows<Marked<BufWriter<File>>>,
 }
 
 impl Series {
@@ -40,8 +27,7 @@ impl Series {
     pub fn create(path: &Path, columns: &[&str]) -> Result<Self, RecordError> {
         let file = files::create(path).map_err(RecordError::file("create", path))?;
         let mut series = Self::over(path, columns.len(), file, Marking::default());
-        series.line.push_str(&columns.join(","));
-        series.end_line()?;
+        series.row(columns.iter().map(|name| Cell::Word(name)))?;
         Ok(series)
     }
 
@@ -62,9 +48,9 @@ impl Series {
         if marking.mark() == mark {
             return Ok(Opened { path: path.to_owned(), columns: columns.len(), file, marking });
         }
-        let header =
-            first_line(&file, columns.join(",").len() + 1).map_err(RecordError::file("read", path))?;
-        let reason = if header == (columns.join(",") + "\n").as_bytes() {
+        let due = columns.join(",") + "\n";
+        let header = first_line(&file, due.len()).map_err(RecordError::file("read", path))?;
+        let reason = if header == due.as_bytes() {
             "what the run had written there was changed since, or is of another run"
         } else {
             "its first line is not that of the run's table"
@@ -73,55 +59,37 @@ impl Series {
     }
 
     fn over(path: &Path, columns: usize, file: File, marking: Marking) -> Self {
-        Self { path: path.to_owned(), columns, file: BufWriter::new(file), marking, line: String::new() }
+        let rows = Rows::over(Marked::after(BufWriter::new(file), marking), Unknown::NotANumber);
+        Self { path: path.to_owned(), columns, rows }
+    }
+
+    /// Adds a row of these columns.
+    ///
+    /// # Errors
+    /// [`RecordError::NotFinite`] where an entry is none that can be, [`RecordError::File`].
+    pub fn put<S>(&mut self, columns: &[Column<S>], of: &S) -> Result<(), RecordError> {
+        let is_odd = |column: &&Column<S>| matches!(column.cell(of), Cell::Number(x) if !x.is_finite());
+        if let Some(odd) = columns.iter().find(is_odd) {
+            let (path, column) = (self.path.clone(), odd.about.name.to_owned());
+            return Err(RecordError::NotFinite { path, column });
+        }
+        self.row(columns.iter().map(|column| column.cell(of)))
     }
 
     /// Adds a row.
     ///
     /// # Errors
     /// [`RecordError::Shape`] where the row does not fit the header, [`RecordError::File`].
-    pub fn row(&mut self, values: &[f64]) -> Result<(), RecordError> {
-        self.check_length(values.len())?;
-        for (k, value) in values.iter().enumerate() {
-            let comma = if k == 0 { "" } else { "," };
-            // Writing to a string cannot fail.
-            let _ = write!(self.line, "{comma}{}", Number(*value));
+    pub fn row<'a>(
+        &mut self,
+        cells: impl IntoIterator<Item = Cell<'a>, IntoIter: ExactSizeIterator>,
+    ) -> Result<(), RecordError> {
+        let cells = cells.into_iter();
+        if cells.len() != self.columns {
+            let (path, what) = (self.path.clone(), "a row".to_owned());
+            return Err(RecordError::Shape { path, what, found: cells.len(), expected: self.columns });
         }
-        self.end_line()
-    }
-
-    /// Adds a row that mixes numbers and words.
-    ///
-    /// # Errors
-    /// [`RecordError::Shape`] where the row does not fit the header, [`RecordError::File`].
-    pub fn cells(&mut self, cells: &[Cell]) -> Result<(), RecordError> {
-        self.check_length(cells.len())?;
-        for (k, cell) in cells.iter().enumerate() {
-            let comma = if k == 0 { "" } else { "," };
-            // Writing to a string cannot fail.
-            let _ = match cell {
-                Cell::Number(value) => write!(self.line, "{comma}{}", Number(*value)),
-                Cell::Count(count) => write!(self.line, "{comma}{count}"),
-                Cell::Word(word) => write!(self.line, "{comma}{word}"),
-            };
-        }
-        self.end_line()
-    }
-
-    fn check_length(&self, found: usize) -> Result<(), RecordError> {
-        if found == self.columns {
-            return Ok(());
-        }
-        let (path, what) = (self.path.clone(), "a row".to_owned());
-        Err(RecordError::Shape { path, what, found, expected: self.columns })
-    }
-
-    fn end_line(&mut self) -> Result<(), RecordError> {
-        self.line.push('\n');
-        self.file.write_all(self.line.as_bytes()).map_err(RecordError::file("write", &self.path))?;
-        self.marking.add(self.line.as_bytes());
-        self.line.clear();
-        Ok(())
+        self.rows.row(cells).map_err(RecordError::file("write", &self.path))
     }
 
     /// Hands all rows to the operating system.
@@ -129,7 +97,7 @@ impl Series {
     /// # Errors
     /// [`RecordError::File`].
     pub fn flush(&mut self) -> Result<(), RecordError> {
-        self.file.flush().map_err(RecordError::file("write", &self.path))
+        self.rows.flush().map_err(RecordError::file("write", &self.path))
     }
 
     /// Puts all rows onto the disk: to be done before a checkpoint that counts on them.
@@ -138,12 +106,13 @@ impl Series {
     /// [`RecordError::File`].
     pub fn sync(&mut self) -> Result<(), RecordError> {
         self.flush()?;
-        self.file.get_ref().sync_data().map_err(RecordError::file("write", &self.path))
+        let file = self.rows.inner().inner().get_ref();
+        file.sync_data().map_err(RecordError::file("write", &self.path))
     }
 
-    /// Length and checksum of the table so far, rows not yet flushed included.
+    /// Length and checksum of the table so far, up to the last row that was [handed on](Self::flush).
     pub fn mark(&self) -> Mark {
-        self.marking.mark()
+        self.rows.inner().mark()
     }
 }
 
@@ -182,7 +151,6 @@ impl Opened {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use agglo_testing::AWKWARD;
 
     fn read(path: &Path) -> Vec<Vec<f64>> {
         let text = std::fs::read_to_string(path).unwrap();
@@ -197,7 +165,7 @@ mod tests {
             [[0.1, 1.0 / 3.0, f64::MIN_POSITIVE], [f64::MAX, 0.0, 5e-324], [1e22, 123_456_789.125, 2.5e-7]];
         let mut series = Series::create(&path, &["time_s", "kinetic_energy_j", "speed_m_s"]).unwrap();
         for row in &rows {
-            series.row(row).unwrap();
+            series.row(row.map(Cell::Number)).unwrap();
         }
         series.flush().unwrap();
         assert_eq!(series.mark().bytes, path.metadata().unwrap().len());
@@ -212,46 +180,31 @@ mod tests {
         );
     }
 
-    /// Both kinds of rows, with numbers that other writers lose; counts have no point.
-    #[test]
-    fn awkward_numbers_come_back_from_every_row() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("series.csv");
-        let mut series = Series::create(&path, &["a", "b"]).unwrap();
-        for value in AWKWARD {
-            series.row(&[value, 1512.0]).unwrap();
-            series.cells(&[Cell::Number(value), Cell::Count(1512)]).unwrap();
-        }
-        series.flush().unwrap();
-        let text = std::fs::read_to_string(&path).unwrap();
-        assert_eq!(text.lines().filter(|line| line.ends_with(",1512")).count(), 2 * AWKWARD.len());
-        let rows = read(&path);
-        for (pair, value) in rows.chunks(2).zip(AWKWARD) {
-            assert!(pair.iter().all(|row| row[0].to_bits() == value.to_bits()), "{value:e}");
-        }
-    }
-
     #[test]
     fn reopened_tables_go_on_where_they_were() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("series.csv");
         let mut series = Series::create(&path, &["time_s", "count"]).unwrap();
-        series.row(&[0.0, 1.0]).unwrap();
+        series.row([0.0, 1.0].map(Cell::Number)).unwrap();
+        series.flush().unwrap();
         let mark = series.mark();
-        series.row(&[1.0, 2.0]).unwrap();
-        series.row(&[2.0, 3.0]).unwrap();
+        series.row([1.0, 2.0].map(Cell::Number)).unwrap();
+        series.row([2.0, 3.0].map(Cell::Number)).unwrap();
         drop(series);
         let mut again = Series::check(&path, &["time_s", "count"], mark).unwrap().cut().unwrap();
         assert_eq!(again.mark(), mark);
-        again.row(&[1.0, 20.0]).unwrap();
-        assert_matches!(again.row(&[1.0]), Err(RecordError::Shape { found: 1, expected: 2, .. }));
+        again.row([1.0, 20.0].map(Cell::Number)).unwrap();
+        assert_matches!(
+            again.row([Cell::Number(1.0)]),
+            Err(RecordError::Shape { found: 1, expected: 2, .. })
+        );
         again.sync().unwrap();
         assert_eq!(read(&path), [[0.0, 1.0], [1.0, 20.0]]);
         let longer = Mark { bytes: 1000, ..mark };
         let error = Series::check(&path, &["time_s", "count"], longer).unwrap_err().to_string();
         assert!(error.contains("but the checkpoint was written when it had 1000"), "{error}");
         // The mark goes on over the rows that were added.
-        again.row(&[2.0, 3.0]).unwrap();
+        again.row([2.0, 3.0].map(Cell::Number)).unwrap();
         again.sync().unwrap();
         let mark = again.mark();
         Series::check(&path, &["time_s", "count"], mark).unwrap();
@@ -275,7 +228,7 @@ mod tests {
             let device = Path::new("/dev/full");
             let file = OpenOptions::new().write(true).open(device).unwrap();
             let mut full = Series::over(device, 1, file, Marking::default());
-            full.row(&[0.0]).unwrap();
+            full.row([Cell::Number(0.0)]).unwrap();
             assert_eq!(full.flush().unwrap_err().to_string(), "cannot write /dev/full: the disk is full");
         }
     }

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::table::Table;
+use crate::record::{About, Panel};
 use crate::text::readable;
 
 /// Rows of a table that a chart shows at the most.
@@ -125,20 +126,10 @@ impl Axis {
 pub struct Lines {
     /// Name of the table.
     pub table: &'static str,
-    /// Name in the page.
-    pub id: &'static str,
-    /// Heading.
-    pub title: &'static str,
-    /// What it shows.
-    pub about: &'static str,
-    /// What the vertical axis counts.
-    pub label: &'static str,
-    /// Its unit.
-    pub unit: &'static str,
-    /// Whether it is logarithmic.
-    pub log: bool,
-    /// Columns with their names in the legend.
-    pub columns: &'static [(&'static str, &'static str)],
+    /// The chart.
+    pub panel: &'static Panel,
+    /// The columns that it shows.
+    pub columns: Vec<&'static About>,
 }
 
 impl Lines {
@@ -148,11 +139,11 @@ impl Lines {
         let kept = kept(time.len());
         let thin = |column: &[f64]| kept.iter().map(|&row| column[row]).collect::<Vec<_>>();
         let mut series: Vec<Series> = Vec::new();
-        for (column, name) in self.columns {
+        for column in &self.columns {
             let moves = |values: &&[f64]| values.iter().any(|value| *value != 0.0 && value.is_finite());
-            if let Some(values) = table.column(column).filter(moves) {
+            if let Some(values) = table.column(column.name).filter(moves) {
                 let (x, y) = (thin(time), thin(values));
-                series.push(Series { name: (*name).to_owned(), x, y, ..Series::default() });
+                series.push(Series { name: column.label.to_owned(), x, y, ..Series::default() });
             }
         }
         if series.is_empty() {
@@ -163,26 +154,17 @@ impl Lines {
         } else {
             String::new()
         };
+        let Panel { id, title, about, label, unit } = self.panel;
         Some(Chart {
-            id: self.id.to_owned(),
-            title: self.title.to_owned(),
-            caption: format!("{} From series/{}.csv.{left_out}", self.about, self.table),
-            words: series.iter().map(|series| series.in_words(self.unit)).collect(),
+            id: (*id).to_owned(),
+            title: (*title).to_owned(),
+            caption: format!("{about} From series/{}.csv.{left_out}", self.table),
+            words: series.iter().map(|series| series.in_words(unit)).collect(),
             kind: Kind::Lines,
             x: Axis::new("time", "s"),
-            y: Axis::new(self.label, self.unit).log(self.log),
+            y: Axis::new(label, unit),
             series,
         })
-    }
-}
-
-impl Chart {
-    /// Takes a line away, with its words.
-    pub fn leave_out(&mut self, name: &str) {
-        if let Some(at) = self.series.iter().position(|series| series.name == name) {
-            self.series.remove(at);
-            self.words.remove(at);
-        }
     }
 }
 
@@ -212,17 +194,18 @@ impl Series {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::record::columns::{Column, number};
 
-    const LINES: Lines = Lines {
-        table: "t",
-        id: "t",
-        title: "T",
-        about: "A thing.",
-        label: "thing",
-        unit: "J",
-        log: false,
-        columns: &[("a_J", "a"), ("zero_J", "zero"), ("absent_J", "absent")],
-    };
+    static COLUMNS: [Column<()>; 3] = [
+        number("a_J", "J", "a", "", |()| 0.0),
+        number("zero_J", "J", "zero", "", |()| 0.0),
+        number("absent_J", "J", "absent", "", |()| 0.0),
+    ];
+    static PANEL: Panel = Panel { id: "t", title: "T", about: "A thing.", label: "thing", unit: "J" };
+
+    fn lines() -> Lines {
+        Lines { table: "t", panel: &PANEL, columns: COLUMNS.iter().map(|column| &column.about).collect() }
+    }
 
     fn table(rows: usize) -> Table {
         let time: Vec<f64> = (0..rows).map(|row| row as f64).collect();
@@ -233,19 +216,19 @@ mod tests {
 
     #[test]
     fn a_chart_has_the_tables_numbers_and_says_them() {
-        let chart = LINES.chart(&table(3)).unwrap();
+        let chart = lines().chart(&table(3)).unwrap();
         assert_eq!(chart.series.len(), 1, "what stays 0 or is absent is left out");
         assert_eq!(
             (&chart.series[0].x[..], &chart.series[0].y[..]),
             (&[0.0, 1.0, 2.0][..], &[3.0, 2.0, 1.0][..])
         );
         assert_eq!(chart.words, ["a: 3 J at first, 1 J at last, 1 J to 3 J between"]);
-        assert_none!(LINES.chart(&table(0)));
+        assert_none!(lines().chart(&table(0)));
     }
 
     #[test]
     fn long_tables_are_thinned_to_the_last_row_and_say_so() {
-        let chart = LINES.chart(&table(5000)).unwrap();
+        let chart = lines().chart(&table(5000)).unwrap();
         let x = &chart.series[0].x;
         assert_eq!((x[0], x[1], *x.last().unwrap()), (0.0, 3.0, 4999.0));
         assert_at_most!(x.len(), MOST_ROWS + 1);

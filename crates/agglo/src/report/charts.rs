@@ -5,189 +5,8 @@ use super::folder::Folder;
 use super::pulses;
 use super::table::Table;
 use crate::impact::heat::Balance;
-
-const fn lines(
-    [table, id, title, label, unit]: [&'static str; 5],
-    about: &'static str,
-    columns: &'static [(&'static str, &'static str)],
-) -> Lines {
-    Lines { table, id, title, about, label, unit, log: false, columns }
-}
-
-/// Heat that only the published balance makes; in the consistent one it is round-off.
-const FALSE_HEAT: &str = "from nowhere (published balance)";
-
-/// Charts of soft spheres.
-const SOFT: &[Lines] = &[
-    lines(
-        ["clusters", "dispersion", "Dispersion", "part of the mass", ""],
-        "The mass of the largest cluster, what is not in it (the dispersion degree), and how much of the largest cluster \
-         of the start is no longer together.",
-        &[
-            ("dispersion_degree", "dispersion degree"),
-            ("dispersion_degree_relative", "relative to the start"),
-            ("largest_fraction", "largest cluster"),
-        ],
-    ),
-    lines(
-        ["clusters", "clusters", "Clusters, contacts and bonds", "how many", ""],
-        "A cluster is what contacts and bonds hold together; single grains count as clusters.",
-        &[("clusters", "clusters"), ("contacts", "contacts"), ("bonds", "bonds")],
-    ),
-    lines(
-        ["rays", "rays", "Rays", "how many", ""],
-        "Rays in flight, reflections so far, and straight pieces of their ways so far.",
-        &[("in_flight", "in flight"), ("reflections", "reflections"), ("segments", "segments")],
-    ),
-    lines(
-        ["rays", "beam", "Beam power left", "part of the pulse's power", ""],
-        "Power of all rays of the latest pulse by direction, those that left as they were then: their powers times the parts of \
-         their directions, over the pulse's power. What is missing to 1 in all is what grains took.",
-        &[("beam_x", "along x"), ("beam_y", "along y"), ("beam_z", "along z"), ("beam_magnitude", "in all")],
-    ),
-    lines(
-        ["rays", "flying", "Power in flight", "part of the pulse's power", ""],
-        "The same of the rays in flight alone. Rays cross the grains in a short time; rows further apart see single moments of it.",
-        &[
-            ("flying_x", "along x"),
-            ("flying_y", "along y"),
-            ("flying_z", "along z"),
-            ("flying_magnitude", "in all"),
-        ],
-    ),
-    lines(
-        ["rays", "power", "Power of the pulses", "power", "W"],
-        "What was launched so far, and where it went.",
-        &[
-            ("power_in_W", "launched"),
-            ("power_absorbed_W", "taken up by grains"),
-            ("power_escaped_W", "left for good"),
-            ("power_truncated_W", "dropped"),
-        ],
-    ),
-    lines(
-        ["energy", "stores", "Energy: where it is", "energy", "J"],
-        "The stores of the ledger.",
-        &[
-            ("kinetic_J", "kinetic"),
-            ("spin_J", "spin"),
-            ("elastic_J", "elastic"),
-            ("tangential_spring_J", "tangential springs"),
-            ("bonds_J", "bonds"),
-            ("near_field_J", "near field"),
-        ],
-    ),
-    lines(
-        ["energy", "flows", "Energy: put in and lost", "energy", "J"],
-        "The channels of the ledger since the start, and what they and the stores do not explain.",
-        &[
-            ("work_rays_J", "put in by rays"),
-            ("work_gravity_J", "put in by gravity"),
-            ("work_fields_J", "put in by fields"),
-            ("lost_drag_J", "lost to drag"),
-            ("lost_contact_damping_J", "lost in contacts"),
-            ("lost_friction_J", "lost to friction"),
-            ("lost_bond_damping_J", "lost in bonds"),
-            ("lost_broken_bonds_J", "lost with broken bonds"),
-            ("drift_J", "not explained"),
-        ],
-    ),
-    lines(
-        ["moments", "speed", "Speed", "speed", "m/s"],
-        "Speeds of the grains.",
-        &[("mean_speed_m_s", "mean by mass"), ("largest_speed_m_s", "largest")],
-    ),
-    lines(
-        ["steps", "step", "Step size", "step", "s"],
-        "Length of the last accepted step.",
-        &[("step_size_s", "step size")],
-    ),
-    lines(
-        ["steps", "iterations", "Iterations of the staggered scheme", "so far", ""],
-        "Iterations and rejected tries since the start.",
-        &[("iterations", "iterations"), ("rejected", "rejected tries")],
-    ),
-    lines(
-        ["steps", "strain", "Largest overlap", "part of the sum of the radii", ""],
-        "The largest overlap of two grains, over the sum of their radii.",
-        &[("largest_strain", "largest overlap")],
-    ),
-];
-
-/// Charts of hard spheres.
-const HARD: &[Lines] = &[
-    lines(
-        ["grains", "grains", "Grains left", "how many", ""],
-        "Grains become fewer when they merge and more when they break.",
-        &[("grains", "grains")],
-    ),
-    lines(
-        ["grains", "growth", "Growth", "over the mean radius at the start", ""],
-        "The mean radius by number.",
-        &[("radius_ratio", "mean radius")],
-    ),
-    lines(
-        ["grains", "largest", "The largest grain", "primaries", ""],
-        "How many of the first grains it holds.",
-        &[("largest_primaries", "largest grain")],
-    ),
-    lines(
-        ["grains", "temperature", "Temperature", "temperature", "K"],
-        "Temperatures of the grains.",
-        &[
-            ("mean_temperature_K", "mean by mass"),
-            ("lowest_temperature_K", "lowest"),
-            ("highest_temperature_K", "highest"),
-        ],
-    ),
-    lines(
-        ["impacts", "impacts", "Impacts", "so far", ""],
-        "Impacts since the start, and what came of them.",
-        &[
-            ("impacts", "impacts"),
-            ("bounces", "bounces"),
-            ("merges", "merges"),
-            ("fragmentations", "breakages"),
-            ("walls", "bounces off walls"),
-        ],
-    ),
-    lines(
-        ["impacts", "iterations", "Iterations of an impact's solution", "most of one impact", ""],
-        "The coupled solution of an impact: most iterations that one needed so far.",
-        &[("most_iterations", "most iterations"), ("not_converged", "not converged, in all")],
-    ),
-    lines(
-        ["energy", "energy", "Kinetic energy and where it went", "energy", "J"],
-        "The ledger's kinetic energy now, and its losses since the start.",
-        &[
-            ("kinetic_J", "kinetic"),
-            ("lost_normal_J", "lost along the normal"),
-            ("lost_friction_J", "lost to friction"),
-            ("surface_J", "new surfaces"),
-        ],
-    ),
-    lines(
-        ["energy", "heat", "Heat", "energy", "J"],
-        "The ledger's heat since the start, and what is stored in warm grains now.",
-        &[
-            ("thermal_J", "stored"),
-            ("reaction_J", "set free by reactions"),
-            ("heat_J", "taken up in impacts"),
-            ("cooled_J", "given off"),
-            ("unbalanced_J", FALSE_HEAT),
-        ],
-    ),
-    lines(
-        ["grains", "speeds", "Speed", "speed", "m/s"],
-        "Speeds of the grains as seen from the box.",
-        &[("mean_speed_m_s", "mean"), ("largest_speed_m_s", "largest")],
-    ),
-    lines(
-        ["steps", "step", "Step size", "step", "s"],
-        "Length of the last step; from event to event, the mean time between two impacts.",
-        &[("step_size_s", "step size")],
-    ),
-];
+use crate::record::Panel;
+use crate::run;
 
 /// The charts of a run; those without data are left out.
 pub fn charts(folder: &Folder) -> Vec<Chart> {
@@ -195,21 +14,33 @@ pub fn charts(folder: &Folder) -> Vec<Chart> {
         Some(scenario) => scenario.engine.is_hard(),
         None => folder.table("grains").is_some() || folder.table("impacts").is_some(),
     };
-    let wanted = if is_hard { HARD } else { SOFT };
+    let wanted = lines(is_hard, is_published(folder));
     let mut charts: Vec<Chart> =
         wanted.iter().filter_map(|lines| lines.chart(folder.table(lines.table)?)).collect();
-    if !is_published(folder) {
-        for chart in &mut charts {
-            chart.leave_out(FALSE_HEAT);
-        }
-    }
     // Beside the charts of the same figures over the whole run.
     let after = charts.iter().rposition(|chart| ["rays", "beam"].contains(&chart.id.as_str()));
-    let of_pulses = folder.table("rays").map(|rays| pulses::charts(rays, wanted)).unwrap_or_default();
+    let of_pulses = folder.table("rays").map(|rays| pulses::charts(rays, &wanted)).unwrap_or_default();
     let place = after.map_or(charts.len(), |at| at + 1);
     charts.splice(place..place, of_pulses);
     charts.extend(folder.table("sizes").and_then(sizes));
     charts
+}
+
+/// The charts over time of a kind of run, with the columns that say that they are shown there.
+fn lines(is_hard: bool, is_published: bool) -> Vec<Lines> {
+    let columns = run::tables(is_hard).iter().flat_map(|table| {
+        let name = table.series().unwrap_or_default();
+        table.columns().into_iter().map(move |column| (name, column))
+    });
+    // Only the published balance makes heat from nothing.
+    let shown: Vec<_> =
+        columns.filter(|(_, column)| is_published || column.name != run::FALSE_HEAT).collect();
+    let lines = |panel: &&'static Panel| {
+        let on = shown.iter().filter(|(_, column)| column.panel == Some(*panel));
+        let (tables, columns): (Vec<_>, Vec<_>) = on.copied().unzip();
+        tables.first().map(|table| Lines { table, panel, columns })
+    };
+    run::panels(is_hard).iter().filter_map(lines).collect()
 }
 
 /// Whether heat follows the published balance.

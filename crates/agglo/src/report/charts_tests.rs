@@ -15,9 +15,9 @@ const SHOWN_SOFT: &[Shown] = &[
         "clusters",
         ["part of the mass", ""],
         &[
-            ("dispersion degree", "dispersion_degree"),
-            ("relative to the start", "dispersion_degree_relative"),
             ("largest cluster", "largest_fraction"),
+            ("dispersion degree", "dispersion_degree"),
+            ("dispersion degree relative to the start", "dispersion_degree_relative"),
         ],
     ),
     (
@@ -30,23 +30,28 @@ const SHOWN_SOFT: &[Shown] = &[
         "rays",
         "rays",
         ["how many", ""],
-        &[("in flight", "in_flight"), ("reflections", "reflections"), ("segments", "segments")],
+        &[("rays in flight", "in_flight"), ("reflections", "reflections"), ("segments", "segments")],
     ),
     (
         "beam",
         "rays",
         ["part of the pulse's power", ""],
-        &[("along x", "beam_x"), ("along y", "beam_y"), ("along z", "beam_z"), ("in all", "beam_magnitude")],
+        &[
+            ("beam power along x", "beam_x"),
+            ("beam power along y", "beam_y"),
+            ("beam power along z", "beam_z"),
+            ("beam power in all", "beam_magnitude"),
+        ],
     ),
     (
         "flying",
         "rays",
         ["part of the pulse's power", ""],
         &[
-            ("along x", "flying_x"),
-            ("along y", "flying_y"),
-            ("along z", "flying_z"),
-            ("in all", "flying_magnitude"),
+            ("power in flight along x", "flying_x"),
+            ("power in flight along y", "flying_y"),
+            ("power in flight along z", "flying_z"),
+            ("power in flight", "flying_magnitude"),
         ],
     ),
     (
@@ -65,12 +70,12 @@ const SHOWN_SOFT: &[Shown] = &[
         "energy",
         ["energy", "J"],
         &[
-            ("kinetic", "kinetic_J"),
-            ("spin", "spin_J"),
-            ("elastic", "elastic_J"),
-            ("tangential springs", "tangential_spring_J"),
-            ("bonds", "bonds_J"),
-            ("near field", "near_field_J"),
+            ("kinetic energy", "kinetic_J"),
+            ("energy of spin", "spin_J"),
+            ("elastic energy", "elastic_J"),
+            ("energy of tangential springs", "tangential_spring_J"),
+            ("energy of bonds", "bonds_J"),
+            ("energy of the near field", "near_field_J"),
         ],
     ),
     (
@@ -93,25 +98,25 @@ const SHOWN_SOFT: &[Shown] = &[
         "speed",
         "moments",
         ["speed", "m/s"],
-        &[("mean by mass", "mean_speed_m_s"), ("largest", "largest_speed_m_s")],
+        &[("mean speed", "mean_speed_m_s"), ("largest speed", "largest_speed_m_s")],
     ),
-    ("step", "steps", ["step", "s"], &[("step size", "step_size_s")]),
+    ("step", "steps", ["step", "s"], &[("step", "step_size_s")]),
     ("iterations", "steps", ["so far", ""], &[("iterations", "iterations"), ("rejected tries", "rejected")]),
     ("strain", "steps", ["part of the sum of the radii", ""], &[("largest overlap", "largest_strain")]),
 ];
 
 const SHOWN_HARD: &[Shown] = &[
     ("grains", "grains", ["how many", ""], &[("grains", "grains")]),
-    ("growth", "grains", ["over the mean radius at the start", ""], &[("mean radius", "radius_ratio")]),
-    ("largest", "grains", ["primaries", ""], &[("largest grain", "largest_primaries")]),
+    ("growth", "grains", ["over the mean radius at the start", ""], &[("radius ratio", "radius_ratio")]),
+    ("largest", "grains", ["primaries", ""], &[("primaries of the largest grain", "largest_primaries")]),
     (
         "temperature",
         "grains",
         ["temperature", "K"],
         &[
-            ("mean by mass", "mean_temperature_K"),
-            ("lowest", "lowest_temperature_K"),
-            ("highest", "highest_temperature_K"),
+            ("mean temperature", "mean_temperature_K"),
+            ("lowest temperature", "lowest_temperature_K"),
+            ("highest temperature", "highest_temperature_K"),
         ],
     ),
     (
@@ -137,7 +142,7 @@ const SHOWN_HARD: &[Shown] = &[
         "energy",
         ["energy", "J"],
         &[
-            ("kinetic", "kinetic_J"),
+            ("kinetic energy", "kinetic_J"),
             ("lost along the normal", "lost_normal_J"),
             ("lost to friction", "lost_friction_J"),
             ("new surfaces", "surface_J"),
@@ -148,14 +153,19 @@ const SHOWN_HARD: &[Shown] = &[
         "energy",
         ["energy", "J"],
         &[
-            ("stored", "thermal_J"),
+            ("thermal energy", "thermal_J"),
             ("set free by reactions", "reaction_J"),
-            ("taken up in impacts", "heat_J"),
+            ("heat of impacts", "heat_J"),
             ("given off", "cooled_J"),
         ],
     ),
-    ("speeds", "grains", ["speed", "m/s"], &[("mean", "mean_speed_m_s"), ("largest", "largest_speed_m_s")]),
-    ("step", "steps", ["step", "s"], &[("step size", "step_size_s")]),
+    (
+        "speeds",
+        "grains",
+        ["speed", "m/s"],
+        &[("mean speed", "mean_speed_m_s"), ("largest speed", "largest_speed_m_s")],
+    ),
+    ("step", "steps", ["step", "s"], &[("time between steps", "step_size_s")]),
 ];
 
 /// A grain at rest for a step: a folder with all tables of its engine.
@@ -167,7 +177,7 @@ fn folder_of(engine: &str) -> Folder {
     let scenario = Scenario::from_toml(&text).unwrap_or_else(|faults| panic!("{faults}"));
     let folder = tempfile::tempdir().unwrap();
     let dir = folder.path().join("run");
-    crate::run::run(&scenario, Path::new(""), &dir, &mut |_| ControlFlow::Continue(())).unwrap();
+    run::run(&scenario, Path::new(""), &dir, &mut |_| ControlFlow::Continue(())).unwrap();
     Folder::read(&dir)
 }
 

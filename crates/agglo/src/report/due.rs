@@ -7,12 +7,9 @@ use super::sheet::Sheet;
 use crate::contact::Bonds;
 use crate::folder::names;
 use crate::record::frames::Collection;
-use crate::run::tables_of;
+use crate::record::{About, Declared};
+use crate::run::{tables, tables_at_the_end};
 
-/// Tables that hard spheres get at the end.
-const AT_THE_END: [&str; 3] = ["kernels.csv", "breakage.csv", "daughters.csv"];
-/// Columns of words.
-const WORDS: [&str; 2] = ["event", "kind"];
 /// Names of frames in one note at the most.
 const MOST_NAMES: usize = 5;
 
@@ -21,13 +18,14 @@ pub fn notes(folder: &Folder) -> Vec<String> {
     let mut notes = Vec::new();
     if let Some(scenario) = &folder.scenario {
         let is_hard = scenario.engine.is_hard();
-        for (place, columns) in tables_of(is_hard) {
-            if *place != "series/rays.csv" || scenario.acoustics.is_some() {
-                notes.extend(table(folder, place, columns));
+        for due in tables(is_hard) {
+            if due.file() != "series/rays.csv" || scenario.acoustics.is_some() {
+                notes.extend(table(folder, *due));
             }
         }
-        if is_hard && folder.summary.is_some() {
-            let lost = AT_THE_END.iter().filter(|name| !folder.root.join(name).exists());
+        if folder.summary.is_some() {
+            let at_the_end = tables_at_the_end(is_hard).iter().map(|table| table.file());
+            let lost = at_the_end.filter(|name| !folder.root.join(name).exists());
             notes.extend(lost.map(|name| format!("{name} is missing")));
         }
     }
@@ -36,7 +34,8 @@ pub fn notes(folder: &Folder) -> Vec<String> {
 }
 
 /// What is wrong with a table that is due.
-fn table(folder: &Folder, place: &str, columns: &[&str]) -> Option<String> {
+fn table(folder: &Folder, due: &dyn Declared) -> Option<String> {
+    let place = due.file();
     let path = folder.root.join(place);
     if !path.exists() {
         let charts = if place.starts_with("series/") { ": its charts are left out" } else { "" };
@@ -47,12 +46,12 @@ fn table(folder: &Folder, place: &str, columns: &[&str]) -> Option<String> {
         // Its rows are counted where it is read; one that cannot be read is named there.
         Some(name) => (folder.table(name)?.names.clone(), 0),
         None => match Sheet::read_with(&path, false) {
-            Ok(sheet) => (sheet.names.clone(), damaged(&sheet)),
+            Ok(sheet) => (sheet.names.clone(), damaged(&sheet, &due.columns())),
             Err(reason) => return Some(format!("{place} cannot be used: {reason}")),
         },
     };
     let lost: Vec<&str> =
-        columns.iter().copied().filter(|due| !names.iter().any(|name| name == due)).collect();
+        due.names().into_iter().filter(|due| !names.iter().any(|name| name == due)).collect();
     if !lost.is_empty() {
         return Some(format!("{place} is damaged: it has no {}", lost.join(", ")));
     }
@@ -60,9 +59,10 @@ fn table(folder: &Folder, place: &str, columns: &[&str]) -> Option<String> {
 }
 
 /// Rows that were left out, and those with what is no finite number in a column of numbers.
-fn damaged(sheet: &Sheet) -> usize {
+fn damaged(sheet: &Sheet, columns: &[&About]) -> usize {
     let is_whole = |(name, entry): (&String, &String)| {
-        WORDS.contains(&name.as_str()) || entry.parse().is_ok_and(f64::is_finite)
+        let is_word = columns.iter().any(|column| column.name == name && column.is_word);
+        is_word || entry.parse().is_ok_and(f64::is_finite)
     };
     let rows = sheet.rows.iter().filter(|row| !sheet.names.iter().zip(*row).all(is_whole));
     sheet.dropped + rows.count()
@@ -158,7 +158,7 @@ mod tests {
         let folder = kept.path().join("out");
         let notes = || Report::of_run(&folder).unwrap().notes;
         assert!(notes().is_empty(), "{:?}", notes());
-        let places = tables_of(true).iter().map(|(place, _)| *place).chain(AT_THE_END);
+        let places = tables(true).iter().chain(tables_at_the_end(true)).map(|table| table.file());
         for place in places.chain(["frames/grains_000001.vtp", "frames/grains.pvd"]) {
             let name = Path::new(place).file_name().unwrap().to_str().unwrap();
             let whole = fs::read(folder.join(place)).unwrap();

@@ -4,8 +4,8 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use crate::folder::names;
-use crate::record::door;
-use crate::run::Summary;
+use crate::record::{About, door};
+use crate::run::{Summary, tables};
 use crate::scenario::Scenario;
 
 use super::due;
@@ -110,7 +110,7 @@ impl Folder {
     fn read_tables(&mut self) {
         for path in files(&self.root.join(names::SERIES), "", ".csv") {
             let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            match Table::read(&path) {
+            match Table::read(&path, &columns_of(&format!("series/{name}.csv"))) {
                 Ok(table) => {
                     if table.dropped > 0 {
                         let rows = if table.dropped == 1 {
@@ -165,6 +165,12 @@ impl Folder {
             self.notes.push(note);
         }
     }
+}
+
+/// What is told of the columns of a table that is in this place in the folder of a run of either kind.
+pub fn columns_of(place: &str) -> Vec<&'static About> {
+    let all = [false, true].into_iter().flat_map(|is_hard| tables(is_hard).iter());
+    all.filter(|table| table.file() == place).flat_map(|table| table.columns()).collect()
 }
 
 /// Why a file cannot be read, as the end of a sentence.

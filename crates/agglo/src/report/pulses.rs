@@ -97,6 +97,8 @@ fn pulses(rays: &Table) -> Vec<Pulse> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::record::Panel;
+    use crate::record::columns::{Column, count};
 
     /// Launches at 1 s and 3 s, rays for half a second each, a row every 0.1 s then and every second otherwise.
     fn rays() -> Table {
@@ -114,20 +116,16 @@ mod tests {
         Table { names, columns, dropped: 0 }
     }
 
-    const LINES: [Lines; 1] = [Lines {
-        table: "rays",
-        id: "rays",
-        title: "Rays",
-        about: "Rays.",
-        label: "how many",
-        unit: "",
-        log: false,
-        columns: &[("in_flight", "in flight")],
-    }];
+    static COLUMN: Column<()> = count("in_flight", "in flight", "", |()| 0);
+    static PANEL: Panel = Panel { id: "rays", title: "Rays", about: "Rays.", label: "how many", unit: "" };
+
+    fn lines() -> [Lines; 1] {
+        [Lines { table: "rays", panel: &PANEL, columns: vec![&COLUMN.about] }]
+    }
 
     #[test]
     fn pulses_begin_at_their_launch_and_end_when_rays_are_gone() {
-        let charts = charts(&rays(), &LINES);
+        let charts = charts(&rays(), &lines());
         let ids: Vec<&str> = charts.iter().map(|chart| chart.id.as_str()).collect();
         assert_eq!(ids, ["rays-of-pulses", "rays-pulse"]);
         let names: Vec<&str> = charts[0].series.iter().map(|series| series.name.as_str()).collect();
@@ -149,7 +147,7 @@ mod tests {
         for column in &mut sparse.columns {
             *column = column.iter().copied().step_by(3).collect();
         }
-        assert_empty!(charts(&sparse, &LINES));
-        assert_empty!(charts(&Table::default(), &LINES));
+        assert_empty!(charts(&sparse, &lines()));
+        assert_empty!(charts(&Table::default(), &lines()));
     }
 }

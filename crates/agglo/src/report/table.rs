@@ -3,9 +3,7 @@
 use std::path::Path;
 
 use super::sheet::Sheet;
-
-/// Columns that hold NaN where there is nothing to measure.
-const MAY_BE_NAN: [&str; 2] = ["fractal_dimension", "mean_free_time_s"];
+use crate::record::About;
 
 /// A table of numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -20,19 +18,19 @@ pub struct Table {
 
 impl Table {
     /// Reads a table; rows of another length than the header, or with what is no finite number, are left out and
-    /// counted.
+    /// counted. Those of `columns` that may be empty may have gaps.
     ///
     /// # Errors
     /// Why it cannot be read.
-    pub fn read(path: &Path) -> Result<Self, String> {
+    pub fn read(path: &Path, columns: &[&About]) -> Result<Self, String> {
         let Sheet { names, rows, dropped } = Sheet::read_with(path, false)?;
         let mut table = Self { columns: vec![Vec::new(); names.len()], names, dropped };
         for row in rows {
             // A damaged row has entries that are no finite numbers, but for gaps where there may be some.
             let number = |(entry, name): (&String, &String)| {
                 let value: f64 = entry.parse().ok()?;
-                let is_gap = value.is_nan() && MAY_BE_NAN.contains(&name.as_str());
-                (value.is_finite() || is_gap).then_some(value)
+                let may_be_gap = columns.iter().any(|known| known.name == name && known.may_be_empty);
+                (value.is_finite() || value.is_nan() && may_be_gap).then_some(value)
             };
             match row.iter().zip(&table.names).map(number).collect::<Option<Vec<f64>>>() {
                 Some(numbers) => {
@@ -54,20 +52,21 @@ impl Table {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::folder::columns_of;
 
     #[test]
     fn a_cut_row_is_left_out() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("t.csv");
         std::fs::write(&path, "time_s,count\n0.0,1\n0.5,2\n1.0").unwrap();
-        let table = Table::read(&path).unwrap();
+        let table = Table::read(&path, &[]).unwrap();
         assert_eq!(table.column("time_s"), Some(&[0.0, 0.5][..]));
         assert_eq!(table.dropped, 1);
         // 12 could have been 123.
         std::fs::write(&path, "time_s,count\n0.0,1\n0.5,12").unwrap();
-        assert_eq!(Table::read(&path).unwrap().column("count"), Some(&[1.0][..]));
+        assert_eq!(Table::read(&path, &[]).unwrap().column("count"), Some(&[1.0][..]));
         std::fs::write(&path, "").unwrap();
-        assert_err!(Table::read(&path));
+        assert_err!(Table::read(&path, &[]));
     }
 
     #[test]
@@ -76,7 +75,7 @@ mod tests {
         let path = folder.path().join("t.csv");
         let rows = b"time_s,fractal_dimension\n0.0,1\n0.5,\xff\xfe\n1.0,NaN\n1.5\n2.0,5\n3.0,inf\nNaN,2\n4.0,1,1\n5.0,\"1\n";
         std::fs::write(&path, rows).unwrap();
-        let table = Table::read(&path).unwrap();
+        let table = Table::read(&path, &columns_of("series/clusters.csv")).unwrap();
         assert_eq!(table.column("time_s"), Some(&[0.0, 1.0, 2.0][..]));
         assert_nan!(table.column("fractal_dimension").unwrap()[1]);
         assert_eq!(table.dropped, 6);

@@ -4,7 +4,8 @@ use std::path::Path;
 
 use serde_json::Value as Json;
 
-use super::tables::{Layout, Tables};
+use super::tables::Tables;
+use crate::record::columns;
 
 /// A figure with its name, in the unit that ends the name.
 pub type Named<'a> = (&'a str, f64);
@@ -31,7 +32,7 @@ pub fn assert_columns(place: &str, names: &[String], row: &[f64], wanted: &[Name
 }
 
 /// Tables in a folder of their own, with the folders that they lie in.
-pub fn tables(layout: Layout, folder: &Path) -> Tables {
+pub fn tables(layout: columns::Tables, folder: &Path) -> Tables {
     std::fs::create_dir(folder.join("series")).unwrap();
     Tables::create(layout, folder).unwrap()
 }

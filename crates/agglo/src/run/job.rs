@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::engine::soft::RestWatch;
 use crate::engine::{SimError, Start};
 use crate::folder::RunFolder;
-use crate::record::RecordError;
+use crate::record::{RecordError, columns};
 use crate::scenario::Scenario;
 
 use super::frames::Frames;
@@ -13,7 +13,7 @@ use super::hard::{Hard, HardState};
 use super::recorder::RecorderState;
 use super::soft::{Soft, SoftState};
 use super::summary::Summary;
-use super::tables::{Layout, Tables};
+use super::tables::Tables;
 use super::timers::Moment;
 
 /// What a checkpoint holds: the resolved scenario, the job's state and where the recorder stands.
@@ -74,7 +74,7 @@ impl AnySaved<'_> {
     }
 
     /// The scenario's text, where the recorder stands, and the tables that it writes.
-    pub fn parts(&self) -> (&str, &RecorderState, Layout) {
+    pub fn parts(&self) -> (&str, &RecorderState, columns::Tables) {
         match self {
             Self::Soft(saved) => (&saved.scenario, &saved.recorder, Soft::TABLES),
             Self::Hard(saved) => (&saved.scenario, &saved.recorder, Hard::TABLES),
@@ -90,7 +90,7 @@ pub trait Job: Sized {
         Self: 'a;
 
     /// Its tables.
-    const TABLES: Layout;
+    const TABLES: columns::Tables;
 
     /// Starts; `watch` is told how soft grains come to rest, if they are to.
     fn start(scenario: &Scenario, start: Start, watch: &mut RestWatch<'_>) -> Result<Self, SimError>;

@@ -18,6 +18,8 @@ mod until;
 
 #[cfg(test)]
 mod distinct;
+#[cfg(test)]
+mod page_tests;
 
 use std::io::ErrorKind;
 use std::ops::ControlFlow;
@@ -25,6 +27,8 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 pub use error::RunError;
+#[cfg(feature = "report")]
+pub(crate) use hard::tables::FALSE_HEAT;
 pub use hard::{Growth, HardSummary};
 pub(crate) use origin::Origin;
 pub use quiet::quiet;
@@ -37,7 +41,7 @@ pub use summary::Summary;
 use crate::engine::Start;
 use crate::folder::RunFolder;
 use crate::packing::{PackingError, StartError};
-use crate::record::{RecordError, door};
+use crate::record::{RecordError, columns, door};
 use crate::scenario::Scenario;
 use crate::units::Time;
 use hard::Hard;
@@ -45,10 +49,27 @@ use job::{AnySaved, Job};
 use session::{Session, TELL_EVERY, Way};
 use soft::Soft;
 
-/// The tables that a run writes: their places in its folder and the names of their columns.
-#[cfg(feature = "report")]
-pub(crate) fn tables_of(is_hard: bool) -> tables::Layout {
+/// The tables that grow with a run of hard or of soft spheres, with what is told of their columns.
+///
+/// ```
+/// let tables = agglo::run::tables(true);
+/// let grains = tables.iter().find(|table| table.file() == "series/grains.csv").unwrap();
+/// let radius = grains.columns().into_iter().find(|column| column.name == "mean_radius_m").unwrap();
+/// assert_eq!((radius.label, radius.unit), ("mean radius", "m"));
+/// ```
+pub fn tables(is_hard: bool) -> columns::Tables {
     if is_hard { Hard::TABLES } else { Soft::TABLES }
+}
+
+/// The tables that are written when such a run ends.
+pub fn tables_at_the_end(is_hard: bool) -> columns::Tables {
+    if is_hard { hard::tables::AT_THE_END } else { &[] }
+}
+
+/// The charts of such a run, in the order of the page.
+#[cfg(feature = "report")]
+pub(crate) fn panels(is_hard: bool) -> &'static [&'static columns::Panel] {
+    if is_hard { hard::panels::ALL } else { soft::panels::ALL }
 }
 
 /// What an observer is told while a run goes on, about ten times a second.

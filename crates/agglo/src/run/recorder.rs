@@ -3,13 +3,13 @@
 use serde::{Deserialize, Serialize};
 
 use crate::folder::RunFolder;
-use crate::record::{Opened, RecordError};
+use crate::record::{Opened, RecordError, columns};
 use crate::scenario::Scenario;
 
 use super::fit::Reading;
 use super::frames::{FrameLists, Frames};
 use super::job::Job;
-use super::tables::{Layout, Tables, TablesState};
+use super::tables::{Tables, TablesState};
 use super::timers::{Moment, ROUND_OFF, Timers};
 
 /// The time of the last row before there is any [s].
@@ -37,7 +37,11 @@ impl RecorderState {
     ///
     /// # Errors
     /// [`RecordError`] where a table is missing, or not what it was.
-    pub fn check_tables(&self, layout: Layout, folder: &RunFolder) -> Result<Vec<Opened>, RecordError> {
+    pub fn check_tables(
+        &self,
+        layout: columns::Tables,
+        folder: &RunFolder,
+    ) -> Result<Vec<Opened>, RecordError> {
         self.tables.check(layout, folder.root())
     }
 

@@ -5,13 +5,8 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use crate::folder::Mark;
-use crate::record::{Cell, Opened, RecordError, Series};
-
-/// Tables by their place in the run's folder, with the names of their columns.
-pub type Layout = &'static [(&'static str, &'static [&'static str])];
-
-/// Columns that are `NaN` where there is nothing to be told; in all others, and anything infinite, that is an error.
-const MAY_BE_UNKNOWN: [&str; 2] = ["fractal_dimension", "mean_free_time_s"];
+use crate::record::columns::{self, Declared, Table};
+use crate::record::{Opened, RecordError, Series};
 
 /// Lengths and checksums of the tables' files.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -21,32 +16,32 @@ pub struct TablesState {
 
 impl TablesState {
     /// Opens the tables' files of a run that is to go on. None is changed: all are looked at before the first is cut.
-    pub fn check(&self, layout: Layout, folder: &Path) -> Result<Vec<Opened>, RecordError> {
+    pub fn check(&self, layout: columns::Tables, folder: &Path) -> Result<Vec<Opened>, RecordError> {
         if self.marks.len() != layout.len() {
             let reason = "the checkpoint knows other tables".to_owned();
             return Err(RecordError::Foreign { path: folder.to_owned(), reason });
         }
         let tables = layout.iter().zip(&self.marks);
-        tables.map(|((place, columns), mark)| Series::check(&folder.join(place), columns, *mark)).collect()
+        tables.map(|(table, mark)| Series::check(&folder.join(table.file()), &table.names(), *mark)).collect()
     }
 }
 
 /// The tables of a run, in the order of their layout.
 #[derive(Debug)]
 pub struct Tables {
-    layout: Layout,
+    layout: columns::Tables,
     series: Vec<Series>,
 }
 
 impl Tables {
     /// Makes the tables' files below the run's folder.
-    pub fn create(layout: Layout, folder: &Path) -> Result<Self, RecordError> {
-        let make = |(place, columns): &(&str, &[&str])| Series::create(&folder.join(place), columns);
+    pub fn create(layout: columns::Tables, folder: &Path) -> Result<Self, RecordError> {
+        let make = |table: &&dyn Declared| Series::create(&folder.join(table.file()), &table.names());
         Ok(Self { layout, series: layout.iter().map(make).collect::<Result<_, _>>()? })
     }
 
     /// Cuts the tables back to their marks and goes on from there.
-    pub fn resume(layout: Layout, opened: Vec<Opened>) -> Result<Self, RecordError> {
+    pub fn resume(layout: columns::Tables, opened: Vec<Opened>) -> Result<Self, RecordError> {
         Ok(Self { layout, series: opened.into_iter().map(Opened::cut).collect::<Result<_, _>>()? })
     }
 
@@ -65,65 +60,57 @@ impl Tables {
         self.series.iter_mut().try_for_each(Series::sync)
     }
 
-    /// Adds one row to each of the first tables.
-    pub fn rows<const N: usize>(&mut self, rows: [Vec<f64>; N]) -> Result<(), RecordError> {
-        rows.into_iter().enumerate().try_for_each(|(table, row)| self.row(table, &row))
-    }
-
-    /// Adds a row to the table with this number.
-    pub fn row(&mut self, table: usize, row: &[f64]) -> Result<(), RecordError> {
-        self.refuse_not_finite(table, row.iter().copied().enumerate())?;
-        self.series[table].row(row)
-    }
-
-    /// Adds a row of mixed cells to the table with this number.
-    pub fn cells(&mut self, table: usize, cells: &[Cell]) -> Result<(), RecordError> {
-        let number = |(at, cell): (usize, &Cell)| match cell {
-            Cell::Number(value) => Some((at, *value)),
-            Cell::Count(_) | Cell::Word(_) => None,
-        };
-        self.refuse_not_finite(table, cells.iter().enumerate().filter_map(number))?;
-        self.series[table].cells(cells)
-    }
-
+    /// Adds a row to a table of the layout.
+    ///
     /// All rows of a run come by here: none has a figure that is not finite where one is due.
-    fn refuse_not_finite(
-        &self,
-        table: usize,
-        mut row: impl Iterator<Item = (usize, f64)>,
-    ) -> Result<(), RecordError> {
-        let (place, columns) = self.layout[table];
-        let name = |at: usize| columns.get(at).copied().unwrap_or_default();
-        let is_odd = |&(at, value): &(usize, f64)| {
-            !(value.is_finite() || value.is_nan() && MAY_BE_UNKNOWN.contains(&name(at)))
+    pub fn put<S>(&mut self, table: &Table<S>, of: &S) -> Result<(), RecordError> {
+        let at = self.layout.iter().position(|known| known.file() == table.file);
+        let unknown = || RecordError::Foreign {
+            path: table.file.into(),
+            reason: "it is no table of this run".to_owned(),
         };
-        match row.find(is_odd) {
-            None => Ok(()),
-            Some((at, _)) => Err(RecordError::NotFinite { path: place.into(), column: name(at).to_owned() }),
-        }
+        self.series[at.ok_or_else(unknown)?].put(table.columns, of)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::record::columns::{number, number_or_none, word};
 
-    const LAYOUT: Layout = &[("a.csv", &["time_s", "fractal_dimension"]), ("b.csv", &["event", "kind"])];
+    static NUMBERS: Table<[f64; 2]> = Table {
+        file: "a.csv",
+        columns: &[
+            number("time_s", "s", "", "", |row| row[0]),
+            number_or_none("gap_m", "m", "", "", |row| (row[1] != 0.0).then_some(row[1])),
+        ],
+    };
+    static WORDS: Table<f64> = Table {
+        file: "b.csv",
+        columns: &[number("event", "", "", "", |row| *row), word("kind", "", "", |_| "merge")],
+    };
+
+    const LAYOUT: columns::Tables = &[&NUMBERS, &WORDS];
 
     #[test]
     fn figures_that_are_not_finite_are_not_written() {
         let folder = tempfile::tempdir().unwrap();
         let mut tables = Tables::create(LAYOUT, folder.path()).unwrap();
-        tables.row(0, &[-0.0, f64::NAN]).unwrap();
-        tables.cells(1, &[Cell::Number(1.0), Cell::Word("merge")]).unwrap();
-        for row in [[f64::NAN, 0.0], [f64::INFINITY, 0.0], [0.0, f64::INFINITY], [0.0, f64::NEG_INFINITY]] {
-            let error = tables.row(0, &row).unwrap_err().to_string();
-            let column = if row[0].is_finite() { "fractal_dimension" } else { "time_s" };
+        tables.put(&NUMBERS, &[-0.0, 0.0]).unwrap();
+        tables.put(&WORDS, &1.0).unwrap();
+        for row in [[f64::NAN, 0.0], [f64::INFINITY, 0.0], [0.0, f64::INFINITY], [0.0, f64::NAN]] {
+            let error = tables.put(&NUMBERS, &row).unwrap_err().to_string();
+            let column = if row[0].is_finite() { "gap_m" } else { "time_s" };
             assert!(error.contains(&format!("a.csv: {column} is not finite")), "{error}");
         }
-        assert_err!(tables.cells(1, &[Cell::Number(f64::NAN), Cell::Word("merge")]));
+        assert_err!(tables.put(&WORDS, &f64::NAN));
         tables.flush().unwrap();
-        let written = std::fs::read_to_string(folder.path().join("a.csv")).unwrap();
-        assert_eq!(written, "time_s,fractal_dimension\n0,NaN\n");
+        let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+        assert_eq!(
+            (read("a.csv"), read("b.csv")),
+            ("time_s,gap_m\n0,NaN\n".into(), "event,kind\n1,merge\n".into())
+        );
+        let stranger: Table<f64> = Table { file: "c.csv", columns: &[] };
+        assert_contains!(tables.put(&stranger, &0.0).unwrap_err().to_string(), "no table of this run");
     }
 }

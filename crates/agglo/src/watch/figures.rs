@@ -3,7 +3,9 @@
 use std::path::Path;
 
 use super::tail::Tail;
-use crate::record::RecordError;
+use crate::record::columns::Glance;
+use crate::record::{About, RecordError};
+use crate::run::tables;
 use crate::text::readable;
 
 /// A figure of the newest row.
@@ -41,64 +43,31 @@ pub struct Curve {
     pub points: Vec<(f64, f64)>,
 }
 
-/// Name, table, column, unit.
-type Row = (&'static str, &'static str, &'static str, &'static str);
-
-const SOFT: &[Row] = &[
-    ("dispersion degree", "clusters", "dispersion_degree", "%"),
-    ("clusters", "clusters", "clusters", ""),
-    ("largest cluster", "clusters", "largest_fraction", "%"),
-    ("contacts", "clusters", "contacts", ""),
-    ("bonds", "clusters", "bonds", ""),
-    ("mean speed", "moments", "mean_speed_m_s", "m/s"),
-    ("rays in flight", "rays", "in_flight", ""),
-    ("power in flight", "rays", "flying_magnitude", "%"),
-    ("kinetic energy", "energy", "kinetic_J", "J"),
-    ("step", "steps", "step_size_s", "s"),
-    ("energy drift", "energy", "drift_relative", ""),
-];
-const SOFT_CURVES: &[Row] = &[
-    ("dispersion degree", "clusters", "dispersion_degree", ""),
-    ("power in flight", "rays", "flying_magnitude", ""),
-    ("mean speed", "moments", "mean_speed_m_s", "m/s"),
-];
-const HARD: &[Row] = &[
-    ("grains", "grains", "grains", ""),
-    ("mean radius", "grains", "mean_radius_m", "m"),
-    ("largest radius", "grains", "largest_radius_m", "m"),
-    ("largest grain", "grains", "largest_fraction", "%"),
-    ("mean temperature", "grains", "mean_temperature_K", "K"),
-    ("mean speed", "grains", "mean_speed_m_s", "m/s"),
-    ("impacts", "impacts", "impacts", ""),
-    ("merges", "impacts", "merges", ""),
-    ("breakages", "impacts", "fragmentations", ""),
-    ("time between steps", "steps", "step_size_s", "s"),
-    ("energy drift", "energy", "drift_relative", ""),
-];
-const HARD_CURVES: &[Row] = &[
-    ("grains", "grains", "grains", ""),
-    ("mean radius", "grains", "mean_radius_m", "m"),
-    ("mean temperature", "grains", "mean_temperature_K", "K"),
-];
+/// The name of a table, and one of its columns that is told of.
+type Shown = (&'static str, Glance, &'static About);
 
 /// The tables that figures come from.
 #[derive(Debug)]
 pub(super) struct Tables {
     tails: Vec<(&'static str, Tail)>,
-    figures: &'static [Row],
-    curves: &'static [Row],
+    /// What is told of, in its order.
+    shown: Vec<Shown>,
 }
 
 impl Tables {
     /// Those of a run of hard or of soft spheres in the folder `series`.
     pub fn new(series: &Path, is_hard: bool) -> Self {
-        let (names, figures, curves): (&[&'static str], _, _) = if is_hard {
-            (&["grains", "impacts", "energy", "steps"], HARD, HARD_CURVES)
-        } else {
-            (&["clusters", "moments", "rays", "energy", "steps"], SOFT, SOFT_CURVES)
-        };
-        let tail = |&name: &&'static str| (name, Tail::new(&series.join(format!("{name}.csv"))));
-        Self { tails: names.iter().map(tail).collect(), figures, curves }
+        let mut shown = Vec::new();
+        for table in tables(is_hard) {
+            let told = |column: &'static About| Some((table.series()?, column.glance?, column));
+            shown.extend(table.columns().into_iter().filter_map(told));
+        }
+        shown.sort_by_key(|(_, glance, _)| glance.place);
+        let mut names: Vec<&str> = shown.iter().map(|(table, ..)| *table).collect();
+        names.sort_unstable();
+        names.dedup();
+        let tail = |name: &'static str| (name, Tail::new(&series.join(format!("{name}.csv"))));
+        Self { tails: names.into_iter().map(tail).collect(), shown }
     }
 
     /// Reads what is new.
@@ -120,27 +89,29 @@ impl Tables {
         self.newest("rays", "pulses").is_some_and(|pulses| pulses > 0.0)
     }
 
-    fn shown<'a>(&self, rows: &'a [Row]) -> impl Iterator<Item = &'a Row> {
+    fn shown(&self) -> impl Iterator<Item = &Shown> {
         let has_rays = self.has_rays();
-        rows.iter().filter(move |(_, table, ..)| *table != "rays" || has_rays)
+        self.shown.iter().filter(move |(table, ..)| *table != "rays" || has_rays)
     }
 
     /// Figures of the newest rows.
     pub fn figures(&self) -> Vec<Figure> {
-        let figure = |&(name, table, column, unit): &Row| {
-            Some(Figure { name, column: (table, column), value: self.newest(table, column)?, unit })
+        let figure = |&(table, _, column): &Shown| {
+            let value = self.newest(table, column.name)?;
+            let unit = if column.is_part { "%" } else { column.unit };
+            Some(Figure { name: column.label, column: (table, column.name), value, unit })
         };
-        self.shown(self.figures).filter_map(figure).collect()
+        self.shown().filter_map(figure).collect()
     }
 
     /// Curves over time.
     pub fn curves(&self) -> Vec<Curve> {
-        let curve = |&(name, table, column, unit): &Row| {
+        let curve = |&(table, _, column): &Shown| {
             let tail = self.tail(table)?;
-            let points = tail.column("time_s")?.zip(tail.column(column)?);
+            let points = tail.column("time_s")?.zip(tail.column(column.name)?);
             let points = points.filter(|(_, value)| value.is_finite()).collect();
-            Some(Curve { name, unit, points })
+            Some(Curve { name: column.label, unit: column.unit, points })
         };
-        self.shown(self.curves).filter_map(curve).collect()
+        self.shown().filter(|(_, glance, _)| glance.has_curve).filter_map(curve).collect()
     }
 }

@@ -397,12 +397,15 @@ fn events_of_hard_spheres_go_into_their_tables() {
         restitution: 0.75,
         energy: IMPACTS,
     });
+    let merge = GrainEvent { number: 4, kind: EventKind::Merge, ..system.events[0] };
+    system.events.push(merge);
     system.descents.push(Descent { event: 3, parent: 4, child: 11, primaries: 12, mass: 0.625 });
     job.record_events(&mut tables).unwrap();
     tables.flush().unwrap();
     let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
     let wanted = "event,time_s,kind,grain_i,grain_j,mass_i_kg,mass_j_kg,approach_speed_m_s,restitution,lost_normal_J,\
-                  lost_friction_J,reaction_J,surface_J,heat_J\n3,0.125,break,4,9,1.5,2.5,2,0.75,3.125,4,5,6,17.5\n";
+                  lost_friction_J,reaction_J,surface_J,heat_J\n3,0.125,break,4,9,1.5,2.5,2,0.75,3.125,4,5,6,17.5\n\
+                  4,0.125,merge,4,9,1.5,2.5,2,0.75,3.125,4,5,6,17.5\n";
     assert_eq!(read("events.csv"), wanted, "events.csv: found on the left, due on the right");
     let wanted = "event,parent,child,primaries,mass_kg\n3,4,11,12,0.625\n";
     assert_eq!(read("genealogy.csv"), wanted, "genealogy.csv: found on the left, due on the right");

@@ -1,9 +1,11 @@
 //! Runs of hard spheres: their tables, frames and figures.
 
 mod growth;
-mod rows;
+mod now;
+pub(super) mod panels;
 mod scales;
 mod summary;
+pub(super) mod tables;
 
 pub use growth::Growth;
 pub use summary::HardSummary;
@@ -14,16 +16,16 @@ use crate::engine::hard::{Clock, Simulation, SimulationState};
 use crate::engine::soft::RestWatch;
 use crate::engine::{Engine, SimError, Start};
 use crate::folder::RunFolder;
-use crate::measure::{BreakageRow, DaughterRow, KernelRow};
-use crate::record::{RecordError, Series};
+use crate::record::columns::{Declared, Table};
+use crate::record::{RecordError, Series, columns};
 use crate::scenario::Scenario;
 
 use super::frames::Frames;
 use super::job::{AnySaved, Job, Saved};
 use super::summary::Summary;
-use super::tables::{Layout, Tables};
+use super::tables::Tables;
 use super::timers::Moment;
-use rows::LastRow;
+use now::{LastRow, Now};
 
 /// What the tables and the summary have to remember of the past; it has no influence on the simulation.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
@@ -64,7 +66,7 @@ impl Hard {
 impl Job for Hard {
     type State<'a> = HardState<'a>;
 
-    const TABLES: Layout = rows::TABLES;
+    const TABLES: columns::Tables = tables::TABLES;
 
     fn start(scenario: &Scenario, start: Start, _: &mut RestWatch<'_>) -> Result<Self, SimError> {
         let mut simulation = Simulation::start_grown(scenario, &start.grains, &start.grown)?;
@@ -127,25 +129,25 @@ impl Job for Hard {
         system.descents.clear();
     }
 
-    fn record_events(&mut self, tables: &mut Tables) -> Result<(), RecordError> {
+    fn record_events(&mut self, to: &mut Tables) -> Result<(), RecordError> {
         let system = self.simulation.system_mut();
         for event in system.events.drain(..) {
-            tables.cells(rows::EVENTS_TABLE, &rows::event(&event))?;
+            to.put(&tables::EVENTS, &event)?;
         }
         for descent in system.descents.drain(..) {
-            tables.cells(rows::GENEALOGY_TABLE, &rows::descent(&descent))?;
+            to.put(&tables::GENEALOGY, &descent)?;
         }
         Ok(())
     }
 
-    fn record_rows(&mut self, tables: &mut Tables) -> Result<(), RecordError> {
+    fn record_rows(&mut self, to: &mut Tables) -> Result<(), RecordError> {
         let Memory { mean_radius_at_start, last_row } = self.memory;
         let now = self.simulation.snapshot();
         let growth = Growth::of(&now);
-        tables.rows(rows::rows(&self.simulation, &growth, mean_radius_at_start, &last_row))?;
+        let row = Now::of(&self.simulation, growth, mean_radius_at_start, &last_row);
+        tables::OVER_TIME.into_iter().try_for_each(|table| to.put(table, &row))?;
         self.memory.last_row = LastRow::of(&self.simulation);
-        let mut sizes = rows::sizes(self.time(), &now, &growth);
-        sizes.try_for_each(|row| tables.cells(rows::SIZES_TABLE, &row))
+        now::classes(self.time(), &now, &growth).try_for_each(|class| to.put(&tables::SIZES, &class))
     }
 
     fn record_frame(&self, frames: &mut Frames) -> Result<(), RecordError> {
@@ -155,12 +157,9 @@ impl Job for Hard {
 
     fn record_end(&self, folder: &RunFolder) -> Result<(), RecordError> {
         let (rates, time) = (&self.simulation.system().state.rates, self.time());
-        let kernels = rates.kernel_rows(time).into_iter().map(|row| row.values());
-        write_once(folder, "kernels.csv", KernelRow::COLUMNS, kernels)?;
-        let breakage = rates.breakage_rows(time).into_iter().map(|row| row.values());
-        write_once(folder, "breakage.csv", BreakageRow::COLUMNS, breakage)?;
-        let daughters = rates.daughter_rows().into_iter().map(|row| row.values());
-        write_once(folder, "daughters.csv", DaughterRow::COLUMNS, daughters)
+        write_once(folder, &tables::KERNELS, &rates.kernel_rows(time))?;
+        write_once(folder, &tables::BREAKAGE, &rates.breakage_rows(time))?;
+        write_once(folder, &tables::DAUGHTERS, &rates.daughter_rows())
     }
 
     fn summary(&self, scenario: &Scenario, wall_s: f64) -> Summary {
@@ -170,14 +169,9 @@ impl Job for Hard {
 }
 
 /// Writes a whole table.
-fn write_once<const N: usize>(
-    folder: &RunFolder,
-    name: &str,
-    columns: &[&str],
-    mut rows: impl Iterator<Item = [f64; N]>,
-) -> Result<(), RecordError> {
-    let mut series = Series::create(&folder.root().join(name), columns)?;
-    rows.try_for_each(|row| series.row(&row))?;
+fn write_once<S>(folder: &RunFolder, table: &'static Table<S>, rows: &[S]) -> Result<(), RecordError> {
+    let mut series = Series::create(&folder.root().join(table.file), &table.names())?;
+    rows.iter().try_for_each(|row| series.put(table.columns, row))?;
     series.sync()
 }
 

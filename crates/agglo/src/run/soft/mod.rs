@@ -1,7 +1,9 @@
 //! Runs of soft spheres: their tables, frames and figures.
 
-mod rows;
+mod now;
+pub(super) mod panels;
 mod summary;
+mod tables;
 mod together;
 
 #[cfg(test)]
@@ -17,19 +19,18 @@ pub use summary::{Clusters, EnergyFigures, PulseFigures, SoftSummary};
 
 use serde::{Deserialize, Serialize};
 
-use crate::contact::bond::Break;
-use crate::contact::network::BondEvent;
 use crate::engine::soft::{Clock, RestWatch, Simulation, SimulationState};
 use crate::engine::{SimError, Start};
 use crate::folder::RunFolder;
-use crate::record::{Cell, RecordError};
+use crate::record::{RecordError, columns};
 use crate::scenario::Scenario;
 
 use super::frames::Frames;
 use super::job::{AnySaved, Job, Saved};
 use super::summary::Summary;
-use super::tables::{Layout, Tables};
+use super::tables::Tables;
 use super::timers::Moment;
+use now::Now;
 use together::Together;
 
 /// All that a run of soft spheres needs to go on.
@@ -71,7 +72,7 @@ impl Soft {
 impl Job for Soft {
     type State<'a> = SoftState<'a>;
 
-    const TABLES: Layout = rows::TABLES;
+    const TABLES: columns::Tables = tables::TABLES;
 
     fn start(scenario: &Scenario, start: Start, watch: &mut RestWatch<'_>) -> Result<Self, SimError> {
         let simulation = Simulation::start_watched(scenario, start, watch)?;
@@ -129,12 +130,13 @@ impl Job for Soft {
         self.simulation.events.clear();
     }
 
-    fn record_events(&mut self, tables: &mut Tables) -> Result<(), RecordError> {
-        self.simulation.events.drain(..).try_for_each(|event| write_event(tables, &event))
+    fn record_events(&mut self, to: &mut Tables) -> Result<(), RecordError> {
+        self.simulation.events.drain(..).try_for_each(|event| to.put(&tables::EVENTS, &event))
     }
 
-    fn record_rows(&mut self, tables: &mut Tables) -> Result<(), RecordError> {
-        tables.rows(rows::rows(&self.simulation, self.cluster_gap, &self.start))
+    fn record_rows(&mut self, to: &mut Tables) -> Result<(), RecordError> {
+        let now = Now::of(&self.simulation, self.cluster_gap, &self.start);
+        tables::OVER_TIME.into_iter().try_for_each(|table| to.put(table, &now))
     }
 
     fn record_frame(&self, frames: &mut Frames) -> Result<(), RecordError> {
@@ -160,17 +162,6 @@ impl Job for Soft {
         let (title, seed) = (&scenario.title, scenario.seed);
         Summary::Soft(Box::new(SoftSummary::new(title, seed, &self.simulation, clusters, wall_s)))
     }
-}
-
-fn write_event(tables: &mut Tables, event: &BondEvent) -> Result<(), RecordError> {
-    let what = match event.broke {
-        None => "made",
-        Some(Break::Tension) => "broken_in_tension",
-        Some(Break::Shear) => "broken_in_shear",
-    };
-    let [i, j] = event.ids.map(|id| Cell::Count(u64::from(id)));
-    let (time, energy) = (Cell::Number(event.time), Cell::Number(event.energy));
-    tables.cells(rows::EVENTS_TABLE, &[time, i, j, Cell::Word(what), energy])
 }
 
 /// What happens now, in words.

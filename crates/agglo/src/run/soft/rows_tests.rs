@@ -3,6 +3,7 @@
 use super::distinct::*;
 use super::*;
 use crate::acoustics::PulseCount;
+use crate::contact::bond::Break;
 use crate::contact::network::BondEvent;
 use crate::math::Vec3;
 use crate::run::distinct::{assert_table, tables};

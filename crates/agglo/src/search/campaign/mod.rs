@@ -6,6 +6,7 @@
 
 mod archive;
 mod clock;
+mod columns;
 mod conduct;
 mod confirm;
 mod course;
@@ -20,6 +21,9 @@ mod verbs;
 mod watch;
 
 pub use archive::{Evaluation, Stage, Status};
+/// The tables of a campaign, with what is told of the columns that all campaigns have.
+pub use columns::TABLES;
+pub(crate) use columns::is_taken;
 pub use conduct::conduct;
 pub use course::{Ask, Closing, Course, Polish, Results};
 pub use error::CampaignError;

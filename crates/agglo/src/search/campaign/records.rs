@@ -1,10 +1,13 @@
-//! What is written of each evaluation: the columns of all tables are here.
+//! What is written of each evaluation, as the columns of [`super::columns`] have it.
 
 use std::path::Path;
 
 use super::archive::{Archive, Evaluation, Stage, Status};
+use super::columns::{BEST, BestRow, EVALUATIONS, FAILURES, Failure, GENERATIONS, GenerationRow, RUNS};
+use super::columns::{Standing, StartRow};
 use super::tables::Table;
 use crate::record::RecordError;
+use crate::record::columns::{Cell, Declared};
 use crate::search::Axis;
 
 /// The tables that grow while a campaign goes on.
@@ -51,10 +54,6 @@ fn cost_names(objectives: usize) -> Vec<String> {
     }
 }
 
-fn words(words: &[&str]) -> impl Iterator<Item = String> {
-    words.iter().map(|word| (*word).to_owned())
-}
-
 impl Records {
     /// Begins the tables in the campaign's folder.
     ///
@@ -66,39 +65,17 @@ impl Records {
         objectives: usize,
         columns: &[String],
     ) -> Result<Self, RecordError> {
-        let names = cost_names(objectives);
-        let errors = names.iter().map(|name| format!("{name}_standard_error"));
-        let parameter_names = parameters.iter().map(Axis::column);
-        let evaluations =
-            words(&["evaluation", "generation", "stage", "status", "starts", "repeats", "violation"])
-                .chain(names.iter().cloned())
-                .chain(errors)
-                .chain(parameter_names)
-                .chain(columns.iter().cloned());
-        let runs =
-            words(&["evaluation", "start", "seed"]).chain(names.clone()).chain(columns.iter().cloned());
-        let generations = [
-            "generation",
-            "stage",
-            "evaluations",
-            "runs",
-            "failures",
-            "excluded",
-            "cost_lowest",
-            "cost_mean",
-            "best_evaluation",
-            "best_cost",
-            "best_cost_standard_error",
-            "best_violation",
-            "infeasible",
-        ];
+        let costs = cost_names(objectives);
+        let errors = costs.iter().map(|name| format!("{name}_standard_error"));
+        let of_candidates = costs.iter().cloned().chain(errors).chain(parameters.iter().map(Axis::column));
+        let begin = |table: &dyn Declared, more: Vec<String>| Table::begin(folder, table, &more);
         Ok(Self {
             parameters: parameters.to_vec(),
             objectives,
-            evaluations: Table::create(&folder.join("evaluations.csv"), evaluations)?,
-            runs: Table::create(&folder.join("runs.csv"), runs)?,
-            generations: Table::create(&folder.join("generations.csv"), generations)?,
-            failures: Table::create(&folder.join("failures.csv"), ["evaluation", "start", "seed", "reason"])?,
+            evaluations: begin(&EVALUATIONS, of_candidates.chain(columns.iter().cloned()).collect())?,
+            runs: begin(&RUNS, costs.iter().chain(columns).cloned().collect())?,
+            generations: begin(&GENERATIONS, Vec::new())?,
+            failures: begin(&FAILURES, Vec::new())?,
         })
     }
 
@@ -107,22 +84,16 @@ impl Records {
     /// # Errors
     /// [`RecordError::File`].
     pub fn evaluation(&mut self, evaluation: &Evaluation, columns: usize) -> Result<(), RecordError> {
-        let (fitness, figures) = (&evaluation.fitness, evaluation.mean_figures());
-        let errors = evaluation.standard_errors();
-        let table = &mut self.evaluations;
-        table.count(evaluation.number);
-        table.count(evaluation.generation);
-        table.word(evaluation.stage.word());
-        table.word(evaluation.status.word());
-        table.count(u64::from(evaluation.starts));
-        table.count(evaluation.repeats);
-        table.number(fitness.violation.is_finite().then_some(fitness.violation));
-        for known in [&fitness.costs, &errors] {
-            (0..self.objectives).for_each(|k| table.number(finite(known.get(k).copied())));
+        let (figures, errors) = (evaluation.mean_figures(), evaluation.standard_errors());
+        let known = |figures: &[f64], k: usize| number(figures.get(k).copied());
+        let mut more = Vec::new();
+        for of_it in [&evaluation.fitness.costs, &errors] {
+            more.extend((0..self.objectives).map(|k| known(of_it, k)));
         }
-        parameters(table, &self.parameters, &evaluation.candidate.values);
-        (0..columns).for_each(|k| table.number(finite(figures.get(k).copied())));
-        table.end_row()
+        let values = parameters(&self.parameters, &evaluation.candidate.values);
+        more.extend(values.iter().map(Value::cell));
+        more.extend((0..columns).map(|k| known(&figures, k)));
+        self.evaluations.put(EVALUATIONS.columns, evaluation, more)
     }
 
     /// Writes a start that counts.
@@ -130,13 +101,10 @@ impl Records {
     /// # Errors
     /// [`RecordError::File`].
     pub fn start(&mut self, evaluation: u64, start: &Start<'_>) -> Result<(), RecordError> {
-        let table = &mut self.runs;
-        table.count(evaluation);
-        table.count(u64::from(start.number));
-        table.count(start.seed);
-        start.costs.iter().take(self.objectives).for_each(|cost| table.number(*cost));
-        start.figures.iter().for_each(|figure| table.number(finite(Some(*figure))));
-        table.end_row()
+        let costs = start.costs.iter().take(self.objectives).map(|cost| Cell::Number(*cost));
+        let figures = start.figures.iter().map(|figure| number(Some(*figure)));
+        let row = StartRow { evaluation, start: start.number, seed: start.seed };
+        self.runs.put(RUNS.columns, &row, costs.chain(figures))
     }
 
     /// Writes a failure.
@@ -150,11 +118,8 @@ impl Records {
         seed: u64,
         reason: &str,
     ) -> Result<(), RecordError> {
-        self.failures.count(evaluation);
-        self.failures.count(u64::from(start));
-        self.failures.count(seed);
-        self.failures.word(reason);
-        self.failures.end_row()
+        let failure = Failure { run: StartRow { evaluation, start, seed }, reason: reason.to_owned() };
+        self.failures.put(FAILURES.columns, &failure, [])
     }
 
     /// Writes what the archive holds after a generation, of which the last `count` evaluations are.
@@ -171,21 +136,16 @@ impl Records {
         // Costs of those that miss a limit are no costs to be had.
         let kept = of_it.iter().filter(|one| one.status == Status::Ok && self.objectives > 0);
         let costs: Vec<f64> = kept.filter_map(|one| one.fitness.costs.first().copied()).collect();
-        let table = &mut self.generations;
-        table.count(generation);
-        table.word(stage.word());
-        for sum in [archive.evaluations.len() as u64, archive.runs, archive.failures, archive.excluded] {
-            table.count(sum);
-        }
-        table.number(costs.iter().copied().reduce(f64::min));
-        table.number((!costs.is_empty()).then(|| costs.iter().sum::<f64>() / costs.len() as f64));
-        let best = archive.best().filter(|_| self.objectives > 0);
-        table.count(best.map(|best| best.number));
-        table.number(best.map(|best| best.fitness.cost()));
-        table.number(best.and_then(error_of));
-        table.number(best.map(|best| best.fitness.violation));
-        table.count(archive.infeasible);
-        table.end_row()
+        let mean = (!costs.is_empty()).then(|| costs.iter().sum::<f64>() / costs.len() as f64);
+        let Archive { runs, failures, excluded, infeasible, .. } = archive;
+        let row = GenerationRow {
+            generation,
+            stage: stage.word(),
+            sums: [archive.evaluations.len() as u64, *runs, *failures, *excluded, *infeasible],
+            costs: [costs.iter().copied().reduce(f64::min), mean],
+            best: archive.best().filter(|_| self.objectives > 0).map(Standing::of),
+        };
+        self.generations.put(GENERATIONS.columns, &row, [])
     }
 
     /// Hands all rows to the operating system.
@@ -202,69 +162,52 @@ impl Records {
     /// # Errors
     /// [`RecordError::File`].
     pub fn best(&self, folder: &Path, ranked: &[Ranked<'_>]) -> Result<(), RecordError> {
-        let fixed = [
-            "rank",
-            "evaluation",
-            "cost",
-            "cost_standard_error",
-            "starts",
-            "violation",
-            "search_evaluation",
-            "search_cost",
-            "search_cost_standard_error",
-            "search_starts",
-            "final_evaluation",
-            "final_cost",
-            "final_cost_standard_error",
-            "final_starts",
-            "final_violation",
-        ];
-        let columns = words(&fixed).chain(self.parameters.iter().map(Axis::column));
-        let mut table = Table::create(&folder.join("best.csv"), columns)?;
+        let names: Vec<String> = self.parameters.iter().map(Axis::column).collect();
+        let mut table = Table::begin(folder, &BEST, &names)?;
         for (rank, Ranked { evaluation, search, last }) in (1..).zip(ranked) {
-            let starts = |one: &Evaluation| u64::from(one.starts);
-            let violation = |one: &Evaluation| finite(Some(one.fitness.violation));
-            table.count(rank);
-            table.count(evaluation.number);
-            cost_with_error(&mut table, Some(evaluation));
-            table.count(starts(evaluation));
-            table.number(violation(evaluation));
-            table.count(search.map(|search| search.number));
-            cost_with_error(&mut table, *search);
-            table.count(search.map(starts));
-            table.count(last.map(|last| last.number));
-            cost_with_error(&mut table, *last);
-            table.count(last.map(starts));
-            table.number(last.and_then(violation));
-            parameters(&mut table, &self.parameters, &evaluation.candidate.values);
-            table.end_row()?;
+            let row = BestRow {
+                rank,
+                evaluation: Standing::of(evaluation),
+                search: search.map(Standing::of),
+                last: last.map(Standing::of),
+            };
+            let values = parameters(&self.parameters, &evaluation.candidate.values);
+            table.put(BEST.columns, &row, values.iter().map(Value::cell))?;
         }
         table.flush()
     }
 }
 
-fn cost_with_error(table: &mut Table, evaluation: Option<&Evaluation>) {
-    table.number(evaluation.and_then(|evaluation| evaluation.fitness.costs.first().copied()));
-    table.number(evaluation.and_then(error_of));
-}
-
 /// The standard error of its first cost; nothing from a single start, of which none is known.
 pub(super) fn error_of(evaluation: &Evaluation) -> Option<f64> {
-    finite(evaluation.standard_errors().first().copied())
+    evaluation.standard_errors().first().copied().filter(|error| error.is_finite())
 }
 
-fn finite(number: Option<f64>) -> Option<f64> {
-    number.filter(|number| number.is_finite())
+/// A number as far as it is one.
+fn number(value: Option<f64>) -> Cell<'static> {
+    value.filter(|value| value.is_finite()).map_or(Cell::Unknown, Cell::Number)
 }
 
-fn parameters(table: &mut Table, axes: &[Axis], values: &[f64]) {
-    for (axis, value) in axes.iter().zip(values) {
-        if axis.is_numeric() {
-            table.number(axis.number(*value));
-        } else {
-            table.word(&axis.label(*value));
+/// The value of a parameter.
+enum Value {
+    Number(f64),
+    Word(String),
+}
+
+impl Value {
+    fn cell(&self) -> Cell<'_> {
+        match self {
+            Self::Number(value) => Cell::Number(*value),
+            Self::Word(word) => Cell::Word(word),
         }
     }
+}
+
+fn parameters(axes: &[Axis], values: &[f64]) -> Vec<Value> {
+    let value = |(axis, value): (&Axis, &f64)| {
+        if axis.is_numeric() { Value::Number(axis.number(*value)) } else { Value::Word(axis.label(*value)) }
+    };
+    axes.iter().zip(values).map(value).collect()
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use std::path::Path;
 use super::{Campaign, Constraint, Limit};
 use crate::math::formula;
 use crate::scenario::Fault;
+use crate::search::campaign::is_taken as is_taken_by_tables;
 use crate::search::optimizer::Method;
 use crate::search::{Axis, Model, Problem, Until, columns};
 use crate::text::readable;
@@ -238,24 +239,6 @@ fn word_of(method: &Method) -> String {
     tree.as_object().and_then(|table| table.keys().next().cloned()).unwrap_or_default()
 }
 
-/// Columns that tables have besides those of parameters and figures.
-const OF_TABLES: [&str; 14] = [
-    "evaluation",
-    "generation",
-    "stage",
-    "status",
-    "starts",
-    "start",
-    "seed",
-    "repeats",
-    "violation",
-    "cost",
-    "cost_1",
-    "cost_2",
-    "rank",
-    "target",
-];
-
 /// A parameter's column, which has its unit in its name, must be the only one of that name in the tables.
 fn table_columns(problem: &Problem) -> Vec<Fault> {
     let axes: Vec<String> = problem.axes().iter().map(Axis::column).collect();
@@ -263,7 +246,7 @@ fn table_columns(problem: &Problem) -> Vec<Fault> {
         let column = &axes[at];
         let is_an_error = ["_standard_error", "_standard_deviation"].iter().any(|end| column.ends_with(end));
         let is_searched = column.starts_with("search_") || column.starts_with("final_");
-        OF_TABLES.contains(&column.as_str())
+        is_taken_by_tables(column)
             || is_an_error
             || is_searched
             || problem.columns().contains(column)
