@@ -40,13 +40,13 @@ pub(super) fn estimate(plan: &mut Plan, scenario: &Scenario, gas: &Gas, tried: O
             None
         }
         Some((tried, Summary::Hard(summary))) if tried.is_finished => {
-            (plan.impacts, plan.steps) = (summary.impacts as f64, Some(summary.steps as f64));
+            (plan.impacts, plan.steps) = (summary.counts.impacts as f64, Some(summary.run.steps as f64));
             plan.seconds = Some(tried.start_s + tried.quiet.all.wall_s);
-            Some((summary.grains_end as f64, ""))
+            Some((summary.growth.grains_end as f64, ""))
         }
         Some((tried, Summary::Hard(summary))) => {
             let part = means(scenario, gas, grains, tried.time).unwrap_or_default();
-            carry_on(plan, end, tried, summary.impacts, [&found, &part]);
+            carry_on(plan, end, tried, summary.counts.impacts, [&found, &part]);
             reckoned
         }
         _ => reckoned,

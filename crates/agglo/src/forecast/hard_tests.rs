@@ -249,7 +249,7 @@ fn a_short_run_is_known_by_running_it() {
     let Ending::Finished(Summary::Hard(run)) = quiet(&scenario, Path::new(""), &stop).unwrap() else {
         panic!()
     };
-    assert_eq!((plan.impacts, plan.steps), (run.impacts as f64, Some(run.steps as f64)));
+    assert_eq!((plan.impacts, plan.steps), (run.counts.impacts as f64, Some(run.run.steps as f64)));
     assert_some!(plan.disk);
     assert_some!(plan.seconds);
 }

@@ -84,29 +84,29 @@ fn hard(summary: &HardSummary) -> String {
     let mut words: Vec<String> = (part > limit).then(|| unexplained(part, limit)).into_iter().collect();
     words.push(format!(
         "{} moved for {} and met {} times: {}, {} and {}.",
-        grains(summary.grains_start),
-        time(summary.time_s),
-        summary.impacts,
-        counted(summary.bounces, "bounce"),
-        counted(summary.merges, "merge"),
-        counted(summary.fragmentations, "breakage"),
+        grains(summary.growth.grains_start),
+        time(summary.run.time_s),
+        summary.counts.impacts,
+        counted(summary.counts.bounces, "bounce"),
+        counted(summary.counts.merges, "merge"),
+        counted(summary.counts.fragmentations, "breakage"),
     ));
     words.push(format!(
         "{} are left, in the mean {:.3} times as large as at the start.",
-        grains(summary.grains_end),
-        summary.radius_ratio
+        grains(summary.growth.grains_end),
+        summary.growth.radius_ratio
     ));
-    if summary.largest_primaries > 1 {
+    if summary.growth.largest_primaries > 1 {
         words.push(format!(
             "The largest holds {} of the first grains, {} of the mass.",
-            summary.largest_primaries,
-            percent(summary.largest_fraction)
+            summary.growth.largest_primaries,
+            percent(summary.growth.largest_fraction)
         ));
     }
     words.push(format!(
         "Their mean temperature is {} (the hottest has {}).",
-        readable(summary.temperature_mean, "K"),
-        readable(summary.temperature_highest, "K")
+        readable(summary.motion.temperature_mean, "K"),
+        readable(summary.motion.temperature_highest, "K")
     ));
     words.push(drift(summary.energy.drift_relative));
     words.join(" ")

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::run::{Clusters, PulseFigures};
+use crate::run::{CountFigures, GrowthFigures, MotionFigures, RunFigures};
 
 #[test]
 fn a_run_of_soft_spheres_is_told_with_its_own_figures() {
@@ -40,22 +41,30 @@ fn a_run_of_soft_spheres_is_told_with_its_own_figures() {
 #[test]
 fn a_run_of_hard_spheres_is_told_with_its_own_figures() {
     let mut summary = HardSummary {
-        grains: 7,
-        grains_start: 9,
-        grains_end: 7,
-        time_s: 2.0,
-        impacts: 100,
-        bounces: 61,
-        merges: 1,
-        fragmentations: 8,
-        radius_ratio: 1.25,
-        n_f: 1.953,
-        largest_radius_ratio: 1.5,
-        largest_primaries: 3,
-        largest_fraction: 0.375,
-        temperature_mean: 310.0,
-        temperature_lowest: 290.0,
-        temperature_highest: 420.0,
+        run: RunFigures { grains: 7, time_s: 2.0, ..RunFigures::default() },
+        growth: GrowthFigures {
+            grains_start: 9,
+            grains_end: 7,
+            radius_ratio: 1.25,
+            n_f: 1.953,
+            largest_radius_ratio: 1.5,
+            largest_primaries: 3,
+            largest_fraction: 0.375,
+            ..GrowthFigures::default()
+        },
+        counts: CountFigures {
+            impacts: 100,
+            bounces: 61,
+            merges: 1,
+            fragmentations: 8,
+            ..CountFigures::default()
+        },
+        motion: MotionFigures {
+            temperature_mean: 310.0,
+            temperature_lowest: 290.0,
+            temperature_highest: 420.0,
+            ..MotionFigures::default()
+        },
         ..HardSummary::default()
     };
     summary.energy.drift_relative = -2e-5;

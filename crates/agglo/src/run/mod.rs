@@ -29,7 +29,7 @@ use std::time::Instant;
 pub use error::RunError;
 #[cfg(feature = "report")]
 pub(crate) use hard::tables::FALSE_HEAT;
-pub use hard::{Growth, HardSummary};
+pub use hard::{CountFigures, Growth, GrowthFigures, HardSummary, MotionFigures, RunFigures, ScaleFigures};
 pub(crate) use origin::Origin;
 pub use quiet::quiet;
 pub(crate) use rehearsal::{Rehearsal, Stretches, rehearse};

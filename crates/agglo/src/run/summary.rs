@@ -51,7 +51,7 @@ impl Summary {
     pub fn version(&self) -> &str {
         match self {
             Self::Soft(summary) => &summary.version,
-            Self::Hard(summary) => &summary.version,
+            Self::Hard(summary) => &summary.run.version,
         }
     }
 
@@ -59,7 +59,7 @@ impl Summary {
     pub(super) fn that_went_on(mut self, ends_before: &[f64]) -> Self {
         let kept = match &mut self {
             Self::Soft(summary) => &mut summary.went_on_from_s,
-            Self::Hard(summary) => &mut summary.went_on_from_s,
+            Self::Hard(summary) => &mut summary.run.went_on_from_s,
         };
         ends_before.clone_into(kept);
         self
@@ -69,7 +69,7 @@ impl Summary {
     pub fn table(&self) -> Vec<(String, String)> {
         let (mut rows, ends) = match self {
             Self::Soft(summary) => (summary.table(), &summary.went_on_from_s),
-            Self::Hard(summary) => (summary.table(), &summary.went_on_from_s),
+            Self::Hard(summary) => (summary.table(), &summary.run.went_on_from_s),
         };
         if !ends.is_empty() {
             // Below the simulated time.

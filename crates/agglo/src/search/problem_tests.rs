@@ -135,7 +135,7 @@ fn figures_are_those_of_the_summary() {
         panic!("it fails")
     };
     let run::Summary::Hard(summary) = summary else { panic!("these are hard spheres") };
-    assert_eq!(figures[..2], [summary.growth_deficit, summary.energy.stored.kinetic]);
+    assert_eq!(figures[..2], [summary.growth.growth_deficit, summary.energy.stored.kinetic]);
     assert!(figures[2].is_nan(), "no thermal conductivity, no Biot number");
 
     let (_, problem) = self::problem(&text("biot_number"));

@@ -321,8 +321,12 @@ fn figures_of_hard_spheres_stand_under_their_keys() {
     for (key, due) in [("grains", 3.0), ("impacts_guarded", 5.0)] {
         assert_eq!(tree[key].as_f64(), Some(due), "summary.json: {key}: found on the left, due on the right");
     }
-    assert_eq!((summary.biot_number, summary.steps_are.as_str()), (None, "steps"), "nothing cools");
-    assert_eq!((summary.title.as_str(), summary.threads), ("distinct", rayon::current_num_threads()));
+    assert_eq!(
+        (summary.scales.biot_number, summary.run.steps_are.as_str()),
+        (None, "steps"),
+        "nothing cools"
+    );
+    assert_eq!((summary.run.title.as_str(), summary.run.threads), ("distinct", rayon::current_num_threads()));
     // Warnings of laws are no figures of the state.
     tree["warnings"].as_object_mut().unwrap().retain(|text, _| ["one", "two"].contains(&text.as_str()));
     assert_figures("summary.json", &tree, &wanted, &["threads", "grains", "impacts_guarded"], ROUND_OFF);

@@ -1,5 +1,6 @@
 //! Runs of hard spheres: their tables, frames and figures.
 
+mod figures;
 mod growth;
 mod now;
 pub(super) mod panels;
@@ -7,6 +8,7 @@ mod scales;
 mod summary;
 pub(super) mod tables;
 
+pub use figures::{CountFigures, GrowthFigures, MotionFigures, RunFigures, ScaleFigures};
 pub use growth::Growth;
 pub use summary::HardSummary;
 

@@ -81,9 +81,12 @@ fn ratios_of_the_summary() {
         let mut job = Hard::start(&scenario, grains.into(), &mut |_| ControlFlow::Continue(())).unwrap();
         advance_to(&mut job, scenario.time.end.si());
         let Summary::Hard(found) = job.summary(&scenario, 0.0) else { panic!("of hard spheres") };
-        assert_eq!(found.events_per_impact, Some(found.steps as f64 / found.impacts as f64));
-        assert_near!(found.largest_radius_ratio, found.largest_radius_m / 0.4e-3, 1e-12);
-        assert_near!(found.radius_ratio, found.mean_radius_m / 0.4e-3, 1e-12);
+        assert_eq!(
+            found.counts.events_per_impact,
+            Some(found.run.steps as f64 / found.counts.impacts as f64)
+        );
+        assert_near!(found.growth.largest_radius_ratio, found.growth.largest_radius_m / 0.4e-3, 1e-12);
+        assert_near!(found.growth.radius_ratio, found.growth.mean_radius_m / 0.4e-3, 1e-12);
         assert_eq!(found.table().iter().any(|(label, _)| label == "false heat"), is_false);
         // Sums over some hundred impacts.
         assert_below!(found.energy.drift_relative.abs(), 1e-13);
