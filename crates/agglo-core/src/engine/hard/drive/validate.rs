@@ -62,7 +62,7 @@ impl EventsState<'_> {
             let partner = next_event.partner == NONE
                 || spheres.bulk.get(next_event.partner as usize).is_some_and(Bulk::lives);
             let images = next_event.image.iter().all(|image| (-2..=2).contains(image));
-            let exit = next_event.exit.axis < 3 && next_event.exit.side.abs() <= 1;
+            let exit = next_event.exit.axis < 3 && (-1..=1).contains(&next_event.exit.side);
             let times = next_event.collision >= self.filed.moment && next_event.crossing >= self.filed.moment;
             ensure(inside && partner && images && exit && times && next_event.id == bulk.id, || {
                 format!("the next_event of grain {} is none", bulk.id)
