@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds the guide as a book that opens without a network: target/guide/index.html. A warning is an error.
 #
-# Needs Python 3.11 or later; what else it needs goes into target/venv.
+# Needs Python 3.11 or later, and cargo: the program prints the pages of the laws. What else it needs goes into target/venv.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 

@@ -5,10 +5,9 @@ of docs/README.md is a part of the book, and the first link in each row of its t
 """
 
 import re
+import subprocess
 import tomllib
 from pathlib import Path
-
-from latex2mathml.converter import convert as mathml
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -56,34 +55,11 @@ def add_contents(_app, page, source):
             source[0] += f"\n```{{toctree}}\n:hidden:\n:caption: {heading}\n\n{listed}\n```\n"
 
 
-def formulas(text):
-    """LaTeX as MathML, which browsers draw themselves; drawing it with a script would take one from a network."""
-    whole = re.compile(r"\$\$(.*?)\$\$ *(?:\((.*?)\))? *$", re.DOTALL | re.MULTILINE)
-    text = whole.sub(lambda found: f"\n{mathml(found[1].strip(), display='block')}\n\n{found[2] or ''}\n", text)
-    return re.sub(r"\$([^$\n]+)\$", lambda found: mathml(found[1]), text)
-
-
-def law_page(name, folder, file):
-    """A law's page, as `agglo explain` prints it: the comment at the head of its file."""
-    lines = (ROOT / f"crates/agglo-core/src/{folder}/{file}.rs").read_text().splitlines()
-    head = [line.removeprefix("//!").removeprefix(" ") for line in lines if line.startswith("//!")]
-    parts = re.split(r"(^```.*?^```$)", "\n".join(head), flags=re.DOTALL | re.MULTILINE)
-    for at in range(0, len(parts), 2):
-        # The text between blocks: links into the code lead nowhere here, headings are those of a part of a page.
-        text = re.sub(r"\[(`[^`]+`)\](?:\([^)]*\))?", r"\1", parts[at])
-        parts[at] = formulas(re.sub(r"^# (.*)$", r"**\1**\n", text, flags=re.MULTILINE))
-    # An example without a language is Rust, for the compiler as for the reader.
-    blocks = [f"```rust{block[3:]}" if block.startswith("```\n") else block for block in parts]
-    return f"\n## {name}\n\n{''.join(blocks)}\n"
-
-
 def add_law_pages(_app, page, source):
-    """Gives the list of all laws their pages."""
-    if page != "docs/laws":
-        return
-    pages = (ROOT / "crates/agglo-core/src/pages/mod.rs").read_text()
-    for name, folder, file in re.findall(r'^    "(\w+)" "([\w/]+)" "(\w+)" \[', pages, flags=re.MULTILINE):
-        source[0] += law_page(name, folder, file)
+    """Gives the list of all laws their pages, which the program prints as they stand at the heads of the laws' files."""
+    if page == "docs/laws":
+        command = ["cargo", "run", "--quiet", "--locked", "-p", "agglo-cli", "--", "list-laws", "--pages"]
+        source[0] += "\n" + subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout
 
 
 def lead_to_first_page(app, error):

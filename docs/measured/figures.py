@@ -70,8 +70,9 @@ def blank(found):
 
 @functools.cache
 def page_text(name):
-    """The page with blocks of code, targets of links and comments blanked out."""
+    """The page with blocks of code, targets of links, comments and tables that the program makes blanked out."""
     text = page_path(name).read_text()
+    text = re.sub(r"^<!-- made: .*?^<!-- end -->", blank, text, flags=re.DOTALL | re.MULTILINE)
     text = re.sub(r"^```.*?^```", blank, text, flags=re.DOTALL | re.MULTILINE)
     return re.sub(r"(?<=\])\([^)\s]*\)|<!--.*?-->", blank, text, flags=re.DOTALL)
 

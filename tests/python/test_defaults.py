@@ -1,7 +1,6 @@
-"""Every key and every default on the pages of scenarios and searches is that of the program.
+"""What a run fills in for keys that its file leaves out is what the schema says, and with it the tables of the guide.
 
-Needs `pytest` from PyPI, and cargo. The schema's defaults are made by the functions that fill in what a file leaves out, so
-that a default that changes in the code no longer agrees with its page.
+Needs `pytest` from PyPI, and cargo.
 """
 
 import json
@@ -14,25 +13,6 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 
-# Defaults that the page gives in words: the schema has none, and the code works them out.
-IN_WORDS = {
-    "1/20 of the run",
-    "1/200 of the run",
-    "1/40 of the run",
-    "1e-4 radii",
-    "2(1-ν)/(2-ν)",
-    "all pairs",
-    "all",
-    "as always",
-    "as static",
-    "at rest",
-    "follows the grains",
-    "never",
-    "the group's",
-    "the law's",
-    "the origin",
-    "worked out",
-}
 UNITS = {
     "": 1.0,
     "nm": 1e-9,
@@ -43,8 +23,6 @@ UNITS = {
     "ms": 1e-3,
     "mPa s": 1e-3,
 }
-# Keys without which a material behaves as with this figure, which stands where the law asks for it and not in the schema.
-WORKED_OUT = {"materials.NAME.activation_energy": "0 J/mol", "materials.NAME.emissivity": "0"}
 NOTHING = object()
 
 
@@ -91,11 +69,6 @@ class Schema:
             node = found[0]
         return found
 
-    def names(self):
-        """Names of all keys anywhere."""
-        nodes = [self.root, *self.root["$defs"].values()]
-        return {name for node in nodes for name in self.keys(node)} - {"NAME", "0"}
-
 
 @pytest.fixture(scope="module")
 def agglo(built):
@@ -108,169 +81,6 @@ def agglo(built):
 @pytest.fixture(scope="module")
 def schema(agglo):
     return Schema(json.loads(agglo("schema").stdout))
-
-
-@pytest.fixture(scope="module")
-def search_schema(agglo):
-    return Schema(json.loads(agglo("schema", "--search").stdout))
-
-
-def tables(page):
-    """The tables of a page: heading above, names of the columns, rows."""
-    heading, lines = "", (ROOT / "docs" / page).read_text().splitlines() + [""]
-    head, rows = None, []
-    for line in lines:
-        if line.startswith("|"):
-            cells = [cell.strip() for cell in line.strip("|").split("|")]
-            if head is None:
-                head = cells
-            elif not set(line) <= set("|-"):
-                rows.append(cells)
-            continue
-        if head is not None:
-            yield heading, head, rows
-        head, rows = None, []
-        if line.startswith("#"):
-            heading = line.lstrip("# ")
-
-
-def words(cell):
-    return re.findall(r"`([^`]+)`", cell)
-
-
-def where(heading):
-    """The path that a heading is about."""
-    found = re.findall(r"`\[*([\w.]+)\]*`", heading)
-    return found[0].split(".*")[0] if found else ""
-
-
-def documented(page):
-    """Paths of keys on a page with the defaults that it gives."""
-    for heading, head, rows in tables(page):
-        if "default" not in head:
-            continue
-        at = head.index("default")
-        of = words(head[0]) if head[0].startswith("key of") else []
-        base = where(heading)
-        if heading == "Top level":
-            base = ""
-        elif head[0] == "key of a beam":
-            base = "acoustics.beams.0"
-        elif base.startswith(("engine.", "bonds.")):
-            base = f"{base.split('.')[0]}.{of[0]}"
-        elif of:
-            base = f"{base}.{of[0]}"
-        elif heading == "`[[grains]]`":
-            base = "grains.0"
-        elif heading == "`[[mixtures]]`":
-            base = "mixtures.0"
-        table = base
-        for row in rows:
-            if head[0] == "table":
-                named = words(row[0])
-                if named:
-                    name = named[0].strip("[]")
-                    table = f"impact.restitution.hardness.{name}" if name == "solver.fixed_point" else name
-                keys = words(row[1])
-            else:
-                keys = words(row[0])
-            for key in keys:
-                if "." in key and "[" in key or key.strip("[]") != key:
-                    continue
-                path = f"{table}.{key}" if table else key
-                yield path.replace("start.from.from", "start.from"), row[at]
-
-
-def agrees(text, is_required, default):
-    """Whether a default in words or figures is what the schema has."""
-    if text == "-":
-        return is_required
-    if is_required:
-        return False
-    if text in IN_WORDS or text.split(":")[0] == "none":
-        return default in (NOTHING, None, [])
-    if text in ("true", "false"):
-        return default is (text == "true")
-    if text.startswith("`"):
-        return default == text.strip('`"')
-    wanted, found = number(text), default if isinstance(default, list) else [default]
-    return wanted is not None and all(number(value) == pytest.approx(wanted, rel=1e-12) for value in found)
-
-
-def test_defaults_of_scenarios(schema):
-    all_keys = list(documented("scenario.md"))
-    wrong = []
-    for path, text in all_keys:
-        if "." not in path:
-            # Whole tables have their keys elsewhere.
-            continue
-        _, is_required, default = schema.find(path)
-        if path in WORKED_OUT and text == WORKED_OUT[path] and default in (NOTHING, None):
-            continue
-        if not agrees(text, is_required, default):
-            found = "no default" if default is NOTHING else json.dumps(default)
-            wrong.append(f"{path}: the page says {text}, the program {'wants it' if is_required else found}")
-    assert not wrong, "docs/scenario.md:\n" + "\n".join(wrong)
-    assert len(all_keys) > 130, f"{len(all_keys)} keys were found on the page"
-
-
-def test_defaults_in_words_of_placement_and_sizes(schema):
-    """`key` (unit, default) in the tables of words."""
-    bases = {"placement": "grains.0.placement", "velocity_spread": "grains.0.velocity_spread", "size": "grains.0.size"}
-    count = 0
-    for heading, head, rows in tables("scenario.md"):
-        base = bases.get(heading.strip("`"))
-        if not base or head[0] != "word":
-            continue
-        for row in rows:
-            word = words(row[0])[0]
-            for key, told in re.findall(r"`(\w+)` \(([^)]*)\)", row[1]):
-                text = told.split(", ")[-1]
-                if text not in ("false", "true") and number(text) is None and text not in IN_WORDS:
-                    continue
-                _, is_required, default = schema.find(f"{base}.{word}.{key}")
-                assert agrees(text, is_required, default), f"{word}.{key}: the page says {text}, found {default}"
-                count += 1
-    assert count >= 5, f"{count} defaults in words"
-
-
-def test_every_key_of_scenarios_is_on_the_page(schema):
-    # Fences of examples are no pairs of back quotes.
-    page = re.sub(r"```.*?```", "", (ROOT / "docs/scenario.md").read_text(), flags=re.DOTALL)
-    told = {name for word in words(page) for name in re.findall(r"\w+", word)}
-    missing = sorted(schema.names() - told)
-    assert not missing, f"docs/scenario.md does not tell of {', '.join(missing)}"
-
-
-def test_defaults_of_searches(search_schema):
-    """The table of keys in docs/search.md has every key with a default, and no others."""
-    wrong, told = [], set()
-    for heading, head, rows in tables("search.md"):
-        if head[:3] != ["table", "key", "default"]:
-            continue
-        table = ""
-        for row in rows:
-            table = (words(row[0]) or [table])[0].strip("[]")
-            for key in words(row[1]):
-                path = f"{table}.{key}" if table else key
-                told.add(path)
-                _, is_required, default = search_schema.find(path)
-                if not agrees(row[2], is_required, default):
-                    wrong.append(f"{path}: the page says {row[2]}, the program {default}")
-    assert not wrong, "docs/search.md:\n" + "\n".join(wrong)
-    places = ["ensemble", "confirm", "polish"]
-    for family in ("method", "plan", "ensemble.until"):
-        below = search_schema.keys(search_schema.find(family)[0])
-        places += [f"{family}.{word}" for word in below]
-    wanted = {
-        f"{place}.{key}"
-        for place in places
-        for key, (_, _, default) in search_schema.keys(search_schema.find(place)[0]).items()
-        if default not in (NOTHING, None, [], False) and not isinstance(default, dict)
-    }
-    # The simplex that polishes has the keys of the method.
-    missing = {path for path in wanted - told if not path.startswith("polish.")}
-    assert not missing, f"docs/search.md does not tell of {', '.join(sorted(missing))}"
 
 
 SCENARIO = """

@@ -198,9 +198,3 @@ def test_the_check_itself_can_fail():
     assert list(commands("$ one\nsaid\n$ two \\\n  more\n")) == [("one", ["said"]), ("two \\\n  more", [])]
     found = list(blocks("<!-- file: a.toml -->\n```toml\nx = 1\n```\n\n<!-- exit 2 -->\n```console\n$ no\n```\n"))
     assert found == [(["file: a.toml"], "toml", "x = 1\n"), (["exit 2"], "console", "$ no\n")]
-
-
-def test_the_page_of_all_laws_is_what_the_program_lists(program):
-    listed = subprocess.run([program, "list-laws", "--markdown"], capture_output=True, text=True, check=True).stdout
-    page = (ROOT / "docs/laws.md").read_text()
-    assert listed.strip() in page, "docs/laws.md is not what `agglo list-laws --markdown` prints: put it right"

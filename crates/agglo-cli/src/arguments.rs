@@ -32,12 +32,12 @@ pub(crate) enum Verb {
         #[arg(long, value_name = "FOLDER")]
         from: Option<PathBuf>,
     },
-    /// Print the page of a law, or the list of all laws
+    /// Print the page of a law or method, or a key with its unit and default; without a word the list of all pages
     Explain {
-        /// The law's word in a scenario, such as hertz
-        law: Option<String>,
+        /// A word or a path of keys: hertz, cma_es, hamaker, contact.normal
+        word: Option<String>,
     },
-    /// List all laws: words, equations, sources, engines
+    /// List all laws, methods and plans: words, equations, sources
     ListLaws(ListForm),
     /// Print the completions of a shell
     Completions {
@@ -137,6 +137,9 @@ pub(crate) struct ListForm {
     /// As JSON
     #[arg(long)]
     pub json: bool,
+    /// The whole pages one after another, in Markdown
+    #[arg(long)]
+    pub pages: bool,
 }
 
 /// What to run, search or study.

@@ -1,6 +1,6 @@
-//! The list of all laws. It is read off the laws' pages, so that there is no second one to keep.
+//! The list of all laws, methods and plans. It is read off the laws' pages, so that there is no second one to keep.
 
-use agglo::pages::{PAGES, Page};
+use agglo::pages::{Page, all, chapters, markdown};
 
 use crate::arguments::ListForm;
 use crate::{Failure, print};
@@ -8,10 +8,14 @@ use crate::{Failure, print};
 /// Prints the list.
 pub(crate) fn list(form: ListForm) -> Result<(), Failure> {
     if form.json {
-        let laws: Vec<serde_json::Value> = PAGES.iter().map(as_json).collect();
+        let laws: Vec<serde_json::Value> = all().map(as_json).collect();
         return print(&format!("{:#}", serde_json::Value::from(laws)));
     }
-    print(&if form.markdown { markdown() } else { plain() })
+    print(&match form {
+        ListForm { markdown: true, .. } => markdown(),
+        ListForm { pages: true, .. } => chapters(),
+        _ => plain(),
+    })
 }
 
 fn equations(page: &Page) -> String {
@@ -28,40 +32,25 @@ fn energy(page: &Page) -> &'static str {
 
 /// Two lines a law, by folders of the code; the page's other words on a third.
 fn plain() -> String {
-    let mut lines = vec![row(["word", "engine", "energy", "equations"], "what it is")];
+    let mut lines = vec![row(["word", "for", "energy", "equations"], "what it is")];
     let mut group = "";
-    for page in PAGES {
+    for page in all() {
         if page.group != group {
             group = page.group;
             lines.push(format!("\n{group}"));
         }
-        let words = [page.name, page.engine().word(), energy(page), &equations(page)];
+        let words = [page.name, page.scope().word(), energy(page), &equations(page)];
         lines.push(row(words, page.title()));
-        lines.push(format!("  {:<15}{}", "", source(page)));
+        lines.push(format!("  {:<18}{}", "", source(page)));
         if !page.words.is_empty() {
-            lines.push(format!("  {:<15}with {}", "", page.words.join(", ")));
+            lines.push(format!("  {:<18}with {}", "", page.words.join(", ")));
         }
     }
     lines.join("\n")
 }
 
-fn row([word, engine, energy, equations]: [&str; 4], what: &str) -> String {
-    format!("  {word:<15}{engine:<8}{energy:<8}{equations:<30}{what}")
-}
-
-fn markdown() -> String {
-    let mut lines = vec![
-        "| word | also explains | what it is | equations | source | energy | engine |".to_owned(),
-        "|---|---|---|---|---|---|---|".to_owned(),
-    ];
-    for page in PAGES {
-        let also: Vec<String> = page.words.iter().map(|word| format!("`{word}`")).collect();
-        let (name, also, what) = (page.name, also.join(", "), page.title());
-        let (labels, source) = (equations(page), source(page));
-        let (energy, engine) = (energy(page), page.engine().word());
-        lines.push(format!("| `{name}` | {also} | {what} | {labels} | {source} | {energy} | {engine} |"));
-    }
-    lines.join("\n")
+fn row([word, scope, energy, equations]: [&str; 4], what: &str) -> String {
+    format!("  {word:<18}{scope:<8}{energy:<8}{equations:<30}{what}")
 }
 
 fn as_json(page: &Page) -> serde_json::Value {
@@ -73,6 +62,6 @@ fn as_json(page: &Page) -> serde_json::Value {
         "equations": page.labels(),
         "source": page.reference(),
         "offers_energy": page.offers_energy(),
-        "engine": page.engine().word(),
+        "for": page.scope().word(),
     })
 }

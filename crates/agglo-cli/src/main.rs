@@ -83,7 +83,7 @@ fn act(verb: Verb) -> Result<(), Failure> {
     match verb {
         Verb::New { template } => new(&template),
         Verb::Check { scenario, settings, from } => check(&scenario, settings, from.as_deref()),
-        Verb::Explain { law } => explain::explain(law.as_deref()),
+        Verb::Explain { word } => explain::explain(word.as_deref()),
         Verb::ListLaws(form) => laws::list(form),
         Verb::Completions { shell } => manuals::completions(shell),
         Verb::Man { output } => manuals::man(output.as_deref()),

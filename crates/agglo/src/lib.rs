@@ -8,8 +8,8 @@ extern crate agglo_testing;
 
 #[doc(inline)]
 pub use agglo_core::{
-    acoustics, constants, contact, domain, engine, fields, impact, math, measure, neighbors, pages,
-    particles, text, units,
+    acoustics, constants, contact, domain, engine, fields, impact, math, measure, neighbors, particles, text,
+    units,
 };
 
 pub mod packing;
@@ -23,6 +23,8 @@ pub mod run;
 pub mod scenario;
 
 pub mod search;
+
+pub mod pages;
 
 pub mod plot;
 #[cfg(feature = "render")]

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use agglo::pages::PAGES;
+use agglo::pages::all;
 use agglo::scenario::TEMPLATES;
 use agglo::search::Campaign;
 
@@ -35,7 +35,7 @@ fn every_shipped_scenario_passes_its_check_with_a_plan() {
 #[test]
 fn every_law_has_a_page() {
     let list = said(&ended(agglo(&["explain"]), 0));
-    for page in PAGES {
+    for page in all() {
         assert!(list.contains(page.name), "no {} in {list}", page.name);
         for word in page.words.iter().chain([&page.name]) {
             let text = said(&ended(agglo(&["explain", word]), 0));

@@ -1,8 +1,10 @@
 //! Beams and their rays: a disc of parallel rays, turned, moved and scaled to its power ([A] section 3, Fig. 4).
 //!
 //! # Equation
-//! $$ I = \frac{p^2 A}{\rho c}, \qquad I_q = I \frac{w_q}{\sum w}, \qquad a_r = \frac{A}{N_r} $$ (A11)
-//! with A = pi r² of the disc, w = 1 (uniform) or exp(-2 s²/w0²) at the distance s from its middle (Gaussian).
+//! ```text
+//! I = p² A/(ρ c),   I_q = I w_q/(sum of w),   a_r = A/N_r                                    A11
+//! ```
+//! with A = π r² of the disc, w = 1 (uniform) or exp(-2 s²/w0²) at the distance s from its middle (Gaussian).
 //!
 //! # Source
 //! T. I. Zohdi, Comput. Mech. 57, 465 (2016), section 3.1, remark 3, and section 3.2. Sunflower: H. Vogel, Math.
@@ -13,7 +15,7 @@
 //! |--------|-----------------------|--------|------------------------------------------|
 //! | I      | [`Beam::power`]       | W      | power of one pulse                       |
 //! | p      | `Strength::Pressure`  | Pa     | pressure of the pulse                    |
-//! | rho c  | `Medium::impedance`   | Pa s/m | impedance of the medium                  |
+//! | ρ c    | `Medium::impedance`   | Pa s/m | impedance of the medium                  |
 //! | I_q    | `RayStart::power`     | W      | power of one ray                         |
 //! | a_r    | [`Beam::ray_area`]    | m²     | the disc's area over the number of rays  |
 //! | w0     | `Gaussian::waist`     | m      | radius of 1/e² of the middle's intensity |
@@ -22,8 +24,21 @@
 //! The wave is plane across a grain. Rays hold where k a is large ([`super::Medium::wavenumber_radius`]).
 //!
 //! # Compared with others
-//! The paper calls I an energy of 7.06e13 J, "roughly" 150 MPa traveling at 1500 m/s over the beam's pi m²; that product
+//! The paper calls I an energy of 7.06e13 J, "roughly" 150 MPa traveling at 1500 m/s over the beam's π m²; that product
 //! is 7.07e11, a hundredth of it. Its force ([A] 6) needs a power: 150 MPa over a disc of radius 1 m in water is 4.7e10 W.
+//!
+//! # In a scenario
+//! ```toml
+//! [[acoustics.beams]]
+//! start = ["-1 cm", "0 m", "0 m"]
+//! direction = [1.0, 0.0, 0.0]
+//! radius = "5 mm"
+//! rays = 1000
+//! strength.power = "1 kW"
+//! pattern = "sunflower"
+//! profile.gaussian.waist = "3 mm"
+//! pulses = { first = "0 s", period = "100 us", count = 3 }
+//! ```
 //!
 //! # Example
 //! ```
@@ -53,7 +68,7 @@ use crate::units::{Frequency, Length, Power, Pressure, Time, Triple, vector};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Beam {
-    /// Middle of the disc in which the rays start.
+    /// Middle of the disc in which the rays start, outside all grains.
     pub start: Triple<Length>,
     /// Direction in which they fly.
     pub direction: [f64; 3],

@@ -1,8 +1,9 @@
 //! Where rays end when no region is given: behind the ball about the grains, out of reach of all of them.
 //!
 //! # Equation
-//! $$ s_x = s_0 + \begin{cases} \sqrt{R^2 - b^2} & b \le R\sqrt{1-\beta^2} \\
-//!    (R - b\sqrt{1-\beta^2})/\beta & \text{else} \end{cases}, \qquad \beta = 0.1 + w/c $$ (A14)
+//! ```text
+//! s_x = s_0 + √(R² - b²) where b <= R √(1 - β²),   else s_0 + (R - b √(1 - β²))/β,   β = 0.1 + w/c    A14
+//! ```
 //! A ray that comes to the way s_x along its straight segment has left for good. The distance of a point of its line from
 //! the ball's middle is √(b² + (s-s_0)²). A grain that starts anywhere in the ball when the ray is at s is at most
 //! R + β (s' - s) from the middle when it is at s'. The first s from which the one stays above the other for all s' > s, and
@@ -29,6 +30,13 @@
 //! # Compared with others
 //! A region that stays while grains spread drops rays in the middle of the cloud: in the paper's sample problem pulses 3 and 4
 //! then count 833 and 14 reflections instead of thousands. A ray that passes the grains by ends at once.
+//!
+//! # In a scenario
+//! ```toml
+//! # No key chooses it: it acts where `region` is left out.
+//! [acoustics]
+//! bounces = 10000000
+//! ```
 //!
 //! # Example
 //! ```

@@ -9,13 +9,13 @@ use crate::units::{Density, Velocity, Viscosity};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Medium {
-    /// Density.
+    /// Density; 0 is allowed where there is no sound and no buoyancy.
     #[serde(default = "water_density")]
     pub density: Density,
     /// Speed of sound.
     #[serde(default = "water_sound_speed")]
     pub sound_speed: Velocity,
-    /// Dynamic viscosity.
+    /// Dynamic viscosity; drag needs it above 0.
     #[serde(default = "water_viscosity")]
     pub viscosity: Viscosity,
 }

@@ -1,11 +1,13 @@
 //! How a ray pushes the grain that it hits.
 //!
 //! # Equation
-//! $$ |F| = \sqrt{I (1 - \mathcal R)\, \rho_t c_t\, a_r} \quad\text{along the refracted ray} $$ ([A] 7)
-//! $$ F = \frac{I}{c_i} \left( d_{in} - \mathcal R\, d_{out} \right) $$ (A13, `radiation_pressure`)
+//! ```text
+//! impulse, published_step:  F = √(I (1 - ℛ) ρ_t c_t a_r) along the refracted ray                [A] 7
+//! radiation_pressure:       F = (I/c_i)(d_in - ℛ d_out)                                        A13
+//! ```
 //!
 //! In a solid with a `shear_sound_speed` two waves enter: the first law adds up the same for each, with its own part of the
-//! power, its own impedance (rho_t c_t or rho_t c_s) and its own direction. So F²/(impedance a_r) summed over the two is
+//! power, its own impedance (ρ_t c_t or ρ_t c_s) and its own direction. So F²/(impedance a_r) summed over the two is
 //! the power that enters, as in the paper. The second law does not care what enters.
 //!
 //! The force acts at the point of impact: its torque about the grain's center is (r_contact - r_i) x F ([A] 18).
@@ -17,28 +19,34 @@
 //! | symbol       | name in code             | unit   | meaning                                |
 //! |--------------|--------------------------|--------|----------------------------------------|
 //! | I            | `Hit::power_in`          | W      | power of the ray that arrives          |
-//! | R            | `Hit::reflectance`       | 1      | part of it that is reflected           |
-//! | rho_t c_t    | `Impedance::sound`       | Pa s/m | impedance of the grain                 |
-//! | rho_t c_s    | `Impedance::shear`       | Pa s/m | the same of its shear waves            |
+//! | ℛ            | `Hit::reflectance`       | 1      | part of it that is reflected           |
+//! | ρ_t c_t      | `Impedance::sound`       | Pa s/m | impedance of the grain                 |
+//! | ρ_t c_s      | `Impedance::shear`       | Pa s/m | the same of its shear waves            |
 //! | a_r          | `Hit::ray_area`          | m²     | area of the ray in its beam            |
 //! | c_i          | `Medium::sound_speed`    | m/s    | speed of sound in the medium           |
 //! | d_in, d_out  | `Hit::direction_in/_out` | 1      | unit vectors before and after          |
-//! | xi           | `step_fraction`          | 1      | of [`PublishedStep`]                   |
+//! | ξ            | `step_fraction`          | 1      | of [`PublishedStep`]                   |
 //!
 //! # Valid when
 //! Rays hold (wavelength much smaller than the grain); nothing that enters the grain comes out.
 //!
 //! # Compared with others
 //! In the paper a hit presses for the one time step in which the ray lands, so its impulse shrinks with the step
-//! and the answer does not converge. [`Impulse`] presses for the duration of the pulse: an impulse F tau, whatever
-//! the step. [`PublishedStep`] presses for one step of xi R/c_i, the step that the paper advises. The paper calls
+//! and the answer does not converge. [`Impulse`] presses for the duration of the pulse: an impulse F τ, whatever
+//! the step. [`PublishedStep`] presses for one step of ξ R/c_i, the step that the paper advises. The paper calls
 //! I an energy [J], but only a power gives a force: sqrt(W · kg/(m² s) · m²) = sqrt(kg² m²/s⁴) = N.
 //!
-//! [A] 7 equates the power that enters with F²/(rho_t c_t a_r), force times velocity of the wave in the grain: it is
+//! [A] 7 equates the power that enters with F²/(ρ_t c_t a_r), force times velocity of the wave in the grain: it is
 //! the pressure amplitude of the wave, which changes its sign twice per period in a real wave, so it is not a
 //! mean push, and the ray's own momentum (I/c) does not account for it. [`RadiationPressure`] is that mean push: what
 //! the ray loses in momentum the grain gains. At normal incidence it is smaller by the factor
-//! v_t (1 + R)/(c_i (1 - R)), with v_t = F/(rho_t c_t a_r) the velocity of the wave in the grain.
+//! v_t (1 + ℛ)/(c_i (1 - ℛ)), with v_t = F/(ρ_t c_t a_r) the velocity of the wave in the grain.
+//!
+//! # In a scenario
+//! ```toml
+//! [acoustics.force.radiation_pressure]
+//! duration = "1 us"
+//! ```
 //!
 //! # Example
 //! ```
@@ -84,7 +92,7 @@ pub struct Impulse {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PublishedStep {
-    /// xi: part of a mean grain radius that a ray travels in one step.
+    /// ξ: part of a mean grain radius that a ray travels in one step; up to 1.
     #[serde(default = "default_xi")]
     pub step_fraction: f64,
 }

@@ -12,7 +12,7 @@ use crate::units::{Length, Triple, vector};
 pub struct Volume {
     /// Corner with the smallest coordinates.
     pub lower: Triple<Length>,
-    /// Corner with the largest coordinates.
+    /// Corner with the largest coordinates, above `lower` along each axis.
     pub upper: Triple<Length>,
     /// What its faces do.
     #[serde(default)]

@@ -3,8 +3,8 @@
 //! # Equation
 //! ```text
 //! F = 6 π η R φ (u - v) + (1 + C_a) m_f Du/Dt                                              [A] 30, A10
-//! φ = 1 (Stokes)   or   φ = 1 + 0.15 Re^0.687 (Schiller and Naumann),   Re = 2 R ρ |u - v|/η
-//! M = 8 π η R³ (∇ × u/2 - w)
+//! φ = 1 (Stokes)   or   φ = 1 + 0.15 Re^0.687 (Schiller and Naumann),   Re = 2 R ρ |u - v|/η  A10
+//! M = 8 π η R³ (∇ × u/2 - w)                                                               A10
 //! m_f = ρ (4/3) π R³,   m_added = C_a m_f,   Du/Dt = ∂u/∂t + (u · ∇) u
 //! ```
 //!
@@ -35,6 +35,18 @@
 //! liquid's own density does not follow the liquid. Drag is solved for (trapezoidal rule): no step is too long for it
 //! to stay stable, and the automatic step holds its decay to (S2) of `Pace`.
 //!
+//! # In a scenario
+//! ```toml
+//! [medium]
+//! density = "1000 kg/m3"
+//! viscosity = "1 mPa s"
+//!
+//! [fields.drag]
+//! law = "schiller_naumann"
+//! medium_velocity = ["0.1*z", "0 m/s", "0 m/s"]
+//! added_mass = 0.5
+//! ```
+//!
 //! # Example
 //! ```
 //! use agglo::{acoustics::Medium, fields::{Drag, DragLaw, FlowAt}, math::Vec3};
@@ -58,7 +70,8 @@ use crate::math::{Pace, Vec3};
 pub struct Drag {
     /// The law.
     pub law: DragLaw,
-    /// Velocity of the medium; at rest if left out.
+    /// Velocity of the medium, as quantities or formulas; at rest if left out. Where it changes in time or along
+    /// the way, grains feel the liquid's acceleration, and its vorticity turns them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub medium_velocity: Option<FlowField>,
     /// Part of the displaced mass that moves with a grain (1/2 for a sphere in an ideal fluid).

@@ -20,6 +20,13 @@
 //! # Compared with others
 //! Most DEM codes leave buoyancy to the user; here it is one word.
 //!
+//! # In a scenario
+//! ```toml
+//! [fields.gravity]
+//! acceleration = ["0 m/s2", "0 m/s2", "-9.81 m/s2"]
+//! buoyancy = true
+//! ```
+//!
 //! # Example
 //! ```
 //! use agglo::fields::Gravity;

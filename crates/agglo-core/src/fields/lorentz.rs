@@ -24,6 +24,13 @@
 //! `efield` and, for B, user code in LAMMPS. The rotation about B is solved for (trapezoidal rule), as J. P. Boris'
 //! pusher does: it keeps the speed whatever the step. The automatic step resolves the period 2 π m/(q B).
 //!
+//! # In a scenario
+//! ```toml
+//! [fields.lorentz]
+//! electric_field = ["1 kV/m", "0 V/m", "0 V/m"]
+//! magnetic_flux_density = ["0 T", "0 T", "0.1*sin(2*pi*50*t)"]
+//! ```
+//!
 //! # Example
 //! ```
 //! use agglo::{fields::{Expression, Lorentz}, math::Vec3};
@@ -44,10 +51,10 @@ use crate::math::{Pace, Vec3};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Lorentz {
-    /// E; none if left out.
+    /// E, as quantities or formulas; one of the two must be given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub electric_field: Option<FieldVector<1, 1, -3, 0, -1>>,
-    /// B; none if left out.
+    /// B, as quantities or formulas.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub magnetic_flux_density: Option<FieldVector<1, 0, -2, 0, -1>>,
 }

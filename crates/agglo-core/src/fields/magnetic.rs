@@ -22,6 +22,13 @@
 //! # Compared with others
 //! γ is the same for all grains, as in the paper: it does not grow with their volume.
 //!
+//! # In a scenario
+//! ```toml
+//! [fields.magnetic]
+//! magnetizability = "1e-8 J/T^2"
+//! magnetic_flux_density = ["0 T", "0 T", "0.1 + 2*z"]
+//! ```
+//!
 //! # Example
 //! ```
 //! use agglo::{fields::{Expression, Magnetic}, math::Vec3, units::Quantity};
@@ -45,7 +52,7 @@ use crate::units::{Length, Magnetizability};
 pub struct Magnetic {
     /// gamma.
     pub magnetizability: Magnetizability,
-    /// B.
+    /// B, as quantities or formulas.
     pub magnetic_flux_density: FieldVector<1, 0, -2, 0, -1>,
     /// Distance over which the gradient is taken; a ten-thousandth of a grain's radius if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -25,6 +25,16 @@
 //! Hertz's area goes with the overlap and so with v^(4/5); here it depends on the speed through e alone. Laws of
 //! restitution without areas, `constant` and those of pairs of materials, use a0 = 0 and af = 1.
 //!
+//! # In a scenario
+//! ```toml
+//! [materials.grain]
+//! hardness = "1 MPa"
+//!
+//! [impact.restitution.hardness]
+//! elastic_area = 0.1
+//! sticking_area = 1.0
+//! ```
+//!
 //! # Example
 //! ```
 //! use agglo::impact::contact_area::ContactArea;

@@ -24,6 +24,16 @@
 //! # Compared with others
 //! Hertz's contact time goes with v^(-1/5). This one is the time to come to rest within β b, whatever the stiffness.
 //!
+//! # In a scenario
+//! ```toml
+//! [materials.grain]
+//! hardness = "1 MPa"
+//!
+//! [impact.restitution.hardness]
+//! deformation = 1.0
+//! force_over = "impact"
+//! ```
+//!
 //! # Example
 //! ```
 //! use agglo::impact::contact_time::durations;

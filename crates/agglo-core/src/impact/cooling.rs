@@ -31,6 +31,18 @@
 //! [B] 6.21 is one explicit Euler step. From the 1e9 K that the paper's reactions give it lands below zero for any step longer
 //! than C/(σ ε a_s T³), far below its shortest step. Then the temperature is held at the colder of surroundings and gas.
 //!
+//! # In a scenario
+//! ```toml
+//! [materials.grain]
+//! heat_capacity = "1000 J/(kg K)"
+//! emissivity = 0.8
+//!
+//! [impact.cooling]
+//! convection = "100 W/(m^2 K)"
+//! gas_temperature = "300 K"
+//! surroundings = "300 K"
+//! ```
+//!
 //! # Example
 //! ```
 //! use agglo::impact::{Cooling, cooling::Cooler};
@@ -55,10 +67,10 @@ pub struct Cooling {
     /// h: heat transfer coefficient.
     #[serde(default)]
     pub convection: HeatTransfer,
-    /// T0: temperature of the gas.
+    /// T0: temperature of the gas, for convection.
     #[serde(default = "room_temperature")]
     pub gas_temperature: Temperature,
-    /// Ts: temperature of the surroundings, far away.
+    /// Ts: temperature of the surroundings, far away, for radiation.
     #[serde(default = "room_temperature")]
     pub surroundings: Temperature,
     /// How it is integrated.

@@ -33,6 +33,16 @@
 //! observer; as printed it grows with the speed of the whole cloud. [B] 5.4 calls b = b0/2 two fragments; it is eight. So
 //! 5.5, b0 = 4 γ/(H af β), is the size where sticking and breaking into eight need the same speed; for two it is 0.26 of it.
 //!
+//! # In a scenario
+//! ```toml
+//! [materials.grain]
+//! surface_energy = "10 J/m^2"
+//!
+//! [impact.fragmentation]
+//! energy = "center_of_mass"
+//! fragments.power_law.exponent = 1.5
+//! ```
+//!
 //! # Example
 //! ```
 //! use agglo::impact::fragmentation::{fragments, surface};

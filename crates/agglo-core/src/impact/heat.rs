@@ -32,6 +32,17 @@
 //! even cool. Where it would cool to zero or below, the partner keeps its temperature, nothing is booked for it, and
 //! the impact counts as not converged. The consistent balance is the same for every observer and makes no energy.
 //!
+//! # In a scenario
+//! ```toml
+//! [materials.grain]
+//! heat_capacity = "1000 J/(kg K)"
+//! reaction_heat = "1e5 J/m^2"
+//!
+//! [impact.heat]
+//! balance = "energy"
+//! share = "mass"
+//! ```
+//!
 //! # Example
 //! ```
 //! use agglo::impact::heat::{Share, parts};

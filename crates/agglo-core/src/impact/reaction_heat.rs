@@ -22,6 +22,13 @@
 //! [B] has one material; the mean of two is ours, so that a pair of one material has its own α. In the consistent balance
 //! the pair shares δH; [B] 6.8 gives all of it to each partner. Its α of 1e13 J/m² and more heats grains to 1e9 K.
 //!
+//! # In a scenario
+//! ```toml
+//! [materials.grain]
+//! heat_capacity = "1000 J/(kg K)"
+//! reaction_heat = "1e5 J/m^2"
+//! ```
+//!
 //! # Example
 //! ```
 //! use agglo::impact::reaction_heat::{of_pair, reaction_heat};

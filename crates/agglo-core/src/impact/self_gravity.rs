@@ -23,6 +23,15 @@
 //! # Compared with others
 //! For ρ = 2000 kg/m³ and H = 1 MPa it is 73 km.
 //!
+//! # In a scenario
+//! ```toml
+//! # It is no law to choose: `agglo check` tells the size where restitution follows from hardness.
+//! [materials.grain]
+//! hardness = "1 MPa"
+//!
+//! [impact.restitution.hardness]
+//! ```
+//!
 //! # Example
 //! ```
 //! use agglo::impact::self_gravity::critical_radius;

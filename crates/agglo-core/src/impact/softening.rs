@@ -24,6 +24,16 @@
 //! [B] calls H0 the hardness at absolute zero; by the formula it is the limit for T → ∞, and H grows without bound
 //! as T goes to zero. At 300 K, Q = 1 kJ/mol gives H = 1.49 H0.
 //!
+//! # In a scenario
+//! ```toml
+//! [materials.grain]
+//! hardness = "1 MPa"
+//! activation_energy = "1 kJ/mol"
+//! heat_capacity = "1000 J/(kg K)"
+//!
+//! [impact.restitution.hardness]
+//! ```
+//!
 //! # Example
 //! ```
 //! use agglo::impact::softening::Hardness;

@@ -30,6 +30,12 @@
 //! `merge` is the paper's. `never` leaves two spheres which do not part along the normal, as in gases of sticky hard
 //! spheres. A pair that breaks does not merge.
 //!
+//! # In a scenario
+//! ```toml
+//! [impact]
+//! sticking = "merge"
+//! ```
+//!
 //! # Example
 //! ```
 //! use agglo::impact::{Body, sticking::merged};

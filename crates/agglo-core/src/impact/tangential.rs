@@ -26,6 +26,13 @@
 //! [B] prints no bound (`limit = "published"`): then friction can reverse the slip and, beyond twice the bound, add energy.
 //! The bound `no_slip` stops the slip at most. The paper's staggering box leaves out the masses that 4.17 has; they are here.
 //!
+//! # In a scenario
+//! ```toml
+//! [impact.tangential]
+//! friction = 0.01
+//! limit = "no_slip"
+//! ```
+//!
 //! # Example
 //! ```
 //! use agglo::impact::tangential::SlipLimit;
@@ -41,7 +48,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Tangential {
-    /// mu: tangential over normal impulse.
+    /// μ: tangential over normal impulse, 0 or more.
     pub friction: f64,
     /// What bounds the impulse.
     #[serde(default)]

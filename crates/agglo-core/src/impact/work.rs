@@ -31,6 +31,16 @@
 //! # Compared with others
 //! [B] 6.8 adds δW to the lost kinetic energy of each partner and so makes heat of nothing (`heat.balance = "published"`).
 //!
+//! # In a scenario
+//! ```toml
+//! [materials.grain]
+//! heat_capacity = "1000 J/(kg K)"
+//! reaction_heat = "1e5 J/m^2"
+//!
+//! [impact.heat]
+//! balance = "published"
+//! ```
+//!
 //! # Example
 //! ```
 //! use agglo::impact::restitution::hardness::ForceTime;

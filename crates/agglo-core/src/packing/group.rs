@@ -53,10 +53,10 @@ pub struct GrainGroup {
     /// How velocities scatter about that; not at all if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub velocity_spread: Option<VelocitySpread>,
-    /// Angular velocity of all.
+    /// Angular velocity of all; `"1 Hz"` and `"1 rad/s"` both mean 1 rad/s.
     #[serde(default)]
     pub spin: Triple<Frequency>,
-    /// Temperature of all.
+    /// Temperature of all: it sets the contact stiffness, or the hardness at the start.
     #[serde(default = "room_temperature")]
     pub temperature: Temperature,
     /// Electric charge of each.

@@ -34,11 +34,11 @@ pub enum Size {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LengthRatio {
-    /// L.
+    /// L: all have the radius L D/n^(1/3).
     pub ratio: f64,
-    /// D.
+    /// D: half the edge of the cubic box.
     pub half_edge: Length,
-    /// n.
+    /// n: the number of grains in it, which is the placement's.
     pub count: u32,
 }
 

@@ -1,40 +1,44 @@
-//! What the list of laws says of a law, read off its page: labels of its equations, its source, its engine.
+//! What the list of laws says of a law, read off its page: its equations and their labels, its source, what it is for.
 
 use super::Page;
 
-/// The kind of grains that a law is for.
+/// What a page is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Engine {
+pub enum Scope {
     /// Grains that overlap and feel forces: `verlet`, `staggered`.
     Soft,
     /// Grains that meet at instants: `event_driven`, `time_stepped`.
     Hard,
+    /// Searches and studies, whatever they vary.
+    Search,
 }
 
-impl Engine {
+impl Scope {
     /// Its word.
     pub fn word(self) -> &'static str {
         match self {
             Self::Soft => "soft",
             Self::Hard => "hard",
+            Self::Search => "search",
         }
     }
 }
 
 impl Page {
-    /// Whose law it is.
-    pub fn engine(&self) -> Engine {
-        if self.group.starts_with("impact") || self.group.starts_with("engine/hard") {
-            Engine::Hard
-        } else {
-            Engine::Soft
+    /// What it is about.
+    pub fn scope(&self) -> Scope {
+        let mut folders = self.group.split('/');
+        match folders.next() {
+            Some("search") => Scope::Search,
+            Some("impact") => Scope::Hard,
+            _ if folders.next() == Some("hard") => Scope::Hard,
+            _ => Scope::Soft,
         }
     }
 
     /// Labels of the law's equations, such as `[A] 70` or `A5`, in the order of the page.
     pub fn labels(&self) -> Vec<String> {
-        let text = self.text();
-        let equation = section(&text, "Equation").unwrap_or_default();
+        let equation = self.section("Equation").unwrap_or_default();
         let mut found: Vec<String> = Vec::new();
         for line in std::iter::once(self.title()).chain(equation.lines()) {
             for label in candidates(line).filter_map(labels_alone).flatten() {
@@ -46,19 +50,24 @@ impl Page {
         found
     }
 
+    /// Equations that stand on a line with their labels: the line without them, and the labels.
+    pub fn equations(&self) -> Vec<(String, String)> {
+        let equation = self.section("Equation").unwrap_or_default();
+        let labelled = |line: &str| {
+            let (equation, end) = line.rsplit_once("  ")?;
+            let labels = labels_alone(end).filter(|labels| !labels.is_empty())?;
+            let words: Vec<&str> = equation.split_whitespace().collect();
+            Some((words.join(" "), labels.join(", ")))
+        };
+        equation.lines().filter_map(labelled).collect()
+    }
+
     /// Who the law is from, on one line; none where the page has no such section.
     pub fn reference(&self) -> Option<String> {
-        let text = self.text();
-        let words: Vec<&str> = section(&text, "Source")?.split_whitespace().collect();
-        // Links of the code's documentation lead nowhere else.
-        Some(words.join(" ").replace("[`", "`").replace("`]", "`"))
+        let text = self.section("Source")?;
+        let words: Vec<&str> = text.split_whitespace().collect();
+        Some(words.join(" "))
     }
-}
-
-/// What stands below a heading of a page.
-fn section<'a>(text: &'a str, heading: &str) -> Option<&'a str> {
-    let (_, rest) = text.split_once(&format!("# {heading}\n"))?;
-    Some(rest.split("\n# ").next().unwrap_or(rest).trim())
 }
 
 /// Where labels stand in a line: within parentheses, or at the end after a gap.
@@ -91,19 +100,25 @@ fn is_number(text: &str) -> bool {
         && text.chars().all(|part| part.is_ascii_digit() || ".-".contains(part))
 }
 
-/// Whether this is a label of the project's own: a capital and a number from 1.
+/// Whether this is a label of the project's own: one or two capitals and a number from 1.
 fn is_own_label(text: &str) -> bool {
-    let number = text.strip_prefix(|first: char| first.is_ascii_uppercase()).unwrap_or("");
-    !number.starts_with('0') && number.parse::<u8>().is_ok()
+    let number = text.trim_start_matches(|first: char| first.is_ascii_uppercase());
+    (1..=2).contains(&(text.len() - number.len()))
+        && number.starts_with(|first: char| matches!(first, '1'..='9'))
+        && number.parse::<u8>().is_ok()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::{PAGES, explain};
+    use super::super::PAGES;
     use super::*;
 
+    fn page(word: &str) -> &'static Page {
+        PAGES.iter().find(|page| page.has(word)).unwrap()
+    }
+
     fn labels(word: &str) -> Vec<String> {
-        explain(word).unwrap().labels()
+        page(word).labels()
     }
 
     #[test]
@@ -121,10 +136,13 @@ mod tests {
     fn symbols_are_not_labels() {
         // A word of a scenario may stand beside labels; what only begins or ends like one may not.
         assert_eq!(labels_alone("[A] 7, `beam`"), Some(vec!["[A] 7".to_owned()]));
+        assert_eq!(labels_alone("SA1"), Some(vec!["SA1".to_owned()]));
         for text in ["[A] 7, `beam", "[A] 7, beam`", "[A] 7, beam", "[A] 7, ``"] {
             assert_eq!(labels_alone(text), None, "{text}");
         }
-        for symbol in ["T0", "T - T0", "A", "n+1", "H0 exp(Q", "2n", "", "B5 and more", "70"] {
+        for symbol in
+            ["T0", "T - T0", "A", "n+1", "H0 exp(Q", "2n", "", "B5 and more", "70", "ABC1", "5", "E+1", "T0"]
+        {
             assert!(labels_alone(symbol).is_none_or(|found| found.is_empty()), "{symbol}");
         }
     }
@@ -139,14 +157,14 @@ mod tests {
     }
 
     #[test]
-    fn engine_and_energy_are_those_of_the_code() {
-        assert_eq!(explain("hertz").map(Page::engine), Some(Engine::Soft));
-        assert_eq!(explain("fresnel").map(Page::engine), Some(Engine::Soft));
-        assert_eq!(explain("hardness").map(Page::engine), Some(Engine::Hard));
-        assert_eq!(explain("time_stepped").map(Page::engine), Some(Engine::Hard));
+    fn scope_and_energy_are_those_of_the_code() {
+        assert_eq!(page("hertz").scope(), Scope::Soft);
+        assert_eq!(page("fresnel").scope(), Scope::Soft);
+        assert_eq!(page("hardness").scope(), Scope::Hard);
+        assert_eq!(page("time_stepped").scope(), Scope::Hard);
         let with_energy = ["strain_power", "hertz", "hooke", "beam", "coulomb", "gravity"];
-        assert_all!(with_energy.iter(), |word| explain(word).unwrap().offers_energy());
+        assert_all!(with_energy.iter(), |word| page(word).offers_energy());
         let without = ["viscous_area", "restitution", "drag", "lorentz", "verlet", "fresnel", "sticking"];
-        assert_no!(without.iter(), |word| explain(word).unwrap().offers_energy());
+        assert_no!(without.iter(), |word| page(word).offers_energy());
     }
 }

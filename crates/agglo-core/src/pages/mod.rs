@@ -1,15 +1,17 @@
 //! The page of each law: the comment at the head of its file, so that page and code cannot drift apart.
 
 mod labels;
+mod sections;
 
-pub use labels::Engine;
+pub use labels::Scope;
+pub use sections::Fragment;
 
-/// A law's page.
+/// The page of a law, or of whatever else has a word of its own.
 #[derive(Clone, Copy, Debug)]
 pub struct Page {
-    /// The law's word in a scenario, and its file's name.
+    /// Its word in a scenario, and its file's name.
     pub name: &'static str,
-    /// The folder of the law.
+    /// The folder of its file.
     pub group: &'static str,
     /// Words of a scenario that the page explains besides its name.
     pub words: &'static [&'static str],
@@ -18,13 +20,13 @@ pub struct Page {
 
 macro_rules! pages {
     ($($name:literal $group:literal $file:literal [$($word:literal)*];)*) => {
-        /// All pages, in the order of the code.
-        pub const PAGES: &[Page] = &[$(Page {
-            name: $name,
-            group: $group,
-            words: &[$($word),*],
-            source: include_str!(concat!("../", $group, "/", $file, ".rs")),
-        }),*];
+        /// The pages of all laws, in the order of the code.
+        pub const PAGES: &[Page] = &[$(Page::new(
+            $name,
+            $group,
+            &[$($word),*],
+            include_str!(concat!("../", $group, "/", $file, ".rs")),
+        )),*];
     };
 }
 
@@ -70,7 +72,17 @@ pages! {
 }
 
 impl Page {
-    /// The first line: what the law is.
+    /// The page at the head of a file, which is `source`.
+    pub const fn new(
+        name: &'static str,
+        group: &'static str,
+        words: &'static [&'static str],
+        source: &'static str,
+    ) -> Self {
+        Self { name, group, words, source }
+    }
+
+    /// The first line: what it is.
     pub fn title(&self) -> &'static str {
         self.source.lines().next().unwrap_or("").trim_start_matches("//!").trim()
     }
@@ -80,16 +92,9 @@ impl Page {
         self.source.contains("pub fn energy(")
     }
 
-    /// The whole page as plain text with Markdown headings.
-    pub fn text(&self) -> String {
-        let lines = self.source.lines().map_while(|line| line.strip_prefix("//!"));
-        let page: Vec<&str> = lines.map(|line| line.strip_prefix(' ').unwrap_or(line)).collect();
-        page.join("\n")
+    /// Whether the page is that of a word; dashes count as underscores, capitals as small letters.
+    pub fn has(&self, word: &str) -> bool {
+        let word = word.to_lowercase().replace('-', "_");
+        self.name == word || self.words.contains(&word.as_str())
     }
-}
-
-/// The page of a law; dashes count as underscores, capitals as small letters.
-pub fn explain(word: &str) -> Option<&'static Page> {
-    let word = word.to_lowercase().replace('-', "_");
-    PAGES.iter().find(|page| page.name == word || page.words.contains(&word.as_str()))
 }

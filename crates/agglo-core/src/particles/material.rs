@@ -55,16 +55,17 @@ use crate::units::{Conductivity, Density, Energy, Pressure, SpecificHeat, Stiffn
 pub struct Material {
     /// Density.
     pub density: Density,
-    /// Speed of sound, for rays.
+    /// Speed of sound; `[acoustics]` needs it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sound_speed: Option<Velocity>,
-    /// Speed of shear waves, for rays; to them the material is a fluid if left out.
+    /// Speed of shear waves, for rays: solids are reflected from and pushed with both waves; below `sound_speed`
+    /// times √3/2. To sound the material is a fluid if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shear_sound_speed: Option<Velocity>,
-    /// Young's modulus, for Hertz contact.
+    /// Young's modulus, for `hertz`, and for `mindlin` without `stiffness_ratio`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub youngs_modulus: Option<Pressure>,
-    /// Poisson's ratio, for Hertz contact and Mindlin friction.
+    /// Poisson's ratio, for `hertz`, and for `mindlin` without `stiffness_ratio`; from 0 to 0.5.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub poisson_ratio: Option<f64>,
     /// Contact stiffness K, for `strain_power`.
@@ -73,25 +74,31 @@ pub struct Material {
     /// How heat softens the contact stiffness; not at all if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub softening: Option<Softening>,
-    /// Heat capacity C, for hard spheres that heat up.
+    /// Heat capacity C; `reaction_heat`, `activation_energy` and `[impact.cooling]` need it, and without it the
+    /// temperature stays.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub heat_capacity: Option<SpecificHeat>,
-    /// Hardness H0 in the limit of great heat, for restitution from hardness.
+    /// H0: hardness in the limit of great heat, for `impact.restitution.hardness`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hardness: Option<Pressure>,
-    /// Activation energy Q of softening by heat, per mole; 0 if left out: the hardness does not depend on temperature.
+    /// Q: activation energy of softening by heat, per mole, 0 or more; the hardness at T is H0 exp(Q/(R T)). 0 if
+    /// left out.
+    #[schemars(extend("x-unit" = "J/mol"))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub activation_energy: Option<Energy>,
-    /// Reaction heat per contact area, alpha; none if left out.
+    /// α: heat of reaction per contact area, 0 or more.
+    #[schemars(extend("x-unit" = "J/m^2"))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reaction_heat: Option<Stiffness>,
-    /// Surface energy gamma of fragments; the material does not break if left out.
+    /// γ: surface energy; `[impact.fragmentation]` needs it of one material at least. The material does not break
+    /// if left out.
+    #[schemars(extend("x-unit" = "J/m^2"))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub surface_energy: Option<Stiffness>,
-    /// Emissivity, from 0 to 1; 0 if left out.
+    /// Emissivity, for the radiation of `[impact.cooling]`; from 0 to 1, 0 if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub emissivity: Option<f64>,
-    /// Thermal conductivity, for the Biot number only.
+    /// Thermal conductivity, only for judging whether grains are at one temperature each (Biot number).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thermal_conductivity: Option<Conductivity>,
 }
@@ -100,11 +107,11 @@ pub struct Material {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Softening {
-    /// T*: the temperature at which the stiffness is K0.
+    /// T*: the temperature at which the stiffness is the one given.
     pub reference_temperature: Temperature,
-    /// a.
+    /// a, 0 or more.
     pub sensitivity: f64,
-    /// K_lim.
+    /// K_lim: it gets no softer than this.
     pub lowest_stiffness: Pressure,
 }
 
@@ -112,15 +119,16 @@ pub struct Softening {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Mixture {
-    /// The two materials' names.
+    /// Names of the two materials; a pair stands once.
     pub between: [String; 2],
-    /// Normal restitution.
+    /// Restitution, from 0 to 1, for `restitution` damping and for all impacts of hard spheres; the law's if left
+    /// out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub restitution: Option<f64>,
-    /// Static friction.
+    /// Static friction of soft spheres; the law's if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub static_friction: Option<f64>,
-    /// Dynamic friction.
+    /// Dynamic friction, not above the static one; for impacts of hard spheres the friction. The law's if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dynamic_friction: Option<f64>,
 }

@@ -3,12 +3,10 @@
 use toml::Value;
 
 use crate::impact::heat::Balance;
-use crate::pages::{PAGES, Page};
+use crate::pages::{self, Page};
 use crate::scenario::Scenario;
 use crate::search::optimizer::Method;
 use crate::search::{Campaign, Plan};
-
-const NELDER_MEAD: (&str, &str) = ("nelder_mead", include_str!("../search/optimizer/nelder_mead.rs"));
 
 /// A law that a scenario uses, and its source.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -60,34 +58,18 @@ fn in_full(source: &str) -> String {
 
 /// The methods of a search or study with their sources; none for those that have no source.
 pub fn methods(campaign: &Campaign) -> Vec<Citation> {
-    let polish = campaign.polish.as_ref().map(|_| NELDER_MEAD);
-    let method = campaign.method.as_ref().and_then(|method| match method {
-        Method::CmaEs(_) => Some(("cma_es", include_str!("../search/optimizer/cma_es.rs"))),
-        Method::Genetic(_) => Some(("genetic", include_str!("../search/optimizer/genetic.rs"))),
-        Method::PublishedGenetic(_) => {
-            Some(("published_genetic", include_str!("../search/optimizer/published_genetic.rs")))
-        }
-        Method::NelderMead(_) => Some(NELDER_MEAD),
-        Method::Sobol(_) => Some(("sobol", include_str!("../search/optimizer/sobol.rs"))),
-        Method::Random(_) => None,
-    });
-    let plan = campaign.plan.as_ref().and_then(|plan| match plan {
-        Plan::Morris(_) => Some(("morris", include_str!("../search/plan/morris.rs"))),
-        Plan::SobolIndices(_) => Some(("sobol_indices", include_str!("../search/plan/sobol_indices.rs"))),
-        Plan::Grid(_) | Plan::List(_) | Plan::Refinement(_) => None,
-    });
-    let mut pages: Vec<_> = method.into_iter().chain(polish).chain(plan).collect();
-    pages.dedup();
-    pages.into_iter().filter_map(|(name, code)| of_code(name, code)).collect()
+    let Campaign { method, polish, plan, .. } = campaign;
+    let words =
+        [method.as_ref().map(Method::word), polish.as_ref().map(|_| "polish"), plan.as_ref().map(Plan::word)];
+    let mut pages: Vec<&Page> = words.into_iter().flatten().filter_map(pages::page).collect();
+    pages.dedup_by_key(|page| page.name);
+    pages.into_iter().filter_map(citation).collect()
 }
 
-/// The first line and the source of a method's documentation.
-fn of_code(name: &'static str, code: &'static str) -> Option<Citation> {
-    let title = code.lines().next()?.trim_start_matches("//!").trim();
-    let (_, rest) = code.split_once("//! # Source\n")?;
-    let lines = rest.lines().map_while(|line| line.strip_prefix("//! "));
-    let source = lines.take_while(|line| !line.starts_with('#')).collect::<Vec<_>>().join(" ");
-    Some(Citation { law: name, title, source: in_full(&plain(&source)) })
+/// What a page says of where its law comes from; nothing where it comes from nowhere.
+fn citation(page: &'static Page) -> Option<Citation> {
+    let source = page.reference().filter(|source| !source.starts_with("None:"))?;
+    Some(Citation { law: page.name, title: page.title(), source: in_full(&plain(&source)) })
 }
 
 /// How to cite the program.
@@ -104,16 +86,9 @@ pub fn citations(scenario: &Scenario) -> Vec<Citation> {
     let mut always = laws_of_every_impact(scenario);
     // How much of a ray is reflected no key chooses.
     always.extend(scenario.acoustics.as_ref().map(|_| "fresnel"));
-    PAGES
-        .iter()
+    pages::all()
         .filter(|page| paths.iter().any(|path| names(path, page)) || always.contains(&page.name))
-        .filter_map(|page| {
-            Some(Citation {
-                law: page.name,
-                title: page.title(),
-                source: in_full(&plain(&page.reference()?)),
-            })
-        })
+        .filter_map(citation)
         .collect()
 }
 

@@ -6,8 +6,8 @@
 mod check;
 mod embedded;
 mod enums;
-mod explain;
 mod fault;
+mod key_list;
 mod keys;
 mod parse;
 mod scalars;
@@ -19,9 +19,9 @@ mod types;
 mod walk;
 
 pub(crate) use check::fault_of_cutoff;
-pub use explain::nearest_law;
 pub(crate) use fault::nearest;
 pub use fault::{Fault, Faults};
+pub use key_list::{Key, keys_of};
 pub(crate) use keys::{KeyKind, Keys};
 pub(crate) use parse::{Document, load, read};
 pub use parse::{LoadError, schema};

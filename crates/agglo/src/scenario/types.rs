@@ -27,17 +27,17 @@ pub struct Scenario {
     /// One line that says what it is.
     #[serde(default)]
     pub title: String,
-    /// Seed of all random numbers.
+    /// Seed of all random numbers: places, sizes, rays.
     #[serde(default = "one")]
     pub seed: u64,
     /// How long.
     pub time: TimeSpan,
-    /// How time is stepped.
+    /// How time is stepped, and with it whether grains are soft or hard spheres.
     pub engine: Engine,
-    /// Bounds on motion and overlap.
+    /// Bounds on motion and overlap; soft spheres only.
     #[serde(default)]
     pub limits: Limits,
-    /// The fluid around the grains.
+    /// The fluid around the grains; soft spheres only.
     #[serde(default)]
     pub medium: Medium,
     /// Materials by name.
@@ -51,22 +51,22 @@ pub struct Scenario {
     /// What happens before the clock starts.
     #[serde(default)]
     pub start: Start,
-    /// The control volume; hard spheres only.
+    /// The control volume; hard spheres only, which need it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub volume: Option<Volume>,
-    /// Laws of impact; hard spheres only.
+    /// Laws of impact; hard spheres only, which need them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub impact: Option<Impact>,
-    /// Laws of contact; soft spheres only. They pass through one another if left out.
+    /// Laws of contact; soft spheres only. Grains pass through one another if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact: Option<ContactLaws>,
-    /// What holds grains together; nothing if left out.
+    /// What holds grains together; soft spheres only. Nothing if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bonds: Option<Bonds>,
-    /// Fields.
+    /// Forces on single grains and at a distance; soft spheres only.
     #[serde(default)]
     pub fields: Fields,
-    /// Acoustic beams; none if left out.
+    /// Beams of sound; soft spheres only. None if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub acoustics: Option<Acoustics>,
     /// What is measured.
@@ -85,7 +85,7 @@ fn one() -> u64 {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TimeSpan {
-    /// Simulated time at the end.
+    /// Simulated time at the end, above 0.
     pub end: Time,
 }
 
@@ -106,7 +106,8 @@ pub struct Start {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Measures {
-    /// Grains whose surfaces are no farther apart than this part of the smaller radius belong to one cluster.
+    /// Grains whose surfaces are no farther apart than this part of the smaller radius belong to one cluster. With
+    /// 0, grains that are placed as touching are together or not by round-off.
     #[serde(default = "touching")]
     pub cluster_gap: f64,
 }

@@ -3,7 +3,7 @@
 //! # Equation
 //! ```text
 //! |m(E+1) - m(E)| <= TOL |m(E+1)|                                            [B] 8.1, `running_mean`
-//! t(level, E - 1) s(E) / √E <= h                                             `confidence`
+//! t(level, E - 1) s(E) / √E <= h                                             SA5, `confidence`
 //! ```
 //! m(E) and s(E) are the mean and the standard deviation of the costs of the first E starts. The rules are asked after
 //! each start in the order of the starts, and the first yes ends the candidate.
@@ -30,6 +30,13 @@
 //!
 //! # Compared with others
 //! [B] does not say with how many starts it begins; `least` = 2 is the least that the rule can be asked with.
+//!
+//! # In a campaign
+//! ```toml
+//! [ensemble]
+//! common_random_numbers = true
+//! until.confidence = { half_width = 0.01, level = 0.95, most = 50 }
+//! ```
 //!
 //! # Example
 //! ```

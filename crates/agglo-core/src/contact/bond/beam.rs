@@ -39,6 +39,15 @@
 //! As the parallel bond of PFC; the tension is kept in total form, not summed up step by step, and the beam
 //! coefficient of moments in the strength is one. Dashpots act on top and do not break the bond.
 //!
+//! # In a scenario
+//! ```toml
+//! [bonds.beam]
+//! youngs_modulus = "1 GPa"
+//! tensile_strength = "1 MPa"
+//! shear_strength = "1 MPa"
+//! gap = 0.01
+//! ```
+//!
 //! # Example
 //! ```
 //! use agglo::contact::bond::{Beam, BeamPair};

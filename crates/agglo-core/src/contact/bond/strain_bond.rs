@@ -2,8 +2,8 @@
 //!
 //! # Equation
 //! ```text
-//! E >= E*:  F_i = K_nb E^pb A n   and   K_rb |v_t| A Δt τ                                  [A] 25, 26
-//! U(δ) = -∫ K_nb E^pb A dδ from δ* = E* (R_i + R_j) to δ
+//! ℰ >= ℰ*:  F_i = K_nb ℰ^pb A n   and   K_rb |v_t| A Δt τ                                  [A] 25, 26
+//! U(δ) = -∫ K_nb ℰ^pb A dδ from δ* = ℰ* (R_i + R_j) to δ
 //! ```
 //!
 //! # Source
@@ -15,8 +15,8 @@
 //! | K_nb   | `stiffness`            | Pa   | normal bonding constant                            |
 //! | p_b    | `exponent`             | -    | power of the strain                                |
 //! | K_rb   | `tangential_stiffness` | Pa/m | tangential bonding constant                        |
-//! | E*     | `threshold_strain`     | -    | overlap strain from which the bond acts            |
-//! | E      | `touch.strain()`       | -    | overlap over the sum of the radii                  |
+//! | ℰ*     | `threshold_strain`     | -    | overlap strain from which the bond acts            |
+//! | ℰ      | `touch.strain()`       | -    | overlap over the sum of the radii                  |
 //! | A      | `touch.area()`         | m²   | disc in which the spheres cut each other           |
 //! | τ      |                        | -    | direction of j's slip relative to i                |
 //!
@@ -24,10 +24,19 @@
 //! To reproduce the paper only. The bond acts while grains overlap, so it cannot resist tension; with
 //! K_nb < K and p_b = p, as in the paper's example, contact and bond together always repel and nothing holds
 //! an agglomerate together. The tangential part carries the time step and vanishes with it. The paper does
-//! not give E*.
+//! not give ℰ*.
 //!
 //! # Compared with others
 //! Not an adhesive: see `beam` for cement that carries tension.
+//!
+//! # In a scenario
+//! ```toml
+//! [bonds.strain_bond]
+//! stiffness = "1 MPa"
+//! exponent = 2.0
+//! tangential_stiffness = "1e9 Pa/m"
+//! threshold_strain = 0.001
+//! ```
 //!
 //! # Example
 //! ```
@@ -52,13 +61,13 @@ use crate::units::{AreaStiffness, Pressure};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StrainBond {
-    /// K_nb.
+    /// K_nb: stiffness along the normal.
     pub stiffness: Pressure,
     /// Power p_b of the strain.
     pub exponent: f64,
-    /// K_rb.
+    /// K_rb: stiffness across it, per contact area.
     pub tangential_stiffness: AreaStiffness,
-    /// E*: overlap strain from which the bond acts.
+    /// ℰ*: overlap strain from which the bond acts, from 0 to 1.
     pub threshold_strain: f64,
 }
 

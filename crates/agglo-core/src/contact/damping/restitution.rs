@@ -30,6 +30,16 @@
 //! The force may pull near the end of the contact. Codes that clamp it at zero get a higher restitution: 0.55
 //! for a wanted 0.5.
 //!
+//! # In a scenario
+//! ```toml
+//! [contact.damping.restitution]
+//! restitution = 0.9
+//!
+//! [[mixtures]]
+//! between = ["grain", "grain"]
+//! restitution = 0.8
+//! ```
+//!
 //! # Example
 //! ```
 //! use agglo::contact::{Normal, PairConstants, Touch, damping::Restitution, normal::Hooke};

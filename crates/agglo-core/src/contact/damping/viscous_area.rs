@@ -21,6 +21,12 @@
 //! # Compared with others
 //! Where c A exceeds the critical damping 2 √(k m*), grains creep apart instead of rebounding.
 //!
+//! # In a scenario
+//! ```toml
+//! [contact.damping.viscous_area]
+//! coefficient = "1e5 Pa s/m"
+//! ```
+//!
 //! # Example
 //! ```
 //! use agglo::contact::{Touch, damping::ViscousArea};
@@ -40,7 +46,7 @@ use crate::units::AreaDamping;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ViscousArea {
-    /// c.
+    /// c, per contact area.
     pub coefficient: AreaDamping,
 }
 

@@ -34,6 +34,13 @@
 //! `mindlin/rescale` of LAMMPS with force history is the same idea; displacement history without the
 //! rescaling gains energy on unloading. The spring never exceeds the sliding limit on account of the dashpot.
 //!
+//! # In a scenario
+//! ```toml
+//! [contact.friction.mindlin]
+//! static_friction = 0.5
+//! stiffness_ratio = 0.8
+//! ```
+//!
 //! # Example
 //! ```
 //! use agglo::contact::{PairConstants, friction::{Mindlin, Sliding, TangentialSpring}};
@@ -57,9 +64,9 @@ use crate::math::{Pace, Vec3};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Mindlin {
-    /// Static friction coefficient.
+    /// μ: static friction coefficient.
     pub static_friction: f64,
-    /// Dynamic friction coefficient; as static if left out.
+    /// μ_d: dynamic friction coefficient; as static if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dynamic_friction: Option<f64>,
     /// Tangential over normal stiffness; Mindlin's 2 (1-ν)/(2-ν) of the materials if left out.

@@ -27,6 +27,14 @@
 //! # Compared with others
 //! It is a viscous friction whose viscosity is K A Δt. It holds no load at rest.
 //!
+//! # In a scenario
+//! ```toml
+//! [contact.friction.regularized]
+//! stiffness = "1e9 Pa/m"
+//! static_friction = 0.5
+//! dynamic_friction = 0.3
+//! ```
+//!
 //! # Example
 //! ```
 //! use agglo::contact::{PairConstants, friction::Regularized};

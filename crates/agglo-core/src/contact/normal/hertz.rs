@@ -24,6 +24,15 @@
 //! The same elastic part as `hertz` of LIGGGHTS and `hertz/material` of LAMMPS. The contact radius is
 //! √(R* δ); the disc of [`Touch::area`] is twice as large as its circle.
 //!
+//! # In a scenario
+//! ```toml
+//! [materials.grain]
+//! youngs_modulus = "70 GPa"
+//! poisson_ratio = 0.22
+//!
+//! [contact.normal.hertz]
+//! ```
+//!
 //! # Example
 //! ```
 //! use agglo::contact::{PairConstants, Touch, normal::Hertz};

@@ -20,6 +20,12 @@
 //! # Compared with others
 //! `hooke` of LAMMPS and LIGGGHTS with the stiffness given directly, not derived from a characteristic speed.
 //!
+//! # In a scenario
+//! ```toml
+//! [contact.normal.hooke]
+//! stiffness = "10 kN/m"
+//! ```
+//!
 //! # Example
 //! ```
 //! use agglo::contact::{PairConstants, Touch, normal::Hooke};

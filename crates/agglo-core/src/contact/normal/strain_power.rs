@@ -2,7 +2,7 @@
 //!
 //! # Equation
 //! ```text
-//! F = K E^p A,   E = δ/(R_i + R_j),   U = ∫ K E^p A dδ                                    [A] 13-15
+//! F = K ℰ^p A,   ℰ = δ/(R_i + R_j),   U = ∫ K ℰ^p A dδ                                    [A] 13-15
 //! ```
 //!
 //! # Source
@@ -13,7 +13,7 @@
 //! |--------|-------------------|------|------------------------------------------------------------|
 //! | K      | `touch.stiffness` | Pa   | mean of the grains' `contact_stiffness`, softened by heat  |
 //! | p      | `exponent`        | -    | power of the strain, > -1                                  |
-//! | E      | `touch.strain()`  | -    | overlap over the sum of the radii                          |
+//! | ℰ      | `touch.strain()`  | -    | overlap over the sum of the radii                          |
 //! | A      | `touch.area()`    | m²   | disc in which the spheres cut each other                   |
 //!
 //! # Valid when
@@ -24,6 +24,16 @@
 //! # Compared with others
 //! The law of the paper and of its author's books; no other public code has it. Near touching
 //! F = 2 π K R* δ^(p+1) / (R_i + R_j)^p: for p = 2 a force that grows like δ³, far softer at first than Hertz.
+//!
+//! # In a scenario
+//! ```toml
+//! [materials.grain]
+//! contact_stiffness = "10 MPa"
+//! softening = { reference_temperature = "500 K", sensitivity = 1.0, lowest_stiffness = "1 MPa" }
+//!
+//! [contact.normal.strain_power]
+//! exponent = 2.0
+//! ```
 //!
 //! # Example
 //! ```

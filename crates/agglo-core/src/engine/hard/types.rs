@@ -19,10 +19,10 @@ pub struct EventDriven {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TimeStepped {
-    /// Part of the shortest time of approach that a step takes.
+    /// Part of the shortest time of approach that a step takes; above 0, up to 1.
     #[serde(default = "default_fraction")]
     pub fraction: f64,
-    /// Shortest step. With `gap` and `all`, steps are shorter only where spheres are so small that this one would take them
+    /// Shortest step, not above `longest_step`. With `gap` and `all`, steps are shorter only where spheres are so small that this one would take them
     /// into one another by more than a tenth of their radii.
     #[serde(default = "default_shortest")]
     pub shortest_step: Time,

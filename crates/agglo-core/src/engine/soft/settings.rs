@@ -76,7 +76,7 @@ impl Settings {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Relaxation {
-    /// At rest when no grain is faster.
+    /// At rest when no grain is faster, or would be within `damping_time`.
     pub speed: Velocity,
     /// An error if it takes longer (simulated time).
     pub longest: Time,

@@ -18,17 +18,17 @@ pub enum Scheme {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Staggered {
-    /// First step.
+    /// First step, not above `largest_step`.
     pub initial_step: Time,
     /// Largest step.
     pub largest_step: Time,
-    /// Largest iteration error, over the motion of the step.
+    /// Largest iteration error, over the motion of the step; between 0 and 1.
     #[serde(default = "default_tolerance")]
     pub tolerance: f64,
-    /// Wanted number of iterations.
+    /// Iterations in which the tolerance is to be met; at least 1.
     #[serde(default = "default_iterations")]
     pub target_iterations: u32,
-    /// phi: 0.5 is the trapezoidal rule, 1 backward Euler.
+    /// φ: 0.5 is the trapezoidal rule, 1 backward Euler; from 0 to 1.
     #[serde(default = "half")]
     pub implicitness: f64,
 }
@@ -47,10 +47,12 @@ fn half() -> f64 {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Verlet {
-    /// The step; worked out from all laws that act, and looked at again in every step, if left out.
+    /// The step, which is then never changed; above the critical one the run warns. If left out, `safety` times the
+    /// critical step of all laws that act, looked at again in every step, at most a hundredth of the run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub step: Option<Time>,
-    /// Part of the critical step that the automatic step takes.
+    /// Part of the critical step that the automatic step takes; above 0, up to 1. 0.03 is 50 steps for a contact
+    /// and keeps energy to 1e-3.
     #[serde(default = "default_safety")]
     pub safety: f64,
 }
@@ -75,7 +77,7 @@ pub struct Limits {
     /// Energy that the ledger does not explain, over all that was there or came in, from which on the run warns.
     #[serde(default = "default_drift_warning")]
     pub drift_warning: f64,
-    /// The same from which on the run ends with an error; a run with a published law that does not converge only warns.
+    /// The part of it from which on the run ends with an error; a run with a published law that does not converge only warns.
     #[serde(default = "default_drift_error")]
     pub drift_error: f64,
 }

@@ -22,6 +22,18 @@
 //! # Compared with others
 //! `coul/cut` of LAMMPS in SI units, with the energy taken from the cut-off where there is one.
 //!
+//! # In a scenario
+//! ```toml
+//! [[grains]]
+//! material = "grain"
+//! size.constant.radius = "1 mm"
+//! placement.list.positions = [["0 m", "0 m", "0 m"], ["0 m", "0 m", "1 cm"]]
+//! charge = "1 nC"
+//!
+//! [fields.near_field.law.coulomb]
+//! relative_permittivity = 80.0
+//! ```
+//!
 //! # Example
 //! ```
 //! use agglo::fields::near_field::{Coulomb, Source};

@@ -1,10 +1,40 @@
 //! Attraction and repulsion between grains at a distance ([A] 28): the laws, and how far they are followed.
 //!
+//! # Equation
+//! ```text
+//! F_i = sum of F_ij over all j with d_ij <= cutoff                                        [A] 28
+//! U(d) = ∫ F dd from d to the cut-off, or to infinity
+//! ```
+//!
 //! # Source
 //! [A] T. I. Zohdi, Comput. Mech. 57, 465 (2016), eq. 28; `coulomb` and `van_der_waals` name theirs.
 //!
 //! # Signs
 //! As in contact: a force > 0 repels. Energies are zero at infinity, or at the cut-off where there is one.
+//!
+//! # Symbols
+//! | symbol | name in code | unit | meaning                                              |
+//! |--------|--------------|------|------------------------------------------------------|
+//! | F_ij   | `law`        | N    | of the one law that is chosen                        |
+//! | d_ij   | `distance`   | m    | of the centers                                       |
+//! |        | `cutoff`     | m    | beyond it a pair is left out; all pairs if not given |
+//! |        | `truncation` | -    | largest part of the force that may be left out       |
+//!
+//! # Valid when
+//! Pairs add up. What the cut-off leaves out is measured at the start, on up to 400 grains; it may grow as grains spread or
+//! clump.
+//!
+//! # Compared with others
+//! One law at a time, where LAMMPS adds up several with `pair_style hybrid/overlay`. The force is cut off, the energy is
+//! shifted to zero there, so that a pair that comes in or goes out keeps its energy.
+//!
+//! # In a scenario
+//! ```toml
+//! [fields.near_field]
+//! cutoff = "5 cm"
+//! truncation = 0.05
+//! law.van_der_waals = { hamaker = "1e-19 J", smallest_gap = "0.4 nm" }
+//! ```
 
 mod coulomb;
 mod power_pair;
@@ -26,10 +56,11 @@ use crate::units::Length;
 pub struct NearField {
     /// The law.
     pub law: NearFieldLaw,
-    /// Distance of centers beyond which it is left out; all pairs if left out.
+    /// Distance of centers beyond which it is left out, above the largest diameter; all pairs if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cutoff: Option<Length>,
-    /// Largest error of the forces (root mean square, over that of all pairs) that the cut-off may cause at the start.
+    /// Largest error of the forces (root mean square, over that of all pairs) that the cut-off may cause at the
+    /// start; more is refused.
     #[serde(default = "default_truncation")]
     pub truncation: f64,
 }

@@ -26,6 +26,16 @@
 //! # Compared with others
 //! Mie's and Lennard-Jones' forces are the cases (7, 13); gravity is a1 = G, b1 = 2 with `mass`.
 //!
+//! # In a scenario
+//! ```toml
+//! [fields.near_field.law.power_pair]
+//! scaling = "mass"
+//! attraction = 1.0
+//! attraction_exponent = 1.0
+//! repulsion = 1.0
+//! repulsion_exponent = 2.0
+//! ```
+//!
 //! # Example
 //! ```
 //! use agglo::fields::near_field::{PowerPair, Scaling, Source};

@@ -2,9 +2,8 @@
 //!
 //! # Equation
 //! ```text
-//! U = -(A/6) [2 P/p + 2 P/m + ln(p/m)] = -(A/3) [y/(1 - y²) - artanh y]                   A8
-//! F = -(32/3) A P³ d/(p m)²
-//! P = R_i R_j,   p = d² - (R_i + R_j)²,   m = d² - (R_i - R_j)²,   y = 4 P/(p + m)
+//! F = -(32/3) A P³ d/(p m)²,   P = R_i R_j,   p = d² - (R_i + R_j)²,   m = d² - (R_i - R_j)²   A8
+//! U = -(A/6) [2 P/p + 2 P/m + ln(p/m)] = -(A/3) [y/(1 - y²) - artanh y],   y = 4 P/(p + m)
 //! ```
 //! The second form of U and the closed form of F have no cancellation at large distance, where
 //! U = -(16/9) A P³/d⁶. At gaps below g0 the force is that at g0, and the energy goes on linearly.
@@ -25,6 +24,13 @@
 //! # Compared with others
 //! Many DEM codes use the limit A R*/(6 g²) for g ≪ R; this is the full formula. Repulsion in contact is the
 //! contact law's; the pull A R*/(6 g0²) acts on top of it.
+//!
+//! # In a scenario
+//! ```toml
+//! [fields.near_field.law.van_der_waals]
+//! hamaker = "1e-19 J"
+//! smallest_gap = "0.4 nm"
+//! ```
 //!
 //! # Example
 //! ```

@@ -23,6 +23,12 @@
 //! # Compared with others
 //! The model of Haff (1983) and of most event-driven programs.
 //!
+//! # In a scenario
+//! ```toml
+//! [impact.restitution.constant]
+//! restitution = 0.9
+//! ```
+//!
 //! # Example
 //! ```
 //! use agglo::impact::restitution::Constant;
@@ -37,6 +43,6 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Constant {
-    /// e, from 0 to 1; at 0 pairs stick.
+    /// e of all impacts, from 0 to 1; at 0 pairs stick.
     pub restitution: f64,
 }

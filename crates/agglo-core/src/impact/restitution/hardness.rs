@@ -45,6 +45,18 @@
 //! (x = 1/4: 0.41 for 0.5). Its plain iteration has slope -1 at the root for a0 = 0 and flips between 0 and 1 - x for
 //! ever: `solver.fixed_point` does what is printed, up to its limit, and says so. [B] 4.11 lacks a density: v = 3 H k δτ/(ρ b).
 //!
+//! # In a scenario
+//! ```toml
+//! [materials.grain]
+//! hardness = "1 MPa"
+//!
+//! [impact.restitution.hardness]
+//! deformation = 1.0
+//! elastic_area = 0.0
+//! sticking_area = 1.0
+//! solver = "bracketed"
+//! ```
+//!
 //! # Example
 //! ```
 //! use agglo::impact::restitution::Hardness;
@@ -68,13 +80,13 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Hardness {
-    /// beta: length of deformation over the smaller radius.
+    /// β: length of deformation over the smaller radius, above 0.
     #[serde(default = "one")]
     pub deformation: f64,
-    /// a0: contact area of an elastic impact over the smaller cross-section.
+    /// a0: contact area of an elastic impact over the smaller cross-section, not above `sticking_area`.
     #[serde(default)]
     pub elastic_area: f64,
-    /// af: contact area of a sticking impact over the smaller cross-section.
+    /// af: contact area of a sticking impact over the smaller cross-section, above 0.
     #[serde(default = "one")]
     pub sticking_area: f64,
     /// Over which time the mean force is taken.
@@ -181,7 +193,7 @@ pub struct FixedPoint {
     /// Most iterations; then the last e is taken and a warning counted.
     #[serde(default = "most_iterations")]
     pub most_iterations: u32,
-    /// Largest change of e, over e, at the end.
+    /// Largest change of e, over e, at the end; between 0 and 1.
     #[serde(default = "tolerance")]
     pub tolerance: f64,
 }

@@ -24,6 +24,12 @@
 //! [B] starts from equal spheres, where n_f is the number of primaries of the mean sphere; with scattered sizes it is
 //! a ratio of volumes of mean spheres, no more.
 //!
+//! # In a campaign
+//! ```toml
+//! [[objectives]]
+//! minimize = "growth_deficit"
+//! ```
+//!
 //! # Example
 //! ```
 //! use agglo::engine::hard::Snapshot;

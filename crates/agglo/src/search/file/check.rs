@@ -216,7 +216,7 @@ impl Check<'_> {
             return;
         }
         if let Some(method) = method {
-            let place = format!("method.{}", word_of(method));
+            let place = format!("method.{}", method.word());
             self.own(&place, method.faults(parameters.len(), objectives.len()));
         }
         if let Some(polish) = polish {
@@ -231,12 +231,6 @@ impl Check<'_> {
             self.fail(if is_own { format!("{place}.{key}") } else { key.to_owned() }, message);
         }
     }
-}
-
-/// The word of a method in the file: it is written as a table whose only key is that word.
-fn word_of(method: &Method) -> String {
-    let tree = serde_json::to_value(method).unwrap_or_default();
-    tree.as_object().and_then(|table| table.keys().next().cloned()).unwrap_or_default()
 }
 
 /// A parameter's column, which has its unit in its name, must be the only one of that name in the tables.

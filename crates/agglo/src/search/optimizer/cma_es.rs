@@ -2,7 +2,7 @@
 //!
 //! # Equation
 //! ```text
-//! x_k = m + σ y_k,  y_k ~ N(0, C)          m <- m + σ Σ w_k y_k   over the better half
+//! x_k = m + σ y_k,  y_k ~ N(0, C);   m <- m + σ Σ w_k y_k over the better half                 OP1
 //! C <- (1 + c_1 δ - c_1 - c_μ Σ w_k) C + c_1 p_c p_cᵀ + c_μ Σ w_k y_k y_kᵀ   over all, w_k < 0 in the worse half
 //! σ <- σ exp((c_σ/d_σ) (|p_σ|/E|N(0, I)| - 1))
 //! ```
@@ -43,6 +43,13 @@
 //! # Compared with others
 //! The population is half as large again as the tutorial's 4 + 3 ln d: with noise or many valleys that finds lower points
 //! (Rastrigin's function in 10 dimensions), and costs little where there are none.
+//!
+//! # In a campaign
+//! ```toml
+//! [method.cma_es]
+//! evaluations = 1000
+//! step = 0.2
+//! ```
 //!
 //! # Example
 //! ```

@@ -2,8 +2,8 @@
 //!
 //! # Equation
 //! ```text
-//! c_1,2 = ((a + b) ∓ β |b - a|)/2        p(β) = (η + 1) β^η/2 for β <= 1, (η + 1) β^-(η+2)/2 above
-//! y = x + δ                              p(δ) = (η + 1)(1 - |δ|)^η/2, |δ| <= 1
+//! c_1,2 = ((a + b) ∓ β |b - a|)/2,   p(β) = (η + 1) β^η/2 for β <= 1, (η + 1) β^-(η+2)/2 above     OP2
+//! y = x + δ,   p(δ) = (η + 1)(1 - |δ|)^η/2, |δ| <= 1                                              OP3
 //! ```
 //! each cut at the bounds and normalized again. One generation: parents are winners of tournaments of two; a pair is
 //! crossed with `crossover` probability, each of its coordinates with probability 1/2; each coordinate of a child mutates
@@ -31,6 +31,13 @@
 //! # Compared with others
 //! Both children keep the same distance to their parents' middle, so that a pair's mean is kept also near bounds; the
 //! published code cuts the two sides separately.
+//!
+//! # In a campaign
+//! ```toml
+//! [method.genetic]
+//! population = 40
+//! generations = 50
+//! ```
 //!
 //! # Example
 //! ```

@@ -83,6 +83,18 @@ impl Method {
         }
     }
 
+    /// The word that stands for it in a file.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::CmaEs(_) => "cma_es",
+            Self::Genetic(_) => "genetic",
+            Self::PublishedGenetic(_) => "published_genetic",
+            Self::NelderMead(_) => "nelder_mead",
+            Self::Random(_) => "random",
+            Self::Sobol(_) => "sobol",
+        }
+    }
+
     /// Points that it asks for at the most.
     pub fn evaluations(&self) -> usize {
         match self {

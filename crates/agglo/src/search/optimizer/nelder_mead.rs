@@ -2,7 +2,8 @@
 //!
 //! # Equation
 //! ```text
-//! x_r = c + (c - x_w)        reflection of the worst of d + 1 points through the centroid c of the others
+//! x_r = c + (c - x_w)                                                                            OP4
+//!                            reflection of the worst of d + 1 points through the centroid c of the others
 //! x_e = c + χ (c - x_w)      expansion, χ = 1 + 2/d
 //! x_o = c + γ (c - x_w)      contraction outside, γ = 3/4 - 1/(2 d)
 //! x_i = c - γ (c - x_w)      contraction inside
@@ -17,8 +18,27 @@
 //! algorithm with adaptive parameters*, Comput. Optim. Appl. 51, 259 (2012). It is the "post-genetic operation" that
 //! T. I. Zohdi, Proc. R. Soc. Lond. A 460, 3421 (2004), section 7, leaves open, without gradients.
 //!
+//! # Symbols
+//! | symbol   | name in code | unit | meaning                                         |
+//! |----------|--------------|------|-------------------------------------------------|
+//! | x_b, x_w | `simplex`    | 1    | best and worst point, as parts of the ranges    |
+//! | c        | `centroid`   | 1    | mean of all points but the worst                |
+//! | χ, γ, s  | `factors`    | 1    | how far is expanded, contracted, shrunk         |
+//! | d        | `dimensions` | 1    | parameters                                      |
+//!
 //! # Valid when
 //! Few parameters (up to about ten), one cost, little noise, a start near the lowest point.
+//!
+//! # Compared with others
+//! As `Nelder-Mead` of SciPy with `adaptive=True`, but that it stops where the costs are noise, and that bounds are mirrors and
+//! not edges to which points are clipped.
+//!
+//! # In a campaign
+//! ```toml
+//! # From the best point of another method; alone it is [method.nelder_mead].
+//! [polish]
+//! evaluations = 200
+//! ```
 //!
 //! # Example
 //! ```

@@ -2,7 +2,7 @@
 //!
 //! # Equation
 //! ```text
-//! λ¹ = Φ¹ A + (1 - Φ¹) B,   λ² = Φ² A + (1 - Φ²) B                                          [B] 7, step 4
+//! λ¹ = Φ¹ A + (1 - Φ¹) B,   λ² = Φ² A + (1 - Φ²) B                                          [B] 7
 //! ```
 //! with a fresh Φ, uniform in [0, 1], for each component of each offspring. One generation:
 //! 1. the first has S random strings; later ones the K best of the last, K offspring of these and M new random ones;
@@ -34,6 +34,15 @@
 //! # Compared with others
 //! Step 4 can be read as pairs 1-2, 2-3, 3-4 or as all 20 strings mating; section 8, "six new offspring were produced from
 //! the top six parents", says that three pairs mate, and each parent has its turn with 1-2, 3-4, 5-6.
+//!
+//! # In a campaign
+//! ```toml
+//! [method.published_genetic]
+//! population = 20
+//! parents = 6
+//! offspring = 6
+//! generations = 25
+//! ```
 //!
 //! # Example
 //! ```

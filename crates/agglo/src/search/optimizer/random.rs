@@ -1,5 +1,32 @@
 //! Random search: points drawn uniformly. What every other method must beat.
 //!
+//! # Equation
+//! ```text
+//! x_i uniform in [0, 1], each apart                                                             OP6
+//! P(no point of n is in a part q of the box) = (1 - q)^n
+//! ```
+//!
+//! # Source
+//! S. H. Brooks, *A discussion of random methods for seeking maxima*, Oper. Res. 6, 244 (1958).
+//!
+//! # Symbols
+//! | symbol | name in code | unit | meaning                                    |
+//! |--------|--------------|------|--------------------------------------------|
+//! | x_i    | `Point`      | 1    | parameter i, as a part of its range        |
+//! | n      | `points`     | 1    | how many points                            |
+//!
+//! # Valid when
+//! Always; how good its best is depends on the part of the box that is as good, not on the number of parameters.
+//!
+//! # Compared with others
+//! `sobol` fills the box more evenly with as many points. Two objectives are fine: all points that none beats are the front.
+//!
+//! # In a campaign
+//! ```toml
+//! [method.random]
+//! points = 1000
+//! ```
+//!
 //! # Example
 //! ```
 //! use agglo::search::functions::{TestFunction, minimize, Noisy};

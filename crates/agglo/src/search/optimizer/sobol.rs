@@ -2,7 +2,7 @@
 //!
 //! # Equation
 //! ```text
-//! x_(n+1) = x_n ⊕ v_c,  c = lowest zero bit of n,  v_k = m_k / 2^k
+//! x_(n+1) = x_n ⊕ v_c,  c = lowest zero bit of n,  v_k = m_k / 2^k                              OP5
 //! m_k = 2 a_1 m_(k-1) ⊕ 4 a_2 m_(k-2) ⊕ ... ⊕ 2^s m_(k-s) ⊕ m_(k-s)
 //! ```
 //! with a polynomial of degree s and first m_1 ... m_s of its own for each dimension; ⊕ adds bits without carry. A random
@@ -13,8 +13,25 @@
 //! better two-dimensional projections*, SIAM J. Sci. Comput. 30, 2635 (2008): table `new-joe-kuo-6.21201`; order of
 //! I. A. Antonov and V. M. Saleev, USSR Comput. Math. Math. Phys. 19, 252 (1979).
 //!
+//! # Symbols
+//! | symbol | name in code | unit | meaning                                                    |
+//! |--------|--------------|------|------------------------------------------------------------|
+//! | x_n    | `Point`      | 1    | point number n, as parts of the ranges                     |
+//! | v_k    | `directions` | 1    | direction numbers, of the table of Joe and Kuo             |
+//! | a_k    |              | 1    | coefficients of the polynomial, 0 or 1                     |
+//!
 //! # Valid when
 //! Up to 32 parameters. Evenness is best for a number of points that is a power of 2.
+//!
+//! # Compared with others
+//! `scipy.stats.qmc.Sobol` multiplies directions by a random matrix before it shifts; the shift alone keeps the evenness, and is all that
+//! seeds need to differ.
+//!
+//! # In a campaign
+//! ```toml
+//! [method.sobol]
+//! points = 1024
+//! ```
 //!
 //! # Example
 //! ```

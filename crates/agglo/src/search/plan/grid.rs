@@ -1,4 +1,32 @@
 //! Every combination of the parameters' values.
+//!
+//! # Equation
+//! ```text
+//! points: u_1 x u_2 x ... x u_d,   u_k = {0, 1/(l - 1), ..., 1} between two bounds,   n = Π l_k        SA6
+//! ```
+//! The last parameter changes fastest. Of choices and whole numbers all values are tried, whatever `levels` says.
+//!
+//! # Source
+//! Factorial design: R. A. Fisher, *The Design of Experiments* (1935).
+//!
+//! # Symbols
+//! | symbol | name in code  | unit | meaning                                     |
+//! |--------|---------------|------|---------------------------------------------|
+//! | u_k    | `coordinates` | 1    | values of parameter k, as parts of its range |
+//! | l      | `levels`      | 1    | values of a parameter between two bounds    |
+//! | n      | `evaluations` | 1    | points in all                               |
+//!
+//! # Valid when
+//! Few parameters: the number of points is a product.
+//!
+//! # Compared with others
+//! `morris` needs a number of points that grows with the number of parameters, `sobol` one of your choice.
+//!
+//! # In a campaign
+//! ```toml
+//! [plan.grid]
+//! levels = 5
+//! ```
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

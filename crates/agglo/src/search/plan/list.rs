@@ -1,4 +1,33 @@
 //! The parameters' lists side by side.
+//!
+//! # Equation
+//! ```text
+//! point k: choice k of every parameter,   k = 1 ... n                                           SA7
+//! ```
+//!
+//! # Source
+//! None: what is tried is written in the file.
+//!
+//! # Symbols
+//! | symbol | name in code | unit | meaning                                |
+//! |--------|--------------|------|----------------------------------------|
+//! | n      | `rows`       | 1    | length of the lists, equal for all     |
+//!
+//! # Valid when
+//! Every parameter has `choices`, and all have equally many.
+//!
+//! # Compared with others
+//! `grid` tries every combination of the same choices.
+//!
+//! # In a campaign
+//! ```toml
+//! [[parameters]]
+//! name = "step"
+//! key = "time.end"
+//! range.choices = ["1 us", "2 us", "4 us"]
+//!
+//! [plan.list]
+//! ```
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -2,7 +2,7 @@
 //!
 //! # Equation
 //! ```text
-//! EE_i = (y(x + Δ e_i) - y(x))/Δ,   Δ = p/(2 (p - 1)),   x on a grid of p levels in [0, 1]^d           (SA1)
+//! EE_i = (y(x + Δ e_i) - y(x))/Δ,   Δ = p/(2 (p - 1)),   x on a grid of p levels in [0, 1]^d           SA1
 //! ```
 //! A trajectory starts at a random point of the grid and moves once along each axis, in random order.
 //!
@@ -21,6 +21,13 @@
 //!
 //! # Compared with others
 //! The sampling of `SALib.sample.morris` without its search for trajectories far from each other.
+//!
+//! # In a campaign
+//! ```toml
+//! [plan.morris]
+//! trajectories = 20
+//! levels = 4
+//! ```
 //!
 //! # Example
 //! ```

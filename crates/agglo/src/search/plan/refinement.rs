@@ -1,4 +1,40 @@
 //! One parameter from coarse to fine.
+//!
+//! # Equation
+//! ```text
+//! d_k = f_k - f_1,   |d_k| + t s_k <= TOL |f_1|: settled,   |d_k| - t s_k > TOL |f_1|: not settled     CV4
+//! ```
+//! Levels are numbered from the finest, which stands last in the file. The order of convergence and the extrapolated value
+//! come from the three finest levels.
+//!
+//! # Source
+//! P. J. Roache, *Perspective: a method for uniform reporting of grid refinement studies*, J. Fluids Eng. 116, 405 (1994).
+//!
+//! # Symbols
+//! | symbol | name in code | unit        | meaning                                                |
+//! |--------|--------------|-------------|--------------------------------------------------------|
+//! | f_k    |              | the value's | mean outcome at level k                                |
+//! | s_k    |              | the value's | standard error of d_k, start by start where levels share them |
+//! | t      |              | 1           | Student's t at 95 %                                    |
+//! | TOL    | `tolerance`  | 1           | part of the finest level's value                       |
+//!
+//! # Valid when
+//! There is one parameter, with two or more `choices` from coarse to fine. Neither settled nor unsettled is *not shown*: the
+//! starts scatter too much to tell. A single start never shows anything.
+//!
+//! # Compared with others
+//! Grid convergence studies report the index of Roache alone; here an interval tells a difference from the scatter of starts.
+//!
+//! # In a campaign
+//! ```toml
+//! [[parameters]]
+//! name = "end"
+//! key = "time.end"
+//! range.choices = ["1 us", "2 us", "4 us"]
+//!
+//! [plan.refinement]
+//! tolerance = 0.01
+//! ```
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

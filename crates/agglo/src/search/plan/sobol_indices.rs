@@ -2,7 +2,7 @@
 //!
 //! # Equation
 //! ```text
-//! A, B: N points each;   A_B^(i): the points of A with coordinate i from B           (SA2)
+//! A, B: N points each;   A_B^(i): the points of A with coordinate i from B           SA2
 //! ```
 //! The points stand in blocks of d + 2: one of A, its partner of B, and its d mixtures.
 //!
@@ -20,6 +20,13 @@
 //!
 //! # Compared with others
 //! The sampling of `SALib.sample.sobol` with `calc_second_order=False`.
+//!
+//! # In a campaign
+//! ```toml
+//! [plan.sobol_indices]
+//! samples = 256
+//! level = 0.95
+//! ```
 //!
 //! # Example
 //! ```

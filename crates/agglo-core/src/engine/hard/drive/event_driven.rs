@@ -1,8 +1,11 @@
 //! Hard spheres from event to event, each at its exact time.
 //!
 //! # Equation
-//! Between events spheres fly straight: r(t) = r(t₀) + v (t - t₀). Events are collisions, at the root (E1) of
-//! |r_j - r_i + (v_j - v_i) t| = b_i + b_j; moves into the next cell; bounces off walls.
+//! ```text
+//! |r_j - r_i + (v_j - v_i) t| = b_i + b_j                                                     E1
+//! ```
+//! Between events spheres fly straight: r(t) = r(t₀) + v (t - t₀). Events are collisions, at the smaller root t of this;
+//! moves into the next cell; bounces off walls.
 //!
 //! # Source
 //! One event per sphere: B. D. Lubachevsky, J. Comput. Phys. 94, 255 (1991). Bins of events: G. Paul, J. Comput. Phys.
@@ -32,6 +35,12 @@
 //!
 //! # Compared with others
 //! No step, so no error of stepping and no collision missed, unlike overlap searches such as REBOUND's `direct` and `tree`.
+//!
+//! # In a scenario
+//! ```toml
+//! [engine.event_driven]
+//! contact_duration = "0 s"
+//! ```
 
 use std::borrow::Cow;
 

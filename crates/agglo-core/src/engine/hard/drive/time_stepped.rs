@@ -1,10 +1,11 @@
 //! Hard spheres step by step, with steps that are as long as gaps allow.
 //!
 //! # Equation
-//! $$ \Delta t = f \min_{i,j} \frac{g_{ij}}{c_{ij}}, \qquad g_{ij} = |r_j - r_i| - b_i - b_j, \qquad
-//!    c_{ij} = -(v_j - v_i) \cdot \frac{r_j - r_i}{|r_j - r_i|} > 0 $$          ([B] 6.14)
-//! as printed (`distance = "centers"`): $|r_j - r_i|/|c_{ij}|$, of pairs that part too;
-//! held between `shortest_step` and `longest_step`; then $r_i \leftarrow r_i + v_i \Delta t$, then the faces, then collisions.
+//! ```text
+//! Δt = f min over i, j of g/c,   g = |r_j - r_i| - b_i - b_j,   c = -(v_j - v_i)·n > 0           [B] 6.14
+//! ```
+//! as printed (`distance = "centers"`): |r_j - r_i|/|c|, of pairs that part too; n from i to j; held between
+//! `shortest_step` and `longest_step`; then r_i ← r_i + v_i Δt, then the faces, then collisions.
 //!
 //! # Source
 //! T. I. Zohdi, Proc. R. Soc. Lond. A 460, 3421 (2004), equations 6.14 and 6.21 and the staggering scheme of section 6.
@@ -47,6 +48,16 @@
 //! which a sphere may run into its second nearest, and what a merged sphere touches waits for the next step. Neither
 //! converges as f becomes small, unless `longest_step` becomes small too. With `nearest` the length looks at nearest
 //! neighbors only, as printed.
+//!
+//! # In a scenario
+//! ```toml
+//! [engine.time_stepped]
+//! fraction = 0.5
+//! shortest_step = "10 ns"
+//! longest_step = "1 ms"
+//! distance = "gap"
+//! pairs = "all"
+//! ```
 //!
 //! # Example
 //! ```

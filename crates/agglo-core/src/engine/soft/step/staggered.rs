@@ -1,12 +1,16 @@
 //! The staggered implicit scheme with adaptive steps.
 //!
 //! # Equation
-//! $$ v^{L+1} = v^L + \frac{\Delta t}{m} (\phi F^{L+1} + (1-\phi) F^L), \qquad
-//!    r^{L+1} = r^L + v^L \Delta t + \frac{\phi \Delta t^2}{m} (\phi F^{L+1} + (1-\phi) F^L) $$          ([A] 31-34)
-//! solved by fixed-point iteration over K (Jacobi: all forces from the iterate before), with
-//! $$ w_K = \frac{\sum |r^K - r^{K-1}|}{\sum |r^K - r^L|}, \qquad
-//!    \Lambda_K = \frac{(TOL/w_0)^{1/(p K_d)}}{(w_K/w_0)^{1/(p K)}}, \quad p = 2 $$          ([A] 73-75)
-//! A step is accepted when w_K <= TOL within K_d iterations; the next step is min(largest_step, Λ Δt). Otherwise
+//! ```text
+//! v' = v + (Δt/m)(φ F' + (1-φ) F),   r' = r + v Δt + (φ Δt²/m)(φ F' + (1-φ) F)                [A] 31-34
+//! ```
+//! solved by fixed-point iteration over K (Jacobi: all forces from the iterate before); r' and F' are those at the end of
+//! the step, r^L = r its start. With
+//! ```text
+//! w_K = sum |r^K - r^(K-1)|/sum |r^K - r^L|                                                   [A] 73-75
+//! Λ_K = (TOL/w_0)^(1/(p K_d))/(w_K/w_0)^(1/(p K)),   p = 2
+//! ```
+//! A step is accepted when w_K <= TOL within K_d iterations; the next step is min(`largest_step`, Λ Δt). Otherwise
 //! the step is tried again with Λ Δt.
 //!
 //! # Source
@@ -29,6 +33,16 @@
 //! Velocity-dependent forces, torques and the memory of contacts iterate with the rest. The loads at the start of
 //! a step are those of the last iterate of the step before, which spares one evaluation a step and is within the
 //! tolerance of evaluating them anew.
+//!
+//! # In a scenario
+//! ```toml
+//! [engine.staggered]
+//! initial_step = "10 ns"
+//! largest_step = "100 ns"
+//! tolerance = 5e-4
+//! target_iterations = 10
+//! implicitness = 0.5
+//! ```
 
 use super::advance::{Ahead, Change};
 use crate::engine::soft::system::System;

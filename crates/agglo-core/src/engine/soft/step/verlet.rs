@@ -1,7 +1,9 @@
 //! Explicit velocity Verlet.
 //!
 //! # Equation
-//! $$ r' = r + v \Delta t + \frac{\Delta t^2}{2 m} F, \qquad v' = v + \frac{\Delta t}{2 m} (F + F') $$          (V1)
+//! ```text
+//! r' = r + v Δt + (Δt²/(2 m)) F,   v' = v + (Δt/(2 m))(F + F')                                V1
+//! ```
 //! with F' = F(r', v + Δt F/m): velocity-dependent forces see a full-step velocity, not that of the half step.
 //!
 //! # Source
@@ -18,6 +20,12 @@
 //!
 //! # Compared with others
 //! LAMMPS and LIGGGHTS evaluate friction and dashpots with the half-step velocity, which errs at large size ratios.
+//!
+//! # In a scenario
+//! ```toml
+//! [engine.verlet]
+//! safety = 0.03
+//! ```
 
 use super::advance::{Ahead, Change};
 use crate::engine::soft::system::System;
