@@ -162,7 +162,7 @@ def search(run):
         "cost": [float(first["final_cost"]), float(first["final_cost_standard_error"])],
         "search_cost": [float(first["search_cost"]), float(first["search_cost_standard_error"])],
         "lowest_search_cost": [float(generations[-1]["best_cost"]), float(generations[-1]["best_cost_standard_error"])],
-        "starts": int(first["final_starts"]),
+        "replicates": int(first["final_replicates"]),
         "generations": len(generations) - 1,
         "paper_passed_in": next(int(row["generation"]) for row in generations if float(row["best_cost"]) < 0.677),
         "best": [[float(row[key]) / unit for key, unit in SEARCHED.items()] for row in best],

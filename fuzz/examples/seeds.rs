@@ -12,7 +12,7 @@ use agglo_fuzz::BENCH;
 const OF_FOLDERS: [(&str, &[&str]); 6] = [
     ("table", &["table/grains.csv"]),
     ("checkpoint", &["stopped/checkpoints/", "finished/checkpoints/", "grown/checkpoints/"]),
-    ("journal", &["search/starts.journal"]),
+    ("journal", &["search/replicates.journal"]),
     ("frame", &["finished/frames/"]),
     ("series", &["finished/series/"]),
     ("summary", &["finished/summary.json", "ended/summary.json", "ended/best/summary.json"]),

@@ -106,7 +106,7 @@ name = "hardness"
 key = "materials.grain.hardness"
 range.linear = { lower = "0.1 MPa", upper = "1 MPa" }
 [ensemble.until.fixed]
-starts = 2
+replicates = 2
 """
 
 
@@ -135,7 +135,7 @@ offspring = 2
 generations = 4
 [confirm]
 candidates = 2
-starts = 2
+replicates = 2
 """,
     )
     page = opened_clean(folder)
@@ -170,7 +170,7 @@ population = 8
 generations = 3
 [confirm]
 candidates = 1
-starts = 2
+replicates = 2
 """,
     )
     page = opened_clean(folder)

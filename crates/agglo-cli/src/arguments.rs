@@ -57,7 +57,7 @@ pub(crate) enum Verb {
         search: bool,
     },
     /// Run a scenario into a folder
-    Run(RunOrders),
+    Run(RunOptions),
     /// Watch a run that goes on: a dashboard in the terminal, from the run's folder alone
     #[cfg(feature = "watch")]
     Watch {
@@ -65,11 +65,11 @@ pub(crate) enum Verb {
         folder: PathBuf,
     },
     /// Search for the conditions that do something best, into a folder
-    Search(Orders),
+    Search(CommonOptions),
     /// Study how an outcome depends on the conditions, into a folder
-    Study(Orders),
+    Study(CommonOptions),
     /// Draw a run: a picture, numbered pictures or a movie
-    Render(Box<crate::render::Wishes>),
+    Render(Box<crate::render::RenderOptions>),
     /// Write report.html into the folder of a run, search or study: replay, charts, figures; opens offline
     Report {
         /// The folder
@@ -81,17 +81,17 @@ pub(crate) enum Verb {
         folder: PathBuf,
     },
     /// Go on with a run from its newest whole checkpoint, or with a search or study
-    Resume(ResumeOrders),
+    Resume(ResumeOptions),
 }
 
 impl Verb {
     /// The number of threads that is asked for.
     pub(crate) fn threads(&self) -> Option<u32> {
         match self {
-            Self::Run(orders) => orders.orders.threads,
-            Self::Search(orders) | Self::Study(orders) => orders.threads,
-            Self::Resume(orders) => orders.threads,
-            Self::Render(wishes) => wishes.threads,
+            Self::Run(options) => options.common.threads,
+            Self::Search(options) | Self::Study(options) => options.threads,
+            Self::Resume(options) => options.threads,
+            Self::Render(options) => options.threads,
             _ => None,
         }
     }
@@ -99,7 +99,7 @@ impl Verb {
 
 /// What to go on with.
 #[derive(Args, Debug)]
-pub(crate) struct ResumeOrders {
+pub(crate) struct ResumeOptions {
     /// The folder
     pub folder: PathBuf,
     /// Go on to another end, such as "40 s", with a run that was stopped or has finished
@@ -115,9 +115,9 @@ pub(crate) struct ResumeOrders {
 
 /// What to run, and what to see meanwhile.
 #[derive(Args, Debug)]
-pub(crate) struct RunOrders {
+pub(crate) struct RunOptions {
     #[command(flatten)]
-    pub orders: Orders,
+    pub common: CommonOptions,
     /// Start from the last state of the run in this folder, or from one of its checkpoints
     #[arg(long, value_name = "FOLDER")]
     pub from: Option<PathBuf>,
@@ -144,7 +144,7 @@ pub(crate) struct ListForm {
 
 /// What to run, search or study.
 #[derive(Args, Debug)]
-pub(crate) struct Orders {
+pub(crate) struct CommonOptions {
     /// The file
     #[arg(value_name = "FILE")]
     pub scenario: PathBuf,

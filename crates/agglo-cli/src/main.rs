@@ -90,14 +90,14 @@ fn act(verb: Verb) -> Result<(), Failure> {
         Verb::Schema { search } => print(&format!("{:#}", if search { campaign_schema() } else { schema() })),
         Verb::Report { folder } => report::report(&folder),
         Verb::Cite { folder } => report::cite(&folder),
-        Verb::Run(orders) => run::run(&orders),
-        Verb::Search(orders) => search::conduct(&orders, Kind::Search),
-        Verb::Study(orders) => search::conduct(&orders, Kind::Study),
+        Verb::Run(options) => run::run(&options),
+        Verb::Search(options) => search::conduct(&options, Kind::Search),
+        Verb::Study(options) => search::conduct(&options, Kind::Study),
         #[cfg(feature = "watch")]
         Verb::Watch { folder } => watch::watch(&folder),
-        Verb::Render(wishes) => render::render(&wishes),
-        Verb::Resume(orders) if agglo::search::campaign::is_one(&orders.folder) => search::resume(&orders),
-        Verb::Resume(orders) => run::resume(&orders),
+        Verb::Render(options) => render::render(&options),
+        Verb::Resume(options) if agglo::search::campaign::is_one(&options.folder) => search::resume(&options),
+        Verb::Resume(options) => run::resume(&options),
     }
 }
 

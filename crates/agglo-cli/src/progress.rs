@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::io::{self, IsTerminal, Write};
 use std::time::{Duration, Instant};
 
-use agglo::render::FilmProgress;
+use agglo::render::AnimationProgress;
 use agglo::run::Progress;
 use agglo::search::campaign::CampaignProgress;
 use agglo::text::{readable, visible};
@@ -99,11 +99,13 @@ impl Display {
     }
 
     /// Shows how far pictures are.
-    pub(crate) fn show_film(&mut self, progress: FilmProgress) {
+    pub(crate) fn show_animation(&mut self, progress: AnimationProgress) {
         let (done, all, state) = match progress {
-            FilmProgress::Without(what) => return self.line(&format!("warning: {what}")),
-            FilmProgress::Looking(done, all) => (done, all, format!("{done} of {all} frames looked through")),
-            FilmProgress::Drawing(done, all) => {
+            AnimationProgress::Without(what) => return self.line(&format!("warning: {what}")),
+            AnimationProgress::Looking(done, all) => {
+                (done, all, format!("{done} of {all} frames looked through"))
+            }
+            AnimationProgress::Drawing(done, all) => {
                 let passed = self.drawing.get_or_insert_with(Instant::now).elapsed().as_secs_f64();
                 let left = (done > 0).then(|| clock(passed / done as f64 * (all - done) as f64));
                 (done, all, format!("{done} of {all} pictures, {} left", left.unwrap_or("?".to_owned())))
@@ -226,7 +228,7 @@ pub(crate) fn state(progress: &Progress, pace: &Pace) -> String {
 
 /// "search, best 0.3204 +- 0.004, 314 of 370 candidates in 21 batches, 1204 runs, 35.2/s, 1:02 left".
 fn campaign_state(progress: &CampaignProgress) -> String {
-    let CampaignProgress { evaluations, generations, starts, failures, .. } = progress;
+    let CampaignProgress { evaluations, generations, replicates, failures, .. } = progress;
     let best = progress.best.map_or("none yet".to_owned(), |(cost, error)| {
         let error = if error > 0.0 { format!(" +- {}", readable(error, "")) } else { String::new() };
         format!("{}{error}", readable(cost, ""))
@@ -235,9 +237,9 @@ fn campaign_state(progress: &CampaignProgress) -> String {
     let most = progress.evaluations_at_most.map(|most| format!(" of {most}")).unwrap_or_default();
     let failed = if *failures > 0 { format!(", {failures} failed") } else { String::new() };
     let left = progress.left_s.map(|left| format!(", {} left", clock(left))).unwrap_or_default();
-    let (stage, rate) = (progress.stage.word(), readable(progress.starts_per_second, ""));
+    let (stage, rate) = (progress.stage.word(), readable(progress.replicates_per_second, ""));
     format!(
-        "{stage}{best}, {evaluations}{most} candidates in {generations} batches{failed}, {starts} runs, \
+        "{stage}{best}, {evaluations}{most} candidates in {generations} batches{failed}, {replicates} runs, \
          {rate}/s{left}"
     )
 }
@@ -288,8 +290,8 @@ mod tests {
             evaluations: 314,
             evaluations_at_most: Some(370),
             generations: 21,
-            starts: 1204,
-            starts_per_second: 35.21,
+            replicates: 1204,
+            replicates_per_second: 35.21,
             failures: 2,
             left_s: Some(62.0),
             warnings: Vec::new(),

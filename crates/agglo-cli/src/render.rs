@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use agglo::math::Vec3;
 use agglo::plot::Map;
-use agglo::render::{Background, Film, FilmEnding, Options, Output, Shots, Side, View, film};
+use agglo::render::{Animation, AnimationEnding, Background, Options, Output, Shots, Side, View, animate};
 use clap::{Args, ValueEnum};
 
 use crate::progress::Display;
@@ -15,7 +15,7 @@ use crate::{Failure, print};
 /// What to draw.
 #[derive(Args, Debug)]
 #[expect(clippy::struct_excessive_bools, reason = "each is an option of its own")]
-pub(crate) struct Wishes {
+pub(crate) struct RenderOptions {
     /// The folder of the run
     #[arg(value_name = "FOLDER")]
     folder: PathBuf,
@@ -85,7 +85,7 @@ enum Behind {
     Transparent,
 }
 
-impl Wishes {
+impl RenderOptions {
     fn options(&self) -> Options {
         let background = match self.background {
             Behind::Light => Background::Light,
@@ -111,29 +111,29 @@ impl Wishes {
 }
 
 /// Draws a run.
-pub(crate) fn render(wishes: &Wishes) -> Result<(), Failure> {
+pub(crate) fn render(options: &RenderOptions) -> Result<(), Failure> {
     let refused =
         |error: agglo::render::RenderError| Failure::with_code(format!("error: {error}"), error.exit_code());
-    let (folder, path) = (&wishes.folder, wishes.output.display());
+    let (folder, path) = (&options.folder, options.output.display());
     crate::read::folder(folder)?;
-    let output = Output::of(&wishes.output).map_err(refused)?;
+    let output = Output::of(&options.output).map_err(refused)?;
     let is_movie = output.is_movie();
-    let shots = Shots { frames: wishes.frames.clone(), every: wishes.every as usize, rate: wishes.fps };
+    let shots = Shots { frames: options.frames.clone(), every: options.every as usize, rate: options.fps };
     let ear = Ear::open(None, Late::Ends("stopped in the middle of a picture; those before it are kept"))?;
     let mut display = Display::new();
-    let wanted = Film { output, shots, options: wishes.options() };
-    let ending = film(folder, wanted, &mut |progress| {
-        display.show_film(progress);
+    let wanted = Animation { output, shots, options: options.options() };
+    let ending = animate(folder, wanted, &mut |progress| {
+        display.show_animation(progress);
         if ear.is_asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     let wall = display.wall();
     match ending.map_err(refused)? {
-        FilmEnding::Finished(1) => print(&format!("1 picture in {path} ({wall})")),
-        FilmEnding::Finished(count) => print(&format!("{count} pictures in {path} ({wall})")),
-        FilmEnding::Interrupted(_) if is_movie => {
+        AnimationEnding::Finished(1) => print(&format!("1 picture in {path} ({wall})")),
+        AnimationEnding::Finished(count) => print(&format!("{count} pictures in {path} ({wall})")),
+        AnimationEnding::Interrupted(_) if is_movie => {
             Err(Failure::failed(format!("stopped ({wall}); a movie is kept only whole, there is none")))
         }
-        FilmEnding::Interrupted(count) => {
+        AnimationEnding::Interrupted(count) => {
             Err(Failure::failed(format!("stopped ({wall}); {count} pictures are in {path}")))
         }
     }

@@ -9,49 +9,49 @@ use agglo::run::{Ending, Observer, Progress, RunError, Summary};
 use agglo::text::readable;
 use agglo::units::{Quantity, Time, parse_quantity};
 
-use crate::arguments::{Orders, ResumeOrders, RunOrders};
+use crate::arguments::{CommonOptions, ResumeOptions, RunOptions};
 use crate::progress::Display;
 use crate::signals::{Ear, Late};
 use crate::{Failure, print, progress, read, report, tell};
 
 /// Runs a scenario into a folder.
-pub(crate) fn run(run_orders: &RunOrders) -> Result<(), Failure> {
-    let orders = &run_orders.orders;
-    let source = read::Source::read(&orders.scenario)?;
+pub(crate) fn run(run_options: &RunOptions) -> Result<(), Failure> {
+    let options = &run_options.common;
+    let source = read::Source::read(&options.scenario)?;
     source.refuse_other_kind(read::Kind::Scenario)?;
-    let scenario = source.scenario(&starting_from(settings(orders), run_orders.from.as_deref())?)?;
-    let folder = orders.output.clone().unwrap_or_else(|| default_folder(&orders.scenario));
+    let scenario = source.scenario(&starting_from(settings(options), run_options.from.as_deref())?)?;
+    let folder = options.output.clone().unwrap_or_else(|| default_folder(&options.scenario));
     refuse_occupied(&folder)?;
-    let beside = |stop| companion(run_orders, &folder, stop);
-    go(&folder, beside, !orders.no_report, |observer| {
+    let beside = |stop| companion(run_options, &folder, stop);
+    go(&folder, beside, !options.no_report, |observer| {
         agglo::run::run(&scenario, &source.base, &folder, observer)
     })
 }
 
 /// The dashboard, where it is wanted and there is a terminal for it.
 #[cfg(feature = "watch")]
-fn companion(orders: &RunOrders, folder: &Path, stop: Arc<AtomicBool>) -> Option<Box<dyn Companion>> {
-    let is_shown = orders.watch && std::io::IsTerminal::is_terminal(&std::io::stdout());
+fn companion(options: &RunOptions, folder: &Path, stop: Arc<AtomicBool>) -> Option<Box<dyn Companion>> {
+    let is_shown = options.watch && std::io::IsTerminal::is_terminal(&std::io::stdout());
     is_shown.then(|| -> Box<dyn Companion> { Box::new(crate::watch::Guest::new(folder, stop)) })
 }
 
 /// This program was built without the dashboard.
 #[cfg(not(feature = "watch"))]
-fn companion(_: &RunOrders, _: &Path, _: Arc<AtomicBool>) -> Option<Box<dyn Companion>> {
+fn companion(_: &RunOptions, _: &Path, _: Arc<AtomicBool>) -> Option<Box<dyn Companion>> {
     None
 }
 
 /// Goes on with the run in a folder.
-pub(crate) fn resume(orders: &ResumeOrders) -> Result<(), Failure> {
-    let folder = orders.folder.as_path();
+pub(crate) fn resume(options: &ResumeOptions) -> Result<(), Failure> {
+    let folder = options.folder.as_path();
     read::folder(folder)?;
-    if let Some(until) = &orders.until {
+    if let Some(until) = &options.until {
         let end = parse_quantity(until, Time::DIMENSION)
             .map_err(|error| Failure::bad_input(format!("error: --until: {error}")))?;
         return go(
             folder,
             |_| None,
-            !orders.no_report,
+            !options.no_report,
             |observer| agglo::run::resume_until(folder, Quantity(end), observer),
         );
     }
@@ -59,13 +59,13 @@ pub(crate) fn resume(orders: &ResumeOrders) -> Result<(), Failure> {
         let shown = folder.display();
         return print(&format!("{}\nthe run in {shown} has finished already", table(&summary)));
     }
-    go(folder, |_| None, !orders.no_report, |observer| agglo::run::resume(folder, observer))
+    go(folder, |_| None, !options.no_report, |observer| agglo::run::resume(folder, observer))
 }
 
 /// The settings of the command line, the seed among them.
-pub(crate) fn settings(orders: &Orders) -> Vec<String> {
-    let seed = orders.seed.map(|seed| format!("seed={seed}"));
-    orders.settings.iter().cloned().chain(seed).collect()
+pub(crate) fn settings(options: &CommonOptions) -> Vec<String> {
+    let seed = options.seed.map(|seed| format!("seed={seed}"));
+    options.settings.iter().cloned().chain(seed).collect()
 }
 
 /// Settings, with the run that grains are taken from; its path holds from wherever the scenario lies.

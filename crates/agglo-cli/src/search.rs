@@ -7,7 +7,7 @@ use agglo::forecast::Plan;
 use agglo::search::campaign::{self, CampaignEnding, CampaignError, CampaignObserver, CampaignSummary};
 use agglo::search::{Axis, Campaign, CampaignForecast, Ensemble, Problem, Scale, Until};
 
-use crate::arguments::{Orders, ResumeOrders};
+use crate::arguments::{CommonOptions, ResumeOptions};
 use crate::progress::Display;
 use crate::read::{Kind, Source};
 use crate::run::{columns, default_folder, refuse_occupied, settings};
@@ -15,20 +15,20 @@ use crate::signals::{Ear, Late};
 use crate::{Failure, print, report};
 
 /// Conducts a search or study into a folder.
-pub(crate) fn conduct(orders: &Orders, kind: Kind) -> Result<(), Failure> {
-    let source = Source::read(&orders.scenario)?;
+pub(crate) fn conduct(options: &CommonOptions, kind: Kind) -> Result<(), Failure> {
+    let source = Source::read(&options.scenario)?;
     source.refuse_other_kind(kind)?;
-    let (campaign, base) = (source.campaign(&settings(orders))?, source.base);
-    let folder = orders.output.clone().unwrap_or_else(|| default_folder(&orders.scenario));
+    let (campaign, base) = (source.campaign(&settings(options))?, source.base);
+    let folder = options.output.clone().unwrap_or_else(|| default_folder(&options.scenario));
     refuse_occupied(&folder)?;
-    let threads = threads(orders.threads);
-    go(&folder, !orders.no_report, |observer| campaign::run(&campaign, &base, &folder, threads, observer))
+    let threads = threads(options.threads);
+    go(&folder, !options.no_report, |observer| campaign::run(&campaign, &base, &folder, threads, observer))
 }
 
 /// Goes on with the search or study in a folder.
-pub(crate) fn resume(orders: &ResumeOrders) -> Result<(), Failure> {
-    let folder = orders.folder.as_path();
-    if orders.until.is_some() {
+pub(crate) fn resume(options: &ResumeOptions) -> Result<(), Failure> {
+    let folder = options.folder.as_path();
+    if options.until.is_some() {
         let shown = folder.display();
         let help = "a budget of time, and how many candidates there are, stand in its search.toml";
         let message = format!("error: {shown} holds a search or study; --until is for runs\nhelp: {help}");
@@ -38,8 +38,8 @@ pub(crate) fn resume(orders: &ResumeOrders) -> Result<(), Failure> {
         let shown = folder.display();
         return print(&format!("{}\nwhat is in {shown} has finished already", columns(&summary.table())));
     }
-    let threads = threads(orders.threads);
-    go(folder, !orders.no_report, |observer| campaign::resume(folder, threads, observer))
+    let threads = threads(options.threads);
+    go(folder, !options.no_report, |observer| campaign::resume(folder, threads, observer))
 }
 
 fn threads(wanted: Option<u32>) -> usize {
@@ -126,7 +126,7 @@ fn rows(campaign: &Campaign, problem: &Problem) -> Vec<(String, String)> {
     rows.extend(limits.map(|words| row("limit", words)));
     let (what, word) = campaign::way_of(campaign);
     rows.push(row(what, word));
-    rows.push(row("starts", starts(&campaign.ensemble)));
+    rows.push(row("replicates", replicates(&campaign.ensemble)));
     rows.extend(CampaignForecast::new(campaign, problem, threads(None)).rows());
     rows
 }
@@ -147,9 +147,9 @@ fn range(axis: &Axis) -> String {
     }
 }
 
-fn starts(ensemble: &Ensemble) -> String {
+fn replicates(ensemble: &Ensemble) -> String {
     let count = match &ensemble.until {
-        Until::Fixed(fixed) => fixed.starts.to_string(),
+        Until::Fixed(fixed) => fixed.replicates.to_string(),
         Until::RunningMean(rule) => {
             let (least, most, part) = (ensemble.least(), ensemble.most(), rule.tolerance);
             format!("{least} to {most}, until one more moves the mean cost by less than {part} of itself")

@@ -39,16 +39,16 @@ impl Model for Bowl {
         Ok(vec![TestFunction::Rosenbrock.at(values)])
     }
 
-    fn costs(&self, _: &Candidate, figures: &[f64]) -> Vec<f64> {
-        figures.to_vec()
+    fn costs(&self, _: &Candidate, quantities: &[f64]) -> Vec<f64> {
+        quantities.to_vec()
     }
 
-    fn fitness(&self, _: &Candidate, starts: &[Vec<f64>]) -> Fitness {
-        Fitness::new(vec![Moments::of(&starts.concat()).mean])
+    fn fitness(&self, _: &Candidate, replicates: &[Vec<f64>]) -> Fitness {
+        Fitness::new(vec![Moments::of(&replicates.concat()).mean])
     }
 }
 
-fn campaign(threads: usize, starts: u32) {
+fn campaign(threads: usize, replicates: u32) {
     let model = Bowl(vec!["value".to_owned()]);
     let dir = tempfile::tempdir().expect("a folder for temporary files");
     let folder = CampaignFolder::create(&dir.path().join("out")).expect("an empty folder");
@@ -64,13 +64,13 @@ fn campaign(threads: usize, starts: u32) {
         threads,
         parameters: (0..10).map(axis).collect(),
         objectives: vec![Goal { formula: "value".to_owned(), is_to_be_large: false }],
-        ensemble: Ensemble::fixed(starts),
+        ensemble: Ensemble::fixed(replicates),
         optimizer: method.start(10, 1, 1),
         planned: Vec::new(),
         budget_s: None,
         limits: &|_| Vec::new(),
         polish: None,
-        confirm: Confirm { candidates: 0, starts: 0 },
+        confirm: Confirm { candidates: 0, replicates: 0 },
         settings: &|_| Vec::new(),
         findings: &|_| Vec::new(),
         closing: &mut |_, _| Ok(ControlFlow::Continue(())),
@@ -80,14 +80,14 @@ fn campaign(threads: usize, starts: u32) {
     assert_eq!(summary.evaluations, 19_998);
 }
 
-/// Candidates per second with one start each.
+/// Candidates per second with one replicate each.
 #[divan::bench(args = [1, 2], sample_count = 5, sample_size = 1)]
 fn campaign_overhead(bencher: Bencher, threads: usize) {
     bencher.counter(ItemsCount::new(19_998_u32)).bench(|| campaign(threads, 1));
 }
 
-/// Starts per second with ten for each candidate.
+/// Replicates per second with ten for each candidate.
 #[divan::bench(args = [1, 2], sample_count = 5, sample_size = 1)]
-fn start_overhead(bencher: Bencher, threads: usize) {
+fn replicate_overhead(bencher: Bencher, threads: usize) {
     bencher.counter(ItemsCount::new(199_980_u32)).bench(|| campaign(threads, 10));
 }

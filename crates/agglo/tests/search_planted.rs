@@ -110,8 +110,8 @@ sticking = "never"
 "#;
 
 /// Hard spheres, with noise: a gas that cools by its impacts. Planted are e = 0.8 and a spread of 1.3 m/s; what they come
-/// to is the mean over 16 random starts, and the search has twelve others a candidate. The granular temperature at the
-/// end scatters by about a hundredth from start to start and follows e twice as steeply as that, so 3 % is allowed.
+/// to is the mean over 16 random replicates, and the search has twelve others a candidate. The granular temperature at the
+/// end scatters by about a hundredth from replicate to replicate and follows e twice as steeply as that, so 3 % is allowed.
 #[test]
 fn restitution_and_spread_of_a_gas_are_found_again() {
     let planted = [0.8, 1.3];
@@ -133,7 +133,7 @@ fn restitution_and_spread_of_a_gas_are_found_again() {
             key = "grains.0.velocity_spread.maxwell.deviation"
             range.linear = {{ lower = "0.5 m/s", upper = "2 m/s" }}
             [ensemble.until.fixed]
-            starts = 12
+            replicates = 12
             [method.cma_es]
             evaluations = 200
             [confirm]

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use agglo::plot::{Map, Quantity};
-use agglo::render::{Background, Image, Options, Reel, Side, Studio};
+use agglo::render::{Background, FrameSequence, Image, Options, Renderer, Side};
 
 /// Step of the camera for one press of an arrow.
 const TURN: f64 = 15.0_f64.to_radians();
@@ -61,30 +61,36 @@ impl Portrait {
     /// Draws the newest frame for a picture of this size in pixels, unless it is shown already.
     pub fn update(&mut self, size: [u32; 2]) {
         // A run that has just begun has no frame yet.
-        let Ok(reel) = Reel::open(&self.dir) else { return };
-        let key = (reel.len(), self.side, self.color, size);
+        let Ok(sequence) = FrameSequence::open(&self.dir) else { return };
+        let key = (sequence.len(), self.side, self.color, size);
         if self.key == Some(key) || size.contains(&0) {
             return;
         }
-        match self.draw(reel, size) {
+        match self.draw(sequence, size) {
             Ok(shown) => (self.shown, self.trouble) = (shown, None),
             Err(error) => self.trouble = Some(error.to_string()),
         }
         self.key = Some(key);
     }
 
-    fn draw(&mut self, reel: Reel, size: [u32; 2]) -> Result<Option<Shown>, agglo::render::RenderError> {
-        let newest = reel.len() - 1;
-        let frame = reel.read(newest)?;
+    fn draw(
+        &mut self,
+        sequence: FrameSequence,
+        size: [u32; 2],
+    ) -> Result<Option<Shown>, agglo::render::RenderError> {
+        let newest = sequence.len() - 1;
+        let frame = sequence.read(newest)?;
         self.words = Quantity::all_in(&frame).map(|quantity| quantity.word).collect();
         let color = self.words.get(self.color).copied().unwrap_or("speed").to_owned();
         let (background, words) = (Background::Transparent, false);
         let options = Options { color, side: self.side, size, background, words, ..Options::default() };
-        let Some(studio) = Studio::prepare(reel, options, &[newest], &mut |_| true)? else { return Ok(None) };
+        let Some(renderer) = Renderer::prepare(sequence, options, &[newest], &mut |_| true)? else {
+            return Ok(None);
+        };
         Ok(Some(Shown {
-            image: studio.picture(newest)?,
-            quantity: *studio.quantity(),
-            scale: studio.scale(),
+            image: renderer.picture(newest)?,
+            quantity: *renderer.quantity(),
+            scale: renderer.scale(),
             time: frame.time,
         }))
     }

@@ -32,7 +32,7 @@ pub(super) struct Screen<'a> {
 const CURVES: [[u8; 3]; 3] = [[0x56, 0xb4, 0xe9], [0xe6, 0x9f, 0x00], [0x00, 0x9e, 0x73]];
 /// Lines for notes.
 const NOTES: usize = 3;
-/// Columns of figures and curves.
+/// Columns of quantities and curves.
 const SIDE: u16 = 46;
 
 /// Where the picture is, in cells.
@@ -119,26 +119,26 @@ impl Screen<'_> {
     }
 
     fn side(&self, frame: &mut Frame<'_>, area: Rect) {
-        let figures = self.sight.figures.len() as u16;
+        let quantities = self.sight.quantities.len() as u16;
         let count = self.sight.curves.len();
-        // Figures come first; curves share what is left, as many as find room.
-        let left = area.height.saturating_sub(figures + 2);
+        // Quantities come first; curves share what is left, as many as find room.
+        let left = area.height.saturating_sub(quantities + 2);
         let curves = count.min(usize::from(left / 6));
-        let mut heights = vec![Constraint::Length((figures + 2).min(area.height))];
+        let mut heights = vec![Constraint::Length((quantities + 2).min(area.height))];
         heights.extend(vec![Constraint::Fill(1); curves]);
         let areas = Layout::vertical(heights).split(area);
-        self.figures(frame, areas[0]);
+        self.quantities(frame, areas[0]);
         for (k, curve) in self.sight.curves.iter().take(curves).enumerate() {
             let color = self.depth.color(CURVES[k % CURVES.len()]);
             draw_curve(frame, areas[k + 1], curve, color);
         }
     }
 
-    fn figures(&self, frame: &mut Frame<'_>, area: Rect) {
+    fn quantities(&self, frame: &mut Frame<'_>, area: Rect) {
         let block = Block::new().borders(Borders::ALL).title(" now ");
         let room = usize::from(area.width.saturating_sub(2));
-        let lines = self.sight.figures.iter().map(|figure| {
-            let (name, value) = (figure.name, figure.text());
+        let lines = self.sight.quantities.iter().map(|quantity| {
+            let (name, value) = (quantity.name, quantity.text());
             let space = room.saturating_sub(name.len() + value.chars().count() + 2);
             Line::from(vec![format!(" {name}{:space$}", "").into(), value.bold()])
         });

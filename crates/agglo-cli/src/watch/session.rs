@@ -1,4 +1,4 @@
-//! A sitting before the dashboard: reads the folder, draws, listens to keys, until the run ends or the user leaves.
+//! A session before the dashboard: reads the folder, draws, listens to keys, until the run ends or the user leaves.
 
 use std::collections::BTreeSet;
 use std::io::{self, IsTerminal, Write};
@@ -32,7 +32,7 @@ const QUIET: Duration = Duration::from_secs(30);
 const KEYS: &str = "q leave   c color   arrows turn   Ctrl-C leave";
 const GUEST_KEYS: &str = "q plain bar   c color   arrows turn   Ctrl-C stop the run";
 
-/// Why a sitting ended.
+/// Why a session ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Leave {
     /// The run has finished, or whoever runs it says that it is over.
@@ -159,9 +159,9 @@ impl News {
 
 /// " 31 %  0.310 of 1 s, 812 steps/s, 0:04 left: clusters 12, mean speed 3 mm/s".
 fn line(progress: &Progress, pace: &Pace, sight: &Sight) -> String {
-    let figures: Vec<String> =
-        sight.figures.iter().map(|figure| format!("{} {}", figure.name, figure.text())).collect();
-    format!("{:>3.0} %  {}: {}", 100.0 * part(progress), state(progress, pace), figures.join(", "))
+    let quantities: Vec<String> =
+        sight.quantities.iter().map(|quantity| format!("{} {}", quantity.name, quantity.text())).collect();
+    format!("{:>3.0} %  {}: {}", 100.0 * part(progress), state(progress, pace), quantities.join(", "))
 }
 
 /// What the folder tells, as a run would tell it.
@@ -196,7 +196,7 @@ struct Shared {
 pub(crate) struct Guest {
     shared: Arc<Shared>,
     warned: BTreeSet<String>,
-    sitting: Option<JoinHandle<io::Result<()>>>,
+    session: Option<JoinHandle<io::Result<()>>>,
 }
 
 impl Guest {
@@ -204,7 +204,7 @@ impl Guest {
     pub fn new(dir: &Path, stop: Arc<AtomicBool>) -> Self {
         let (dir, shared) = (dir.to_owned(), Arc::new(Shared::default()));
         let seen = Arc::clone(&shared);
-        let sitting = std::thread::spawn(move || {
+        let session = std::thread::spawn(move || {
             let Some(follower) = wait_for(&dir, &seen) else { return Ok(()) };
             let sit = || Dashboard::new(follower, GUEST_KEYS).sit(&seen);
             // Drawing must not wait for the run's threads, all of which may be busy until the run ends.
@@ -217,7 +217,7 @@ impl Guest {
             }
             leave.map(|_| ())
         });
-        Self { shared, warned: BTreeSet::new(), sitting: Some(sitting) }
+        Self { shared, warned: BTreeSet::new(), session: Some(session) }
     }
 }
 
@@ -233,12 +233,12 @@ impl Companion for Guest {
             told.0 = Some(progress.clone());
             told.1.extend(fresh);
         }
-        self.sitting.as_ref().is_some_and(|sitting| !sitting.is_finished())
+        self.session.as_ref().is_some_and(|session| !session.is_finished())
     }
 
     fn close(mut self: Box<Self>) -> io::Result<()> {
         self.shared.is_over.store(true, Ordering::Relaxed);
-        match self.sitting.take().map(JoinHandle::join) {
+        match self.session.take().map(JoinHandle::join) {
             Some(Ok(ended)) => ended,
             Some(Err(_)) => Err(io::Error::other("it broke off")),
             None => Ok(()),
@@ -349,7 +349,7 @@ impl Dashboard {
         Ok(())
     }
 
-    /// What a key does; an answer if it ends the sitting.
+    /// What a key does; an answer if it ends the session.
     fn press(&mut self, key: KeyEvent) -> Option<Leave> {
         if key.kind == KeyEventKind::Release {
             return None;

@@ -2,7 +2,7 @@
 
 use agglo::math::Vec3;
 use agglo::render::{Background, Camera, Scene, Side, Sphere};
-use agglo::watch::{Curve, Figure, Sight};
+use agglo::watch::{Curve, Reading, Sight};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
@@ -12,15 +12,15 @@ use super::cells::{self, Depth};
 use super::screen::{Screen, picture_area};
 
 fn sight() -> Sight {
-    let figure = |name, value, unit| Figure { name, column: ("clusters", "x"), value, unit };
+    let quantity = |name, value, unit| Reading { name, column: ("clusters", "x"), value, unit };
     let points = (0..50).map(|k| (0.02 * f64::from(k), f64::from(k * k))).collect();
     let curve = |name| Curve { name, unit: "m/s", points: Vec::clone(&points) };
     Sight {
-        figures: vec![
-            figure("clusters", 1234.0, ""),
-            figure("dispersion degree", 0.4217, "%"),
-            figure("mean speed", 0.0032, "m/s"),
-            figure("fractal dimension", f64::NAN, ""),
+        quantities: vec![
+            quantity("clusters", 1234.0, ""),
+            quantity("dispersion degree", 0.4217, "%"),
+            quantity("mean speed", 0.0032, "m/s"),
+            quantity("fractal dimension", f64::NAN, ""),
         ],
         curves: vec![curve("mean speed"), curve("clusters")],
         ..Sight::default()
@@ -54,7 +54,7 @@ fn lines(buffer: &Buffer) -> Vec<String> {
 }
 
 #[test]
-fn all_figures_are_shown_with_their_units() {
+fn all_quantities_are_shown_with_their_units() {
     let lines = lines(&screen(&sight(), [120, 40], &[]));
     let shows = |words: &[&str]| lines.iter().any(|line| words.iter().all(|word| line.contains(word)));
     assert_starts!(lines[0], "a run");

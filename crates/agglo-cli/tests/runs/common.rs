@@ -141,8 +141,8 @@ pub fn until_it_succeeds<T>(run: &Path, mut attempt: impl FnMut() -> Option<T>) 
     panic!("expected a program that is stopped on its way; 20 of them came to their end before");
 }
 
-/// SIGKILL at ten moments spread over a run or search of `wall_s` [s], each time in the sitting that went on after the last, until
-/// all ten hit one. `sit` gives the order of a sitting, the first or a later one; `wait_for` waits for a part of the whole.
+/// SIGKILL at ten moments spread over a run or search of `wall_s` [s], each time in the session that went on after the last, until
+/// all ten hit one. `sit` gives the order of a session, the first or a later one; `wait_for` waits for a part of the whole.
 pub fn kill_at_ten_moments(out: &Path, wall_s: f64, sit: impl Fn(bool) -> Command, wait_for: impl Fn(f64)) {
     const KILLS: u32 = 10;
     // A third is left at the last kill, and none comes later than that by a tenth of the whole.
@@ -157,7 +157,7 @@ pub fn kill_at_ten_moments(out: &Path, wall_s: f64, sit: impl Fn(bool) -> Comman
             child.kill().unwrap();
             killed += u32::from(child.wait().unwrap().code().is_none());
         }
-        // On a busy machine a sitting may have reached the end before its kill; then sooner.
+        // On a busy machine a session may have reached the end before its kill; then sooner.
         spread /= 2.0;
         (killed == KILLS).then_some(())
     });

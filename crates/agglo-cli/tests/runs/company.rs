@@ -65,17 +65,17 @@ fn without_locks_a_run_warns_and_goes_on() {
     let mut compiler = std::process::Command::new("cc");
     let made = compiler.args(["-shared", "-fPIC", "-o"]).arg(&library).arg(&source).status();
     assert_eq!(made.unwrap().code(), Some(0), "exit code");
-    let mut order = bench.start(&[]);
-    let done = ended(order.env("LD_PRELOAD", &library).output().unwrap(), 0);
+    let mut command = bench.start(&[]);
+    let done = ended(command.env("LD_PRELOAD", &library).output().unwrap(), 0);
     assert!(complained(&done).contains("has no locks"), "{}", complained(&done));
     assert_same(&bench.run(), reference(STEPS));
 }
 
 /// Starts both at nearly the same time; a process may be refused, but by nothing else than the other one.
-fn both(mut orders: [std::process::Command; 2], apart: Duration) {
+fn both(mut commands: [std::process::Command; 2], apart: Duration) {
     let mut children: Vec<Child> = Vec::new();
-    for order in &mut orders {
-        children.push(order.spawn().unwrap());
+    for command in &mut commands {
+        children.push(command.spawn().unwrap());
         std::thread::sleep(apart);
     }
     let outputs: Vec<Output> = children.into_iter().map(|child| child.wait_with_output().unwrap()).collect();

@@ -8,7 +8,7 @@ use crate::common::{
 };
 use crate::company::storms;
 
-/// SIGKILL at ten moments spread over the run, each time in the sitting that went on after the last; then the rest.
+/// SIGKILL at ten moments spread over the run, each time in the session that went on after the last; then the rest.
 fn killed_ten_times(scenario: &'static str) {
     let reference = reference(scenario);
     let bench = Bench::with(scenario);

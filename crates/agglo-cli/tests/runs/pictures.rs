@@ -128,7 +128,7 @@ fn without_ffmpeg_the_package_is_named() {
 }
 
 #[test]
-fn wishes_that_make_no_difference_are_said() {
+fn options_that_make_no_difference_are_said() {
     let folder = tempfile::tempdir().unwrap();
     let to = folder.path().join("p.png");
     let made = render(reference(STAGGERED), &to, &["--color", "cluster", "--map", "cividis", "--rays"]);
@@ -147,7 +147,7 @@ fn wishes_that_make_no_difference_are_said() {
 }
 
 #[test]
-fn wishes_that_cannot_be_met() {
+fn options_that_cannot_be_met() {
     let folder = tempfile::tempdir().unwrap();
     let to = folder.path().join("p.png");
     let run = reference(EVENTS);

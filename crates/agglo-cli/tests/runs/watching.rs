@@ -17,7 +17,7 @@ fn a_finished_run_is_summed_up() {
     }
 }
 
-/// Without a terminal: lines with the figures, and the summary once the run has finished.
+/// Without a terminal: lines with the quantities, and the summary once the run has finished.
 #[test]
 fn a_run_is_followed_to_its_end() {
     let bench = Bench::with(STAGGERED);

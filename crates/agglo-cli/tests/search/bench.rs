@@ -78,16 +78,19 @@ impl Bench {
         text.lines().skip(1).map(str::to_owned).collect()
     }
 
-    /// Waits until so many starts have ended, or all of them.
-    pub fn wait_for_starts(&self, starts: usize) {
+    /// Waits until so many replicates have ended, or all of them.
+    pub fn wait_for_replicates(&self, replicates: usize) {
         let begun = Instant::now();
         loop {
-            let journal = std::fs::read(self.out().join("starts.journal")).unwrap_or_default();
+            let journal = std::fs::read(self.out().join("replicates.journal")).unwrap_or_default();
             let ended = journal.split(|byte| *byte == b'\n').count() - 1;
-            if ended > starts || self.out().join("summary.json").exists() {
+            if ended > replicates || self.out().join("summary.json").exists() {
                 return;
             }
-            assert!(begun.elapsed() < Duration::from_secs(120), "no {starts} starts after two minutes");
+            assert!(
+                begun.elapsed() < Duration::from_secs(120),
+                "no {replicates} replicates after two minutes"
+            );
             std::thread::sleep(Duration::from_millis(1));
         }
     }

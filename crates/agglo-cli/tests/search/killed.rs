@@ -17,7 +17,7 @@ fn one_thread_writes_the_same_files_as_two() {
     assert_same(&bench.out(), &reference().out());
 }
 
-/// SIGKILL at ten moments spread over the search, each time in the sitting that went on after the last; then the rest.
+/// SIGKILL at ten moments spread over the search, each time in the session that went on after the last; then the rest.
 #[test]
 fn a_search_killed_at_ten_moments_ends_with_the_same_files() {
     let (bench, runs) = (Bench::with(SEARCH), runs());
@@ -25,7 +25,7 @@ fn a_search_killed_at_ten_moments_ends_with_the_same_files() {
         &bench.out(),
         reference().summary()["wall_s"].as_f64().unwrap(),
         |is_first| if is_first { bench.order("search", &[]) } else { bench.resume() },
-        |part| bench.wait_for_starts((runs as f64 * part) as usize),
+        |part| bench.wait_for_replicates((runs as f64 * part) as usize),
     );
     ended(bench.resume().output().unwrap(), 0);
     assert_same(&bench.out(), &reference().out());
@@ -36,7 +36,7 @@ fn ctrl_c_keeps_what_ended_and_says_how_to_go_on() {
     let (bench, runs) = (Bench::with(SEARCH), runs());
     let stopped = until_it_succeeds(&bench.out(), || {
         let child = bench.order("search", &[]).spawn().unwrap();
-        bench.wait_for_starts(runs / 3);
+        bench.wait_for_replicates(runs / 3);
         let output = interrupted(child, "INT").0;
         (output.status.code() != Some(0)).then(|| ended(output, 1))
     });
@@ -45,7 +45,7 @@ fn ctrl_c_keeps_what_ended_and_says_how_to_go_on() {
     assert!(text.contains("stopped (") && text.contains(&advice), "{text}");
     assert_gone!(bench.out().join("summary.json"));
     // Torn, as by a loss of power: the last line is cut in half, one in the middle is damaged.
-    let journal = bench.out().join("starts.journal");
+    let journal = bench.out().join("replicates.journal");
     let mut bytes = fs::read(&journal).unwrap();
     bytes.truncate(bytes.len() - 9);
     let middle = bytes.len() / 2;
@@ -62,16 +62,16 @@ fn ctrl_c_keeps_what_ended_and_says_how_to_go_on() {
     assert!(again.contains("has finished already") && again.contains("hardness"), "{again}");
 }
 
-/// Two processes at once, as often as `AGGLO_STORMS` says: one is refused, and no start is lost.
+/// Two processes at once, as often as `AGGLO_STORMS` says: one is refused, and no replicate is lost.
 #[test]
-fn two_searches_at_once_lose_no_start() {
+fn two_searches_at_once_lose_no_replicate() {
     let storms = std::env::var("AGGLO_STORMS").ok().and_then(|count| count.parse().ok()).unwrap_or(20_u64);
     for storm in 0..storms {
         let bench = Bench::with(SEARCH);
         let mut second = if storm % 2 == 0 { bench.order("search", &[]) } else { bench.resume() };
         let first = bench.order("search", &[]).spawn().unwrap();
         if storm % 2 == 1 {
-            bench.wait_for_starts(1);
+            bench.wait_for_replicates(1);
         }
         std::thread::sleep(Duration::from_millis(storm * 5 % 43));
         let second = second.spawn().unwrap();

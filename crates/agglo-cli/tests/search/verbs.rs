@@ -13,8 +13,8 @@ fn check_says_what_a_search_would_do() {
         "100 kPa to 1 MPa",
         "published_genetic",
         "2 to 8, until one more moves the mean cost by less than 0.002 of itself; the same for all",
-        // 20 strings, three times 14; two to eight starts each, four for each of three again and for the best of them.
-        "at most 62, then the best 3 from fresh starts, then the best of those once more",
+        // 20 strings, three times 14; two to eight replicates each, four for each of three again and for the best of them.
+        "at most 62, then the best 3 from fresh replicates, then the best of those once more",
         "140 to 512",
         "time of all",
         "impacts",
@@ -41,7 +41,7 @@ fn the_closing_table_and_the_folder_tell_the_best() {
     let bench = reference();
     let summary = bench.summary();
     let best = &summary["best"];
-    assert_eq!((&best["starts"], &best["is_confirmed"]), (&4.into(), &true.into()));
+    assert_eq!((&best["replicates"], &best["is_confirmed"]), (&4.into(), &true.into()));
     let cost = best["cost"].as_f64().unwrap();
     // Soft and fast grains stick: anything is better than what a cloud that does not stick has, 1 - 400^(-1/3) = 0.864.
     assert!(cost < 0.8, "{cost}");
@@ -49,7 +49,7 @@ fn the_closing_table_and_the_folder_tell_the_best() {
     assert_eq!(ranked.len(), 3);
     assert_there!(bench.out().join("best/summary.json"));
     assert_there!(bench.out().join("pictures/cost.svg"));
-    // The run in best/ is the first of its fresh starts.
+    // The run in best/ is the first of its fresh replicates.
     let evaluation = best["evaluation"].to_string();
     let first =
         bench.rows("runs.csv").into_iter().find(|row| row.starts_with(&format!("{evaluation},0,"))).unwrap();
@@ -64,7 +64,7 @@ fn the_closing_table_and_the_folder_tell_the_best() {
     let mut arguments = vec!["run".to_owned(), bench.out().join("scenario.toml").display().to_string()];
     let other = tempfile::tempdir().unwrap();
     arguments.extend(["-o".to_owned(), other.path().join("run").display().to_string()]);
-    arguments.extend(["--seed".to_owned(), best["start_seed"].to_string()]);
+    arguments.extend(["--seed".to_owned(), best["replicate_seed"].to_string()]);
     for setting in best["settings"].as_array().unwrap() {
         arguments.extend(["--set".to_owned(), setting.as_str().unwrap().to_owned()]);
     }
@@ -80,7 +80,7 @@ fn a_study_runs_its_plan() {
     let method = SEARCH.find("[method").unwrap();
     let study = SEARCH[..method].to_owned() + "[plan.grid]\nlevels = 3\n";
     let bench = Bench::with(&study);
-    let text = said(&bench.ends("study", &["--set", "ensemble.until={ fixed = { starts = 2 } }"], 0));
+    let text = said(&bench.ends("study", &["--set", "ensemble.until={ fixed = { replicates = 2 } }"], 0));
     assert!(text.contains("9 in 1 batch"), "{text}");
     assert_eq!((bench.rows("evaluations.csv").len(), bench.rows("runs.csv").len()), (9, 18));
     assert_there!(bench.out().join("measures.csv"));
@@ -100,7 +100,7 @@ fn a_study_without_objectives_measures() {
     let checked = said(&ended(agglo(&["check", &bench.file("campaign.toml")]), 0));
     assert!(checked.contains("radius_ratio, impacts") && checked.contains("measured"), "{checked}");
     assert!(!checked.contains("to be small"), "{checked}");
-    let text = said(&bench.ends("study", &["--set", "ensemble.until={ fixed = { starts = 2 } }"], 0));
+    let text = said(&bench.ends("study", &["--set", "ensemble.until={ fixed = { replicates = 2 } }"], 0));
     assert!(text.contains("search 4 of 4") && !text.contains("best") && !text.contains("smallest"), "{text}");
     let header = std::fs::read_to_string(bench.out().join("evaluations.csv")).unwrap();
     let header = header.lines().next().unwrap();
@@ -134,7 +134,7 @@ fn a_search_over_a_table_goes_on_wherever_it_is_moved() {
     }
     table(&moved);
     let child = moved.order("search", &few).spawn().unwrap();
-    moved.wait_for_starts(3);
+    moved.wait_for_replicates(3);
     crate::common::signal(&child, "INT");
     child.wait_with_output().unwrap();
     let away = tempfile::tempdir().unwrap();
@@ -145,8 +145,8 @@ fn a_search_over_a_table_goes_on_wherever_it_is_moved() {
     crate::bench::assert_same(&out, &whole.out());
     let again = |verb: &str, file: &str, to: &str| {
         let (file, to) = (out.join(file), away.path().join(to));
-        let orders = [verb, file.to_str().unwrap(), "-o", to.to_str().unwrap(), "--no-report"];
-        ended(agglo(&orders), 0);
+        let arguments = [verb, file.to_str().unwrap(), "-o", to.to_str().unwrap(), "--no-report"];
+        ended(agglo(&arguments), 0);
         to
     };
     crate::bench::assert_same(&again("search", "search.toml", "again"), &whole.out());

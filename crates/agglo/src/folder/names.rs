@@ -22,6 +22,6 @@ pub const CHECKPOINTS: &str = "checkpoints";
 /// The run of the best candidate of a campaign.
 pub const BEST: &str = "best";
 /// Starts that ended, while a campaign goes on.
-pub const JOURNAL: &str = "starts.journal";
+pub const JOURNAL: &str = "replicates.journal";
 /// Pictures of a campaign.
 pub const PICTURES: &str = "pictures";

@@ -97,7 +97,7 @@ fn carry_on(plan: &mut Plan, end: f64, tried: &Rehearsal, impacts: u64, [whole, 
 fn expectations(plan: &mut Plan, left: f64, how: &str) {
     let impacts = plan.impacts;
     let change = (left / plan.grains as f64).ln();
-    let mut row = |label: &str, words: String| plan.figures.push((label.to_owned(), words));
+    let mut row = |label: &str, words: String| plan.quantities.push((label.to_owned(), words));
     if impacts > 0.0 {
         row("impacts", format!("about {}", about(impacts)));
     }
@@ -126,10 +126,10 @@ fn steps_to_an_impact(law: &TimeStepped, left: f64) -> f64 {
 }
 
 fn describe(plan: &mut Plan, scenario: &Scenario, gas: &Gas, grains: f64) {
-    plan.figures.push(("solid fraction".to_owned(), digits(gas.solid_fraction)));
+    plan.quantities.push(("solid fraction".to_owned(), digits(gas.solid_fraction)));
     if gas.rate > 0.0 && grains > 1.0 && gas.free_path.is_finite() && gas.free_time.is_finite() {
         let way = format!("{}, {}", readable(gas.free_path, "m"), readable(gas.free_time, "s"));
-        plan.figures.push(("from impact to impact".to_owned(), format!("{way} at the start")));
+        plan.quantities.push(("from impact to impact".to_owned(), format!("{way} at the start")));
     }
     let Some(laws) = &scenario.impact else { return };
     if let Restitution::Hardness(law) = &laws.restitution {
@@ -138,13 +138,13 @@ fn describe(plan: &mut Plan, scenario: &Scenario, gas: &Gas, grains: f64) {
             let found = scenario.materials.get(&group.material).and_then(|m| threshold(law, m, group));
             if let Some(threshold) = found {
                 let words = threshold.words(laws, unbreakable);
-                plan.figures.push((format!("grains {index}"), words));
+                plan.quantities.push((format!("grains {index}"), words));
             }
         }
     }
     if laws.fragmentation.is_some() && is_unbreakable(scenario, laws, gas) {
         let words = "none: two grains in one cost more to part than all fly with".to_owned();
-        plan.figures.push(("breakage".to_owned(), words));
+        plan.quantities.push(("breakage".to_owned(), words));
     }
 }
 

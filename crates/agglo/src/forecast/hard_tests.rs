@@ -150,11 +150,11 @@ fn a_gas_at_rest() {
 
 /// So hard when cold that no number says how hard.
 #[test]
-fn a_figure_that_is_no_number_is_not_known() {
+fn a_quantity_that_is_no_number_is_not_known() {
     let scenario = Scenario::with_overrides(SET_1, &["materials.grain.activation_energy=1e18 J/mol"]);
     let page = plan_of(&scenario.unwrap().to_toml().unwrap()).to_string();
-    let figure = page.lines().find(|line| line.starts_with("  grains 0")).unwrap();
-    assert!(figure.ends_with("  not known") && !page.contains("inf"), "{page}");
+    let quantity = page.lines().find(|line| line.starts_with("  grains 0")).unwrap();
+    assert!(quantity.ends_with("  not known") && !page.contains("inf"), "{page}");
 }
 
 /// Set 1: H = 0.26548 MPa x exp(352.41/(8.314463 x 502.18)) = 1.08807 x 0.26548 MPa, so that

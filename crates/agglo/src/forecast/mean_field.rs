@@ -118,7 +118,7 @@ impl<'a> MeanField<'a> {
                 *value += dt * slope;
             }
             let is_known = [self.state[0], self.state[1], forecast.impacts, forecast.steps, dt];
-            if !is_known.iter().all(|figure| figure.is_finite()) {
+            if !is_known.iter().all(|quantity| quantity.is_finite()) {
                 return None;
             }
             self.state[0] = self.state[0].max(0.0);

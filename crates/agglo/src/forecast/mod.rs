@@ -70,7 +70,7 @@ pub struct Plan {
     /// Expected time of the run on this machine [s], where it is known.
     pub seconds: Option<f64>,
     /// What else is worth knowing: label and value.
-    pub figures: Vec<(String, String)>,
+    pub quantities: Vec<(String, String)>,
     /// What to keep in mind: validity of the models, laws that do not converge, settings without effect.
     pub notes: Vec<String>,
 }
@@ -143,7 +143,7 @@ impl Plan {
     fn starts_from(&mut self, origin: &Origin) {
         self.grains = origin.start.grains.len() as u64;
         if let Some(earlier) = &origin.earlier {
-            self.figures.push(("starts from".to_owned(), earlier.words.clone()));
+            self.quantities.push(("starts from".to_owned(), earlier.words.clone()));
             self.notes.extend(origin.start.warnings.iter().cloned());
         }
     }
@@ -161,14 +161,14 @@ impl Plan {
 
     /// What is not finite is not known.
     fn forget_what_is_no_number(&mut self) {
-        for figure in [&mut self.steps, &mut self.disk, &mut self.seconds] {
-            *figure = figure.filter(|value| value.is_finite() && *value >= 0.0);
+        for quantity in [&mut self.steps, &mut self.disk, &mut self.seconds] {
+            *quantity = quantity.filter(|value| value.is_finite() && *value >= 0.0);
         }
         if !self.impacts.is_finite() {
             self.impacts = 0.0;
         }
         let is_no_number = |word: &str| matches!(word, "inf" | "NaN");
-        for (_, words) in &mut self.figures {
+        for (_, words) in &mut self.quantities {
             if words.split(|c: char| !c.is_alphanumeric()).any(is_no_number) {
                 UNKNOWN.clone_into(words);
             }
@@ -214,7 +214,7 @@ impl Plan {
             row("pulses", self.pulses.to_string());
         }
         row("steps", self.steps.map_or(UNKNOWN.to_owned(), |steps| format!("about {}", about(steps))));
-        rows.extend(self.figures.iter().cloned());
+        rows.extend(self.quantities.iter().cloned());
         let mut row = |label: &str, value: String| rows.push((label.to_owned(), value));
         row("memory", format!("about {}", readable(two_digits(self.memory), "B")));
         row(

@@ -81,11 +81,11 @@ pub(super) fn power_and_pressure(strength: Strength, area: f64, impedance: f64) 
 }
 
 impl Push {
-    /// Whether all its figures are finite. A Reynolds number is not in a medium without viscosity.
+    /// Whether all its quantities are finite. A Reynolds number is not in a medium without viscosity.
     pub fn is_known(&self) -> bool {
         let speeds = [self.mean_speed, self.fastest, self.common_speed, self.meeting_speed];
         let others = [self.power, self.pressure, self.duration, self.hits, self.absorbed, self.flight_s];
-        speeds.iter().chain(&others).all(|figure| figure.is_finite())
+        speeds.iter().chain(&others).all(|quantity| quantity.is_finite())
             && self.strain.is_none_or(f64::is_finite)
             && !self.reynolds.is_nan()
     }
@@ -183,9 +183,9 @@ fn strain_at(
     Some(overlap / (2.0 * radius))
 }
 
-/// Adds the figures of all pushes to a plan.
+/// Adds the quantities of all pushes to a plan.
 pub(super) fn describe(plan: &mut Plan, pushes: &[Push]) {
-    let mut row = |label: String, value: String| plan.figures.push((label, value));
+    let mut row = |label: String, value: String| plan.quantities.push((label, value));
     for push in pushes {
         let Push { beam, power, pressure, .. } = *push;
         row(format!("beam {beam}"), format!("{}, {}", readable(power, "W"), readable(pressure, "Pa")));

@@ -6,26 +6,26 @@
 //!
 //! What this does not do: it reads what a run has written and computes nothing of the run itself.
 
+mod animation;
 mod bvh;
 mod camera;
 mod error;
-mod film;
+mod frame_sequence;
 mod image;
 mod light;
 mod output;
 mod overlay;
-mod reel;
+mod renderer;
 mod scene;
 mod solid;
-mod studio;
 mod text;
 
+pub use animation::{Animation, AnimationEnding, AnimationProgress, Shots, animate};
 pub use camera::{Camera, Side};
 pub use error::RenderError;
-pub use film::{Film, FilmEnding, FilmProgress, Shots, film};
+pub use frame_sequence::FrameSequence;
 pub use image::Image;
 pub use output::{Output, clear_at_exit};
-pub use reel::Reel;
+pub use renderer::{Options, Renderer, View};
 pub use scene::{Background, Ground, Scene};
 pub use solid::{Light, Line, Sphere};
-pub use studio::{Options, Studio, View};

@@ -111,7 +111,7 @@ pub fn run(
     dir: &Path,
     observer: &mut Observer<'_>,
 ) -> Result<Ending, RunError> {
-    let sat_down = Instant::now();
+    let began = Instant::now();
     let mut scenario = scenario.resolved();
     crate::forecast::refuse_run(&scenario, base, dir)?;
     let Origin { start, earlier, .. } = placed(&scenario, base, observer)?;
@@ -123,7 +123,7 @@ pub fn run(
     let scenario = folder.with_tables(&scenario, base).inspect_err(|_| folder.abandon())?;
     on_a_worker(|| {
         let go = if scenario.engine.is_hard() { sit::<Hard> } else { sit::<Soft> };
-        go(&scenario, start, &folder, sat_down, observer)
+        go(&scenario, start, &folder, began, observer)
     })
 }
 
@@ -156,15 +156,15 @@ fn before_the_start(words: &str, end: f64, observer: &mut Observer<'_>) -> Contr
     observer(&Progress { time: 0.0, end, step: 0, steps_are: "steps", now, warnings })
 }
 
-/// The first sitting of a run.
+/// The first session of a run.
 fn sit<J: Job>(
     scenario: &Scenario,
     start: Start,
     folder: &RunFolder,
-    sat_down: Instant,
+    began: Instant,
     observer: &mut Observer<'_>,
 ) -> Result<Ending, RunError> {
-    let started = Session::<J>::start(scenario, start, folder.clone(), sat_down, observer);
+    let started = Session::<J>::start(scenario, start, folder.clone(), began, observer);
     started.inspect_err(|_| folder.abandon())?.carry_on(observer)
 }
 

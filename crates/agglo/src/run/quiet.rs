@@ -27,7 +27,7 @@ const LOOKS: f64 = 200.0;
 /// # Errors
 /// [`RunError`] where the start cannot be built or a step fails.
 pub fn quiet(scenario: &Scenario, base: &Path, stop: &AtomicBool) -> Result<Ending, RunError> {
-    let sat_down = Instant::now();
+    let began = Instant::now();
     let scenario = scenario.resolved();
     crate::forecast::refuse_quiet(&scenario, base, 1)?;
     let start = match Origin::of(&scenario, base, &mut || asked(stop)) {
@@ -35,7 +35,7 @@ pub fn quiet(scenario: &Scenario, base: &Path, stop: &AtomicBool) -> Result<Endi
         placed => placed?.start,
     };
     let go = if scenario.engine.is_hard() { sit::<Hard> } else { sit::<Soft> };
-    go(&scenario, start, sat_down, stop)
+    go(&scenario, start, began, stop)
 }
 
 fn asked(stop: &AtomicBool) -> ControlFlow<()> {
@@ -45,7 +45,7 @@ fn asked(stop: &AtomicBool) -> ControlFlow<()> {
 fn sit<J: Job>(
     scenario: &Scenario,
     start: Start,
-    sat_down: Instant,
+    began: Instant,
     stop: &AtomicBool,
 ) -> Result<Ending, RunError> {
     let end = scenario.time.end.si();
@@ -61,7 +61,7 @@ fn sit<J: Job>(
         job.advance(job.time() + end / LOOKS).map_err(RunError::Quiet)?;
         job.forget_events();
     }
-    let summary = job.summary(scenario, sat_down.elapsed().as_secs_f64());
+    let summary = job.summary(scenario, began.elapsed().as_secs_f64());
     Ok(Ending::Finished(summary.validated(job.time()).map_err(RunError::Quiet)?))
 }
 

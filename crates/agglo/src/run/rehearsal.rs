@@ -123,18 +123,14 @@ pub fn rehearse(scenario: &Scenario, start: Start, budget: Duration) -> Result<R
 }
 
 fn sit<J: Job>(scenario: &Scenario, start: Start, budget: Duration) -> Result<Rehearsal, SimError> {
-    let sat_down = Instant::now();
+    let began = Instant::now();
     let mut watch = |_: &Resting| {
-        if sat_down.elapsed() < PATIENCE * budget {
-            ControlFlow::Continue(())
-        } else {
-            ControlFlow::Break(())
-        }
+        if began.elapsed() < PATIENCE * budget { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     };
     let mut job = J::start(scenario, start, &mut watch)?;
-    let start_s = sat_down.elapsed().as_secs_f64();
+    let start_s = began.elapsed().as_secs_f64();
     let mut record = Record::of(&mut job, scenario).ok();
-    let mut writing_s = sat_down.elapsed().as_secs_f64() - start_s;
+    let mut writing_s = began.elapsed().as_secs_f64() - start_s;
     let (mut quiet, mut flying) = (Stretches::default(), Stretches::default());
     let look = scenario.time.end.si() / LOOKS;
     let began = Instant::now();

@@ -1,4 +1,4 @@
-//! One sitting of a run: steps, records and checkpoints until the end, an error or a stop.
+//! One session of a run: steps, records and checkpoints until the end, an error or a stop.
 
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
@@ -43,7 +43,7 @@ pub struct Way {
     pub refused: Vec<Refused>,
 }
 
-/// One sitting of a run.
+/// One session of a run.
 pub struct Session<J> {
     scenario: Scenario,
     /// Ends [s] that the run had before it got a later one.
@@ -52,13 +52,13 @@ pub struct Session<J> {
     job: J,
     recorder: Recorder,
     wall_before: f64,
-    sat_down: Instant,
+    began: Instant,
     told: Instant,
     notes: Vec<String>,
 }
 
 impl<J: Job> Session<J> {
-    /// Starts a run in an empty folder; its wall time counts from `sat_down`. The observer is told of grains that come to
+    /// Starts a run in an empty folder; its wall time counts from `began`. The observer is told of grains that come to
     /// rest first.
     ///
     /// # Errors
@@ -67,11 +67,11 @@ impl<J: Job> Session<J> {
         scenario: &Scenario,
         start: Start,
         folder: RunFolder,
-        sat_down: Instant,
+        began: Instant,
         observer: &mut Observer<'_>,
     ) -> Result<Self, RunError> {
         let end = scenario.time.end.si();
-        let mut told = sat_down;
+        let mut told = began;
         let mut watch = |resting: &Resting| {
             if told.elapsed() < TELL_EVERY {
                 return ControlFlow::Continue(());
@@ -90,8 +90,8 @@ impl<J: Job> Session<J> {
             job,
             recorder,
             wall_before: 0.0,
-            sat_down,
-            told: sat_down,
+            began,
+            told: began,
             notes,
         };
         session.recorder.record_due(&mut session.job)?;
@@ -126,9 +126,9 @@ impl<J: Job> Session<J> {
         let notes = unguarded.into_iter().chain(way.refused.iter().map(passed_over)).collect();
         let (has_other_end, ends_before) = (!saved.ends_before.is_empty(), saved.ends_before);
         let wall_before = saved.wall_s;
-        let (sat_down, told) = (now, now);
+        let (began, told) = (now, now);
         let mut session =
-            Self { scenario, ends_before, folder, job, recorder, wall_before, sat_down, told, notes };
+            Self { scenario, ends_before, folder, job, recorder, wall_before, began, told, notes };
         if way.is_new_end {
             // Those with the end before would not belong to the folder's scenario.
             let newest = session.save()?;
@@ -217,7 +217,7 @@ impl<J: Job> Session<J> {
     }
 
     fn wall_s(&self) -> f64 {
-        self.wall_before + self.sat_down.elapsed().as_secs_f64()
+        self.wall_before + self.began.elapsed().as_secs_f64()
     }
 
     fn tell(&mut self, observer: &mut Observer<'_>) -> ControlFlow<()> {

@@ -4,7 +4,7 @@ use serde_json::Value as Json;
 
 use crate::run::{PulseFigures, SoftSummary, Summary};
 
-/// Figures that are not the same on another machine or with another number of threads.
+/// Quantities that are not the same on another machine or with another number of threads.
 const OF_THE_MACHINE: [&str; 3] = ["seed", "threads", "wall_s"];
 
 /// The columns that a run's summary can have, in their order: dotted names, list entries with the number 0.
@@ -30,13 +30,13 @@ pub fn is_known(name: &str, known: &[String]) -> bool {
     known.contains(&first.join("."))
 }
 
-/// The figures of a summary in the order of `names`; not a number where it has none.
+/// The quantities of a summary in the order of `names`; not a number where it has none.
 pub fn pick(summary: &Summary, names: &[String]) -> Vec<f64> {
     let tree = tree(summary);
-    names.iter().map(|name| figure(&tree, name).unwrap_or(f64::NAN)).collect()
+    names.iter().map(|name| quantity(&tree, name).unwrap_or(f64::NAN)).collect()
 }
 
-fn figure(tree: &Json, name: &str) -> Option<f64> {
+fn quantity(tree: &Json, name: &str) -> Option<f64> {
     name.split('.').try_fold(tree, step)?.as_f64()
 }
 

@@ -1,12 +1,12 @@
-//! How many random starts tell how good a candidate is.
+//! How many random replicates tell how good a candidate is.
 //!
 //! # Equation
 //! ```text
 //! |m(E+1) - m(E)| <= TOL |m(E+1)|                                            [B] 8.1, `running_mean`
 //! t(level, E - 1) s(E) / √E <= h                                             SA5, `confidence`
 //! ```
-//! m(E) and s(E) are the mean and the standard deviation of the costs of the first E starts. The rules are asked after
-//! each start in the order of the starts, and the first yes ends the candidate.
+//! m(E) and s(E) are the mean and the standard deviation of the costs of the first E replicates. The rules are asked after
+//! each replicate in the order of the replicates, and the first yes ends the candidate.
 //!
 //! # Source
 //! T. I. Zohdi, Proc. R. Soc. Lond. A 460, 3421 (2004), section 8; for `confidence`: A. M. Law, *Simulation Modeling and
@@ -15,21 +15,21 @@
 //! # Symbols
 //! | symbol | name in code | unit         | meaning                                            |
 //! |--------|--------------|--------------|----------------------------------------------------|
-//! | E      | `starts`     | 1            | starts so far                                      |
+//! | E      | `replicates`     | 1            | replicates so far                                      |
 //! | m      | `mean`       | of the cost  | mean cost                                          |
 //! | TOL    | `tolerance`  | 1            | part of the mean                                   |
 //! | t      | `quantile`   | 1            | Student's t of both tails together                 |
 //! | h      | `half_width` | of the cost  | half width of the confidence interval of the mean  |
 //!
 //! # Valid when
-//! `running_mean` compares one start with the mean, and says yes too early when that start happens to lie near the mean:
+//! `running_mean` compares one replicate with the mean, and says yes too early when that replicate happens to lie near the mean:
 //! the error of the mean that it leaves is not tied to its tolerance. With costs that scatter by s it stops after about
-//! s/(TOL |m|) starts or earlier. `confidence` bounds the error, for costs that are about normally distributed; its level
-//! is that of one look, and since it looks after each start it is right somewhat less often. With several costs all
+//! s/(TOL |m|) replicates or earlier. `confidence` bounds the error, for costs that are about normally distributed; its level
+//! is that of one look, and since it looks after each replicate it is right somewhat less often. With several costs all
 //! must be enough.
 //!
 //! # Compared with others
-//! [B] does not say with how many starts it begins; `least` = 2 is the least that the rule can be asked with.
+//! [B] does not say with how many replicates it begins; `least` = 2 is the least that the rule can be asked with.
 //!
 //! # In a campaign
 //! ```toml
@@ -54,27 +54,27 @@ use super::analysis::Moments;
 use super::student::within;
 use crate::math::rng::{Purpose, Stream};
 
-/// How many random starts a candidate gets, and which.
+/// How many random replicates a candidate gets, and which.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Ensemble {
     /// When there are enough.
     pub until: Until,
-    /// Whether all candidates get the same starts, so that luck does not decide between them.
+    /// Whether all candidates get the same replicates, so that luck does not decide between them.
     pub common_random_numbers: bool,
 }
 
 impl Default for Ensemble {
     fn default() -> Self {
-        Self { until: Until::Fixed(Fixed { starts: 1 }), common_random_numbers: true }
+        Self { until: Until::Fixed(Fixed { replicates: 1 }), common_random_numbers: true }
     }
 }
 
-/// When there are enough starts.
+/// When there are enough replicates.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Until {
-    /// After a number of starts.
+    /// After a number of replicates.
     Fixed(Fixed),
     /// When the mean cost settles ([B] 8.1).
     RunningMean(RunningMean),
@@ -82,23 +82,23 @@ pub enum Until {
     Confidence(Confidence),
 }
 
-/// A number of starts.
+/// A number of replicates.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Fixed {
     /// How many.
-    pub starts: u32,
+    pub replicates: u32,
 }
 
-/// Until one more start moves the mean by less than a part of itself ([B] 8.1).
+/// Until one more replicate moves the mean by less than a part of itself ([B] 8.1).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct RunningMean {
     /// The part.
     pub tolerance: f64,
-    /// Starts at the least.
+    /// Replicates at the least.
     pub least: u32,
-    /// Starts at the most.
+    /// Replicates at the most.
     pub most: u32,
 }
 
@@ -117,10 +117,10 @@ pub struct Confidence {
     /// Confidence level.
     #[serde(default = "usual_level")]
     pub level: f64,
-    /// Starts at the least.
+    /// Replicates at the least.
     #[serde(default = "least")]
     pub least: u32,
-    /// Starts at the most.
+    /// Replicates at the most.
     #[serde(default = "most")]
     pub most: u32,
 }
@@ -136,70 +136,70 @@ fn most() -> u32 {
 }
 
 impl Ensemble {
-    /// The same number of starts for all.
-    pub fn fixed(starts: u32) -> Self {
-        Self { until: Until::Fixed(Fixed { starts }), ..Self::default() }
+    /// The same number of replicates for all.
+    pub fn fixed(replicates: u32) -> Self {
+        Self { until: Until::Fixed(Fixed { replicates }), ..Self::default() }
     }
 
-    /// Starts that every candidate gets.
+    /// Replicates that every candidate gets.
     pub fn least(&self) -> u32 {
         match self.until {
-            Until::Fixed(Fixed { starts }) => starts.max(1),
+            Until::Fixed(Fixed { replicates }) => replicates.max(1),
             Until::RunningMean(RunningMean { least, .. }) | Until::Confidence(Confidence { least, .. }) => {
                 least.max(2).min(self.most())
             }
         }
     }
 
-    /// Starts that no candidate gets more of.
+    /// Replicates that no candidate gets more of.
     pub fn most(&self) -> u32 {
         match self.until {
-            Until::Fixed(Fixed { starts: most })
+            Until::Fixed(Fixed { replicates: most })
             | Until::RunningMean(RunningMean { most, .. })
             | Until::Confidence(Confidence { most, .. }) => most.max(1),
         }
     }
 
-    /// Whether the costs so far, one a start in the order of the starts, are enough.
+    /// Whether the costs so far, one a replicate in the order of the replicates, are enough.
     pub fn is_enough(&self, costs: &[f64]) -> bool {
-        let starts = costs.len() as u32;
-        if starts >= self.most() {
+        let replicates = costs.len() as u32;
+        if replicates >= self.most() {
             return true;
         }
-        starts >= self.least()
+        replicates >= self.least()
             && match self.until {
                 Until::Fixed(_) => true,
                 Until::RunningMean(RunningMean { tolerance, .. }) => has_settled(costs, tolerance),
                 Until::Confidence(Confidence { half_width, level, .. }) => {
                     let error = Moments::of(costs).standard_error();
-                    error == 0.0 || within(half_width / error, u64::from(starts) - 1) >= level
+                    error == 0.0 || within(half_width / error, u64::from(replicates) - 1) >= level
                 }
             }
     }
 
-    /// The seed of start number `start` of evaluation number `evaluation` under the campaign's `seed`.
+    /// The seed of replicate number `replicate` of evaluation number `evaluation` under the campaign's `seed`.
     ///
     /// It is below 2⁵³, so that every reader of numbers keeps it.
-    pub fn seed(&self, seed: u64, evaluation: u64, start: u32) -> u64 {
+    pub fn seed(&self, seed: u64, evaluation: u64, replicate: u32) -> u64 {
         if self.common_random_numbers {
-            draw(seed, COMMON, u64::from(start))
+            draw(seed, COMMON, u64::from(replicate))
         } else {
-            draw(seed, FIRST_OWN.saturating_add(start), evaluation)
+            draw(seed, FIRST_OWN.saturating_add(replicate), evaluation)
         }
     }
 
-    /// As [`Ensemble::seed`], of starts that no search has seen.
-    pub fn fresh_seed(&self, seed: u64, evaluation: u64, start: u32) -> u64 {
+    /// As [`Ensemble::seed`], of replicates that no search has seen.
+    pub fn fresh_seed(&self, seed: u64, evaluation: u64, replicate: u32) -> u64 {
         let own = if self.common_random_numbers { 0 } else { (evaluation + 1) << 32 };
-        draw(seed, FRESH, own + u64::from(start))
+        draw(seed, FRESH, own + u64::from(replicate))
     }
 }
 
 /// Part of the seeds that all candidates share.
 const COMMON: u32 = 0;
-/// Part of the seeds of starts that no search has seen.
+/// Part of the seeds of replicates that no search has seen.
 const FRESH: u32 = 1;
-/// Part of the seeds of each candidate's own first start; its second start is the part after that.
+/// Part of the seeds of each candidate's own first replicate; its second replicate is the part after that.
 const FIRST_OWN: u32 = 2;
 
 fn draw(seed: u64, part: u32, index: u64) -> u64 {
@@ -210,10 +210,10 @@ fn draw(seed: u64, part: u32, index: u64) -> u64 {
 
 /// [B] 8.1 for the last of the costs.
 fn has_settled(costs: &[f64], tolerance: f64) -> bool {
-    let starts = costs.len() as f64;
+    let replicates = costs.len() as f64;
     let sum: f64 = costs.iter().sum();
     let before = sum - costs.last().copied().unwrap_or(0.0);
-    let (mean, before) = (sum / starts, before / (starts - 1.0));
+    let (mean, before) = (sum / replicates, before / (replicates - 1.0));
     (mean - before).abs() <= tolerance * mean.abs()
 }
 
@@ -241,7 +241,7 @@ mod tests {
         assert_true!(running_mean(0.0477, 9).is_enough(&costs[..2]), "so many costs settle the comparison");
         assert_false!(running_mean(0.0096, 9).is_enough(&costs), "so many costs settle the comparison");
         assert_true!(running_mean(0.0097, 9).is_enough(&costs), "so many costs settle the comparison");
-        assert!(!running_mean(1.0, 9).is_enough(&costs[..1]), "one start has no mean before it");
+        assert!(!running_mean(1.0, 9).is_enough(&costs[..1]), "one replicate has no mean before it");
         assert!(running_mean(1e-9, 3).is_enough(&costs), "three are the most");
         // A cost that is always the same is enough at once, whatever its sign; about 0 only the same cost is.
         assert_true!(running_mean(0.0, 9).is_enough(&[-2.0, -2.0]), "so many costs settle the comparison");
@@ -269,7 +269,7 @@ mod tests {
     }
 
     #[test]
-    fn common_seeds_depend_on_the_start_alone_and_own_ones_on_both() {
+    fn common_seeds_depend_on_the_replicate_alone_and_own_ones_on_both() {
         let all = |ensemble: &Ensemble| -> BTreeSet<u64> {
             (0..30_u64)
                 .flat_map(|e| (0..30).map(move |s| (e, s)))

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 pub struct Fitness {
     /// What is to be small; one entry, or two where a front is sought. Empty if the candidate failed.
     pub costs: Vec<f64>,
-    /// Standard errors of the costs over random starts; 0 where there is no noise or it is not known.
+    /// Standard errors of the costs over random replicates; 0 where there is no noise or it is not known.
     pub standard_errors: Vec<f64>,
     /// Sum of the relative amounts by which limits are missed; 0 if the candidate is feasible, infinite if it failed.
     pub violation: f64,

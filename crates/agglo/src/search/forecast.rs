@@ -1,4 +1,4 @@
-//! What a whole search or study will ask of the machine: starts times candidates times the time of one run.
+//! What a whole search or study will ask of the machine: replicates times candidates times the time of one run.
 //!
 //! The time of one run is the mean over some candidates of the box, each of which is tried for a moment on one thread, as
 //! the forecast of a run is.
@@ -45,7 +45,7 @@ impl CampaignForecast {
     /// Works it out for a checked campaign on so many threads.
     pub fn new(campaign: &Campaign, problem: &Problem, threads: usize) -> Self {
         let planned = planned(campaign, problem);
-        let confirm = u64::from(campaign.confirm.starts);
+        let confirm = u64::from(campaign.confirm.replicates);
         let [least, most] = [campaign.ensemble.least(), campaign.ensemble.most()].map(u64::from);
         let runs = |each: u64| -> f64 {
             let of = |&(stage, candidates): &(Stage, u64)| {
@@ -105,7 +105,7 @@ fn stage_in_words((stage, candidates): &(Stage, u64)) -> String {
     match stage {
         Stage::Search | Stage::Close => format!("{candidates}"),
         Stage::Polish => format!("{candidates} of the polish"),
-        Stage::Confirm => format!("the best {candidates} from fresh starts"),
+        Stage::Confirm => format!("the best {candidates} from fresh replicates"),
         Stage::Final => "the best of those once more".to_owned(),
     }
 }

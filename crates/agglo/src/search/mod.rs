@@ -1,7 +1,7 @@
 //! Searches for the conditions that do something best, and studies of how an outcome depends on them.
 //!
 //! Optimizers propose points of a unit cube and are told how good they are; the space turns points into scenarios; an
-//! ensemble of random starts tells how good a scenario is.
+//! ensemble of random replicates tells how good a scenario is.
 
 pub mod analysis;
 mod axes;

@@ -1,4 +1,4 @@
-//! What a campaign evaluates: something that gives figures for a candidate and a seed.
+//! What a campaign evaluates: something that gives quantities for a candidate and a seed.
 
 use std::sync::atomic::AtomicBool;
 
@@ -15,7 +15,7 @@ pub struct Candidate {
     pub violation: f64,
 }
 
-/// Why a start gave no figures.
+/// Why a replicate gave no quantities.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Trouble {
     /// It failed: the reason.
@@ -24,32 +24,32 @@ pub enum Trouble {
     Stopped,
 }
 
-/// Something that gives figures for a candidate and a seed.
+/// Something that gives quantities for a candidate and a seed.
 pub trait Model: Sync {
     /// What is worked out once for a candidate.
     type Prepared: Send + Sync;
 
-    /// Names of the figures, with their units: `growth_deficit`, `temperature_mean_K`.
+    /// Names of the quantities, with their units: `growth_deficit`, `temperature_mean_K`.
     fn columns(&self) -> &[String];
 
     /// What a point stands for.
     fn candidate(&self, point: &[f64]) -> Candidate;
 
-    /// Works out what all starts of a candidate share.
+    /// Works out what all replicates of a candidate share.
     ///
     /// # Errors
     /// Why the candidate cannot be run.
     fn prepare(&self, candidate: &Candidate) -> Result<Self::Prepared, String>;
 
-    /// The figures of one start, one for each column.
+    /// The quantities of one replicate, one for each column.
     ///
     /// # Errors
     /// [`Trouble`].
     fn run(&self, prepared: &Self::Prepared, seed: u64, stop: &AtomicBool) -> Result<Vec<f64>, Trouble>;
 
-    /// The costs of one start from its figures; one for each objective.
-    fn costs(&self, candidate: &Candidate, figures: &[f64]) -> Vec<f64>;
+    /// The costs of one replicate from its quantities; one for each objective.
+    fn costs(&self, candidate: &Candidate, quantities: &[f64]) -> Vec<f64>;
 
-    /// How good a candidate is by the figures of its starts.
-    fn fitness(&self, candidate: &Candidate, starts: &[Vec<f64>]) -> Fitness;
+    /// How good a candidate is by the quantities of its replicates.
+    fn fitness(&self, candidate: &Candidate, replicates: &[Vec<f64>]) -> Fitness;
 }

@@ -1,4 +1,4 @@
-//! A campaign as a model: from a point to a scenario, from its runs to figures, costs and limits.
+//! A campaign as a model: from a point to a scenario, from its runs to quantities, costs and limits.
 
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -103,13 +103,14 @@ impl Problem {
         objectives.map(|cost| (cost.formula.text(), cost.sign < 0.0))
     }
 
-    /// The limits of a candidate's outcome over its starts, and whether they are kept.
-    pub fn limits_of(&self, candidate: &Candidate, starts: &[Vec<f64>]) -> Vec<LimitKept> {
+    /// The limits of a candidate's outcome over its replicates, and whether they are kept.
+    pub fn limits_of(&self, candidate: &Candidate, replicates: &[Vec<f64>]) -> Vec<LimitKept> {
         let numbers = self.numbers(&candidate.values);
         let of = |limit: &Corridor| {
-            let values: Vec<f64> = starts.iter().map(|figures| limit.formula.at(&numbers, figures)).collect();
+            let values: Vec<f64> =
+                replicates.iter().map(|quantities| limit.formula.at(&numbers, quantities)).collect();
             let moments = Moments::of(&values);
-            let known = |figure: f64| Some(figure).filter(|figure| figure.is_finite());
+            let known = |quantity: f64| Some(quantity).filter(|quantity| quantity.is_finite());
             LimitKept {
                 formula: limit.formula.text().to_owned(),
                 at_least: limit.at_least,
@@ -212,16 +213,16 @@ impl Problem {
         set.chain(follow)
     }
 
-    /// Costs of figures; `numbers` are the parameters as numbers.
-    fn costs_of(&self, numbers: &[f64], figures: &[f64]) -> Vec<f64> {
-        self.objectives.iter().map(|cost| cost.sign * cost.formula.at(numbers, figures)).collect()
+    /// Costs of quantities; `numbers` are the parameters as numbers.
+    fn costs_of(&self, numbers: &[f64], quantities: &[f64]) -> Vec<f64> {
+        self.objectives.iter().map(|cost| cost.sign * cost.formula.at(numbers, quantities)).collect()
     }
 
-    /// The first objective or limit that has no value for these figures.
-    fn without_value(&self, numbers: &[f64], figures: &[f64]) -> Option<&str> {
+    /// The first objective or limit that has no value for these quantities.
+    fn without_value(&self, numbers: &[f64], quantities: &[f64]) -> Option<&str> {
         let objectives = self.objectives.iter().map(|cost| &cost.formula);
         let mut formulas = objectives.chain(self.limits.iter().map(|limit| &limit.formula));
-        formulas.find(|formula| !formula.at(numbers, figures).is_finite()).map(Formula::text)
+        formulas.find(|formula| !formula.at(numbers, quantities).is_finite()).map(Formula::text)
     }
 }
 
@@ -256,22 +257,22 @@ impl Model for Problem {
             Ok(Ending::Interrupted(_)) => return Err(Trouble::Stopped),
             Err(error) => return Err(Trouble::Failed(error.to_string())),
         };
-        let figures = columns::pick(&summary, &self.columns);
-        match self.without_value(&prepared.numbers, &figures) {
+        let quantities = columns::pick(&summary, &self.columns);
+        match self.without_value(&prepared.numbers, &quantities) {
             Some(formula) => Err(Trouble::Failed(format!("\"{formula}\" has no value for this run"))),
-            None => Ok(figures),
+            None => Ok(quantities),
         }
     }
 
-    fn costs(&self, candidate: &Candidate, figures: &[f64]) -> Vec<f64> {
-        self.costs_of(&self.numbers(&candidate.values), figures)
+    fn costs(&self, candidate: &Candidate, quantities: &[f64]) -> Vec<f64> {
+        self.costs_of(&self.numbers(&candidate.values), quantities)
     }
 
-    /// Costs are means over the starts, with the standard error of the mean; limits hold for means.
+    /// Costs are means over the replicates, with the standard error of the mean; limits hold for means.
     ///
-    /// A candidate without starts that misses constraints between parameters has that violation and no cost.
-    fn fitness(&self, candidate: &Candidate, starts: &[Vec<f64>]) -> Fitness {
-        if starts.is_empty() {
+    /// A candidate without replicates that misses constraints between parameters has that violation and no cost.
+    fn fitness(&self, candidate: &Candidate, replicates: &[Vec<f64>]) -> Fitness {
+        if replicates.is_empty() {
             let violation = candidate.violation;
             return if violation > 0.0 {
                 Fitness { violation, ..Fitness::failed() }
@@ -280,11 +281,13 @@ impl Model for Problem {
             };
         }
         let numbers = self.numbers(&candidate.values);
-        let costs: Vec<Vec<f64>> = starts.iter().map(|figures| self.costs_of(&numbers, figures)).collect();
+        let costs: Vec<Vec<f64>> =
+            replicates.iter().map(|quantities| self.costs_of(&numbers, quantities)).collect();
         let of = |objective: usize| costs.iter().map(|costs| costs[objective]).collect::<Vec<_>>();
         let moments: Vec<Moments> = (0..self.objectives.len()).map(|at| Moments::of(&of(at))).collect();
         let limits = self.limits.iter().map(|limit| {
-            let values: Vec<f64> = starts.iter().map(|figures| limit.formula.at(&numbers, figures)).collect();
+            let values: Vec<f64> =
+                replicates.iter().map(|quantities| limit.formula.at(&numbers, quantities)).collect();
             limit.missed(&values)
         });
         Fitness {
@@ -295,7 +298,7 @@ impl Model for Problem {
     }
 }
 
-/// 0 from a single start, of which no error is known: an optimizer heeds only noise that is known.
+/// 0 from a single replicate, of which no error is known: an optimizer heeds only noise that is known.
 fn known_error(cost: &Moments) -> f64 {
     if cost.count > 1 { cost.standard_error() } else { 0.0 }
 }

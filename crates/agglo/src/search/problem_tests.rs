@@ -52,7 +52,7 @@ fn columns_of_parameters_have_the_units_of_the_file() {
     assert_eq!(columns, wanted);
 }
 
-/// Constraints, limits, costs and their errors by hand, for four starts of a small problem.
+/// Constraints, limits, costs and their errors by hand, for four replicates of a small problem.
 #[test]
 fn fitness_by_hand() {
     let text = r#"
@@ -95,21 +95,21 @@ fn fitness_by_hand() {
     let settings = ["grains.0.placement.fill.count=400", "grains.0.size.length_ratio.count=400"];
     assert_eq!(problem.settings(&many), settings);
 
-    let starts: Vec<Vec<f64>> = [1.0, 2.0, 3.0, 6.0].map(|ratio| vec![ratio, 0.4, 7.0]).to_vec();
+    let replicates: Vec<Vec<f64>> = [1.0, 2.0, 3.0, 6.0].map(|ratio| vec![ratio, 0.4, 7.0]).to_vec();
     // Costs -2, -4, -6, -12: mean -6, variance (16 + 4 + 0 + 36)/3, error its root over 2. 0.4 misses 0.5 by a fifth.
-    let fitness = problem.fitness(&few, &starts);
+    let fitness = problem.fitness(&few, &replicates);
     assert_eq!(fitness.costs, [-6.0]);
     assert_near!(fitness.standard_errors[0], (56.0_f64 / 3.0).sqrt() / 2.0, 1e-15);
     assert_near!(fitness.violation, 0.2, 1e-15);
     assert_false!(fitness.is_feasible(), "a point that breaks a constraint");
     let single = problem.fitness(&few, &[vec![1.0, 0.9, 7.0]]);
     assert_eq!((single.standard_errors[0], single.violation.to_bits()), (0.0, 0));
-    assert_eq!(problem.costs(&few, &starts[3]), [-12.0]);
+    assert_eq!(problem.costs(&few, &replicates[3]), [-12.0]);
 }
 
-/// What a run gives is what its summary says; a figure that it does not have is a failure with words.
+/// What a run gives is what its summary says; a quantity that it does not have is a failure with words.
 #[test]
-fn figures_are_those_of_the_summary() {
+fn quantities_are_those_of_the_summary() {
     let text = |objective: &str| {
         format!(
             r#"
@@ -129,14 +129,14 @@ fn figures_are_those_of_the_summary() {
     let (_, problem) = problem(&text("growth_deficit"));
     let stop = AtomicBool::new(false);
     let center = problem.center();
-    let figures = problem.run(&problem.prepare(&center).unwrap(), 9, &stop).unwrap();
+    let quantities = problem.run(&problem.prepare(&center).unwrap(), 9, &stop).unwrap();
     let scenario = Scenario { seed: 9, ..problem.scenario(&center).unwrap() };
     let Ok(Ending::Finished(summary)) = run::quiet(&scenario, Path::new(""), &stop) else {
         panic!("it fails")
     };
     let run::Summary::Hard(summary) = summary else { panic!("these are hard spheres") };
-    assert_eq!(figures[..2], [summary.growth.growth_deficit, summary.energy.stored.kinetic]);
-    assert!(figures[2].is_nan(), "no thermal conductivity, no Biot number");
+    assert_eq!(quantities[..2], [summary.growth.growth_deficit, summary.energy.stored.kinetic]);
+    assert!(quantities[2].is_nan(), "no thermal conductivity, no Biot number");
 
     let (_, problem) = self::problem(&text("biot_number"));
     let prepared = problem.prepare(&problem.center()).unwrap();

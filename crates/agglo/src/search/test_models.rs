@@ -8,15 +8,15 @@ use super::functions::TestFunction;
 use super::{Candidate, Fitness, Model, Trouble};
 use crate::math::rng::{Purpose, Stream};
 
-/// A function with noise, whose starts may be slow, fail or make an error.
+/// A function with noise, whose replicates may be slow, fail or make an error.
 pub struct Analytic {
     pub function: TestFunction,
     pub sigma: f64,
-    /// How long the longest start takes.
+    /// How long the longest replicate takes.
     pub slowest: Duration,
-    /// Starts fail where the first coordinate is below this.
+    /// Replicates fail where the first coordinate is below this.
     pub fails_below: f64,
-    /// Starts make an error where the first coordinate is above this.
+    /// Replicates make an error where the first coordinate is above this.
     pub panics_above: f64,
     /// Candidates are excluded where the second coordinate is above this.
     pub excluded_above: f64,
@@ -90,14 +90,15 @@ impl Model for Analytic {
         Ok(vec![self.function.value(&candidate.values), noise])
     }
 
-    fn costs(&self, candidate: &Candidate, figures: &[f64]) -> Vec<f64> {
+    fn costs(&self, candidate: &Candidate, quantities: &[f64]) -> Vec<f64> {
         let away =
             |from: [f64; 2]| candidate.values.iter().zip(from).map(|(x, from)| (x - from).powi(2)).sum();
-        std::iter::once(figures[0] + figures[1]).chain(self.second.map(away)).collect()
+        std::iter::once(quantities[0] + quantities[1]).chain(self.second.map(away)).collect()
     }
 
-    fn fitness(&self, candidate: &Candidate, starts: &[Vec<f64>]) -> Fitness {
-        let costs: Vec<Vec<f64>> = starts.iter().map(|figures| self.costs(candidate, figures)).collect();
+    fn fitness(&self, candidate: &Candidate, replicates: &[Vec<f64>]) -> Fitness {
+        let costs: Vec<Vec<f64>> =
+            replicates.iter().map(|quantities| self.costs(candidate, quantities)).collect();
         let moments = |which: usize| Moments::of(&costs.iter().map(|costs| costs[which]).collect::<Vec<_>>());
         let all: Vec<Moments> = (0..=usize::from(self.second.is_some())).map(moments).collect();
         let error = |moments: &Moments| if moments.count > 1 { moments.standard_error() } else { 0.0 };

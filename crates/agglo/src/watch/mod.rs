@@ -3,14 +3,14 @@
 //! Nothing but the folder is read, and nothing is written. A run that is resumed cuts its tables back; they are read anew
 //! then.
 
-mod figures;
+mod quantities;
 mod tail;
 #[cfg(test)]
 mod tests;
 
 use std::path::{Path, PathBuf};
 
-pub use figures::{Curve, Figure};
+pub use quantities::{Curve, Reading};
 
 use crate::folder::RunFolder;
 use crate::record::{RecordError, door};
@@ -48,7 +48,7 @@ pub struct Follower {
     title: String,
     end: f64,
     steps_are: &'static str,
-    tables: figures::Tables,
+    tables: quantities::Tables,
 }
 
 /// What the folder tells so far.
@@ -58,8 +58,8 @@ pub struct Sight {
     pub time: f64,
     /// Steps or events at the newest row.
     pub step: u64,
-    /// Figures of the newest row.
-    pub figures: Vec<Figure>,
+    /// Quantities of the newest row.
+    pub quantities: Vec<Reading>,
     /// Curves over time.
     pub curves: Vec<Curve>,
     /// What the run came to, if it has finished.
@@ -86,7 +86,7 @@ impl Follower {
             title: scenario.title,
             end: scenario.time.end.si(),
             steps_are: if counts_events { "events" } else { "steps" },
-            tables: figures::Tables::new(&folder.series(), is_hard),
+            tables: quantities::Tables::new(&folder.series(), is_hard),
             dir: dir.to_owned(),
         })
     }
@@ -123,7 +123,7 @@ impl Follower {
         Ok(Sight {
             time: newest("time_s").unwrap_or(0.0),
             step: newest("step").unwrap_or(0.0) as u64,
-            figures: self.tables.figures(),
+            quantities: self.tables.quantities(),
             curves: self.tables.curves(),
             summary,
         })

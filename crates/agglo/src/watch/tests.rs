@@ -29,9 +29,9 @@ fn last_row(path: &Path) -> Vec<(String, f64)> {
     columns.zip(text.lines().last().unwrap().split(',').map(|word| word.parse().unwrap())).collect()
 }
 
-/// Each figure is the number in the last row of the column that it names, and each curve ends there.
+/// Each quantity is the number in the last row of the column that it names, and each curve ends there.
 #[test]
-fn figures_are_those_of_the_last_rows() {
+fn quantities_are_those_of_the_last_rows() {
     let folder = tempfile::tempdir().unwrap();
     let dir = folder.path().join("run");
     let scenario = Scenario::from_toml(SOFT).unwrap_or_else(|faults| panic!("{faults}"));
@@ -41,23 +41,23 @@ fn figures_are_those_of_the_last_rows() {
     let sight = follower.look().unwrap();
     assert_some!(sight.summary);
     assert_near!(sight.time, 1e-3, 1e-5, "in s");
-    assert_at_least!(sight.figures.len(), 8);
-    for figure in &sight.figures {
-        let (table, column) = figure.column;
+    assert_at_least!(sight.quantities.len(), 8);
+    for quantity in &sight.quantities {
+        let (table, column) = quantity.column;
         let row = last_row(&dir.join("series").join(format!("{table}.csv")));
         let wanted = row.iter().find(|(name, _)| name == column).unwrap().1;
-        assert_eq!(figure.value.to_bits(), wanted.to_bits(), "{}", figure.name);
-        let shown = sight.curves.iter().find(|curve| curve.name == figure.name);
+        assert_eq!(quantity.value.to_bits(), wanted.to_bits(), "{}", quantity.name);
+        let shown = sight.curves.iter().find(|curve| curve.name == quantity.name);
         assert!(
             shown.is_none_or(|curve| curve.points.last().unwrap().1 == wanted),
             "wanted {wanted} at the end of {:?}",
             shown.map(|curve| &curve.points)
         );
     }
-    let speed = sight.figures.iter().find(|figure| figure.name == "mean speed").unwrap();
+    let speed = sight.quantities.iter().find(|quantity| quantity.name == "mean speed").unwrap();
     assert_eq!(speed.text(), "300 mm/s");
     // There are no beams, so nothing is told of rays.
-    assert_all!(sight.figures.iter(), |figure| !figure.name.contains("ray"));
+    assert_all!(sight.quantities.iter(), |quantity| !quantity.name.contains("ray"));
     assert_eq!(
         sight.curves.iter().map(|curve| curve.name).collect::<Vec<_>>(),
         ["dispersion degree", "mean speed"]
@@ -65,13 +65,13 @@ fn figures_are_those_of_the_last_rows() {
 }
 
 #[test]
-fn a_run_that_has_just_begun_has_no_figures() {
+fn a_run_that_has_just_begun_has_no_quantities() {
     let folder = tempfile::tempdir().unwrap();
     let missing = Follower::open(folder.path()).unwrap_err().to_string();
     assert!(missing.ends_with("scenario.toml") && missing.contains("holds no run"), "{missing}");
     std::fs::write(folder.path().join("scenario.toml"), SOFT).unwrap();
     let sight = Follower::open(folder.path()).unwrap().look().unwrap();
-    assert_empty!(sight.figures);
+    assert_empty!(sight.quantities);
     assert_none!(sight.summary);
     assert_eq!(sight.time, 0.0);
     std::fs::create_dir(folder.path().join("checkpoints")).unwrap();

@@ -11,13 +11,13 @@ use std::time::Duration;
 use agglo::forecast::{Effort, Plan};
 use agglo::packing;
 use agglo::record::frames::{Collection, Frame};
-use agglo::render::{Options, Reel, Studio};
+use agglo::render::{FrameSequence, Options, Renderer};
 use agglo::report::Report;
 use agglo::run;
 use agglo::scenario::{Faults, Scenario};
 use agglo::search::{self, Campaign};
 use agglo::text::visible;
-use agglo::watch::{Figure, Follower};
+use agglo::watch::{Follower, Reading};
 
 use crate::seeds;
 
@@ -254,7 +254,7 @@ fn resumed(dir: &Path) -> Verdict {
 
 /// The journal of a search that was stopped, as it is and with right checksums: the search goes on to its end.
 pub fn journal(bench: &Bench, bytes: &[u8]) -> Verdict {
-    let name = Path::new("search/starts.journal");
+    let name = Path::new("search/replicates.journal");
     let verdict = gone_on(&bench.with("search", name, bytes));
     let sealed = seeds::sealed_lines(bytes);
     if sealed == bytes { verdict } else { gone_on(&bench.with("search", name, &sealed)) }
@@ -309,17 +309,17 @@ fn shown(dir: &Path) {
 
 /// A picture by every kind of quantity, small.
 fn drawn(dir: &Path) {
-    let reel = match Reel::open(dir) {
-        Ok(reel) => reel,
+    let sequence = match FrameSequence::open(dir) {
+        Ok(sequence) => sequence,
         Err(error) => return drop(refused(&error.to_string())),
     };
-    let frames: Vec<usize> = (0..reel.len().min(3)).collect();
+    let frames: Vec<usize> = (0..sequence.len().min(3)).collect();
     for color in ["speed", "cluster", "material"] {
         let (color, size) = (color.to_owned(), [24, 16]);
         let options = Options { color, size, bonds: true, rays: true, ..Options::default() };
-        let studio = Studio::prepare(reel.clone(), options, &frames, &mut |_| true);
-        let drawn =
-            studio.and_then(|studio| studio.map(|studio| studio.picture(frames.len() - 1)).transpose());
+        let renderer = Renderer::prepare(sequence.clone(), options, &frames, &mut |_| true);
+        let drawn = renderer
+            .and_then(|renderer| renderer.map(|renderer| renderer.picture(frames.len() - 1)).transpose());
         if let Err(error) = drawn {
             drop(refused(&error.to_string()));
         }
@@ -336,8 +336,8 @@ pub fn series(bench: &Bench, bytes: &[u8]) -> Verdict {
 fn followed(dir: &Path) -> Verdict {
     match Follower::open(dir).and_then(|mut follower| follower.look()) {
         Ok(sight) => {
-            let figures: Vec<String> = sight.figures.iter().map(Figure::text).collect();
-            assert!(figures.iter().all(|text| text.len() < 100), "{figures:?}");
+            let quantities: Vec<String> = sight.quantities.iter().map(Reading::text).collect();
+            assert!(quantities.iter().all(|text| text.len() < 100), "{quantities:?}");
             Ok(())
         }
         Err(error) => refused(&error.to_string()),

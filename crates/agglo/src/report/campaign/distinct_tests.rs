@@ -15,7 +15,7 @@ const HARDNESS: &str = "[[parameters]]\nname = \"hardness\"\nkey = \"materials.g
 const PARENTS: &str = "[method.published_genetic]\nparents = 2\noffspring = 2\n";
 
 const EVALUATIONS: &str = "\
-evaluation,generation,stage,status,starts,repeats,violation,cost,cost_standard_error,v_m_s,hardness_Pa,n_f,impacts
+evaluation,generation,stage,status,replicates,repeats,violation,cost,cost_standard_error,v_m_s,hardness_Pa,n_f,impacts
 10,0,search,ok,2,,0,-2.5,0.011,21,101,2.75,31
 11,0,search,ok,3,,0,-3.5,0.012,22,102,3.75,32
 12,0,search,infeasible,4,,0.7,-9.5,0.013,23,103,9.75,33
@@ -32,8 +32,8 @@ best_cost_standard_error,best_violation,infeasible
 1,search,5,14,52,62,-4.375,-4.1875,14,-4.3125,0.022,0,72
 ";
 const BEST: &str = "\
-rank,evaluation,cost,cost_standard_error,starts,violation,search_evaluation,search_cost,search_cost_standard_error,\
-search_starts,final_evaluation,final_cost,final_cost_standard_error,final_starts,final_violation,v_m_s,hardness_Pa
+rank,evaluation,cost,cost_standard_error,replicates,violation,search_evaluation,search_cost,search_cost_standard_error,\
+search_replicates,final_evaluation,final_cost,final_cost_standard_error,final_replicates,final_violation,v_m_s,hardness_Pa
 1,16,-4.1328125,0.031,41,0.25,14,-4.2578125,0.032,42,17,-4.0703125,0.033,43,0,26,106
 2,11,-3.5078125,0.034,44,0.125,11,-3.5390625,0.035,45,,,,,,22,102
 ";
@@ -173,11 +173,11 @@ fn outcomes_of_the_best_stand_under_their_heads() {
         "limits",
         "n_f",
         "standard_error",
-        "starts",
+        "replicates",
         "once_more",
         "once_more_standard_error",
         "in_the_search",
-        "search_starts",
+        "search_replicates",
         "impacts",
     ];
     let first = ["1", "kept", "4.1328125", "0.031", "41", "4.0703125", "0.033", "4.2578125", "42", "36"];
@@ -243,9 +243,9 @@ fn series_of_shares_stand_under_their_names() {
 /// One chart for each outcome of the only parameter.
 #[test]
 fn series_of_outcomes_stand_under_their_names() {
-    let evaluations = "evaluation,generation,stage,status,starts,repeats,violation,cost,cost_standard_error,v_m_s,n_f,impacts\n\
+    let evaluations = "evaluation,generation,stage,status,replicates,repeats,violation,cost,cost_standard_error,v_m_s,n_f,impacts\n\
                        0,0,search,ok,2,,0,-2.5,0.25,21,2.5,31\n1,0,search,ok,2,,0,-3.5,0.375,22,3.5,32\n";
-    let measures = "evaluation,starts,v_m_s,n_f,n_f_standard_error,impacts,impacts_standard_error\n\
+    let measures = "evaluation,replicates,v_m_s,n_f,n_f_standard_error,impacts,impacts_standard_error\n\
                     0,2,21,2.5,0.25,31,0.5\n1,3,22,3.5,0.375,32,0.625\n";
     let text = format!("{SEARCH}[plan.grid]\nlevels = 2\n");
     let report = report_of(&text, &[("evaluations.csv", evaluations), ("measures.csv", measures)]);
@@ -267,7 +267,7 @@ fn series_of_outcomes_stand_under_their_names() {
 /// The front has each cost with its own sign on its own axis, in the order of the first.
 #[test]
 fn series_of_the_front_stand_under_their_names() {
-    let evaluations = "evaluation,generation,stage,status,starts,repeats,violation,cost_1,cost_2,cost_1_standard_error,\
+    let evaluations = "evaluation,generation,stage,status,replicates,repeats,violation,cost_1,cost_2,cost_1_standard_error,\
                        cost_2_standard_error,v_m_s,hardness_Pa,n_f,impacts\n\
                        0,0,search,ok,2,,0,-2.5,31,0.1,0.2,21,101,2.5,31\n1,0,search,ok,2,,0,-3.5,32,0.3,0.4,22,102,3.5,32\n";
     let point = |number: u32, costs: [f64; 2]| {
@@ -278,7 +278,7 @@ fn series_of_the_front_stand_under_their_names() {
     let summary = serde_json::json!({
         "version": "0", "title": "", "seed": 5, "objectives": [], "best": null,
         "front": [point(1, [-3.5, 32.0]), point(0, [-2.5, 31.0])], "generations": 1, "evaluations": 2, "runs": 4, "failures": 0,
-        "excluded": 0, "noise": { "start_deviation": null, "starts_mean": null, "significant_difference": null }, "wall_s": 1.0,
+        "excluded": 0, "noise": { "replicate_deviation": null, "replicates_mean": null, "significant_difference": null }, "wall_s": 1.0,
     })
     .to_string();
     let text = SEARCH.replace("[[limits]]", "[[objectives]]\nminimize = \"impacts\"\n[[limits]]");

@@ -42,7 +42,7 @@ fn outcomes(folder: &Folder) -> Vec<Chart> {
         Some(Chart {
             id: format!("outcome-{number}"),
             title: format!("{name} over {parameter}"),
-            caption: "Means over random starts with their standard errors. From measures.csv.".to_owned(),
+            caption: "Means over random replicates with their standard errors. From measures.csv.".to_owned(),
             words: vec![series.in_words("")],
             kind: Kind::Points,
             x: axis.clone(),

@@ -17,7 +17,7 @@ pub fn tables(folder: &Folder) -> Vec<Figures> {
         whole(
             &folder.differences,
             "How far each level is from the finest",
-            "Start by start where levels share their starts, with 95 % confidence: settled within the tolerance, not settled, \
+            "Replicate by replicate where levels share their replicates, with 95 % confidence: settled within the tolerance, not settled, \
              or not shown, where the interval has both. From differences.csv.",
         ),
         whole(&folder.sensitivity, "Sensitivity", "From sensitivity.csv."),
@@ -58,13 +58,13 @@ fn outcomes(folder: &Folder) -> Option<Figures> {
     let goal = folder.goals().into_iter().next().unwrap_or_default();
     own_signs(folder, &mut sheet, &goal);
     let limits = if folder.has_limits() { &["limits"][..] } else { &[] };
-    let fixed = ["starts", "once_more", "once_more_standard_error", "in_the_search", "search_starts"];
+    let fixed = ["replicates", "once_more", "once_more_standard_error", "in_the_search", "search_replicates"];
     let new: Vec<&str> = outcomes.into_iter().filter(|name| *name != goal).collect();
     picked(
         &sheet,
         &[&["rank"][..], limits, &[&goal, "standard_error"], &fixed, &new].concat(),
         "The best candidates: what they come to",
-        "Means over starts that the search had not seen, where they were run again. The first was chosen by these, so it \
+        "Means over replicates that the search had not seen, where they were run again. The first was chosen by these, so it \
          was run once more, and what it came to then is what counts. From best.csv and evaluations.csv.",
     )
 }

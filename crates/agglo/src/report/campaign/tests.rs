@@ -27,7 +27,7 @@ offspring = 2
 "#;
 
 const EVALUATIONS: &str = "\
-evaluation,generation,stage,status,starts,violation,cost,cost_standard_error,v_m_s,hardness_Pa,growth_deficit,n_f
+evaluation,generation,stage,status,replicates,violation,cost,cost_standard_error,v_m_s,hardness_Pa,growth_deficit,n_f
 0,0,search,ok,2,0.0,0.9,0.01,20.0,100000.0,0.9,1.5
 1,0,search,ok,2,0.0,0.7,0.01,30.0,200000.0,0.7,2.5
 2,0,search,failed,0,,,,40.0,300000.0,,
@@ -43,11 +43,11 @@ generation,stage,evaluations,runs,failures,excluded,cost_lowest,cost_mean,best_e
 ";
 
 const BEST: &str = "\
-rank,evaluation,cost,cost_standard_error,starts,violation,search_evaluation,search_cost,search_cost_standard_error,search_starts,v_m_s,hardness_Pa
+rank,evaluation,cost,cost_standard_error,replicates,violation,search_evaluation,search_cost,search_cost_standard_error,search_replicates,v_m_s,hardness_Pa
 1,4,0.55,0.02,4,0.0,3,0.5,0.01,2,50.0,400000.0
 ";
 
-const FAILURES: &str = "evaluation,start,seed,reason\n2,0,77,\"no room, at all\"\n";
+const FAILURES: &str = "evaluation,replicate,seed,reason\n2,0,77,\"no room, at all\"\n";
 
 fn search() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
@@ -71,7 +71,7 @@ fn costs_over_generations_are_those_of_the_files() {
     let report = report(folder.path());
     let series = &chart(&report, "cost").series;
     assert_eq!((&series[0].y[..], &series[0].error[..]), (&[0.7, 0.5, 0.55][..], &[0.01, 0.01, 0.02][..]));
-    // The two parents: (0.9 + 0.7)/2, then (0.5 + 0.7)/2. Fresh starts at the end change no parents.
+    // The two parents: (0.9 + 0.7)/2, then (0.5 + 0.7)/2. Fresh replicates at the end change no parents.
     assert_eq!(series[1].name, "mean of the best 2 so far");
     for (found, wanted) in series[1].y.iter().zip([0.8, 0.6, 0.6]) {
         assert!((found - wanted).abs() < 1e-15, "{found}");
@@ -98,7 +98,7 @@ fn parallel_coordinates_hold_the_candidates_that_ran() {
 fn tables_show_the_best_and_what_failed() {
     let folder = search();
     let report = report(folder.path());
-    let table = |start: &str| report.tables.iter().find(|table| table.title.contains(start)).unwrap();
+    let table = |replicate: &str| report.tables.iter().find(|table| table.title.contains(replicate)).unwrap();
     assert_eq!(table("their parameters").rows, [["1", "4", "50", "400000"].map(str::to_owned)]);
     let outcomes = table("what they come to");
     let at = |name: &str| outcomes.head.iter().position(|head| head == name).unwrap();
@@ -140,7 +140,7 @@ fn two_costs_make_a_front() {
     );
     fs::write(folder.path().join("search.toml"), text).unwrap();
     let evaluations = "\
-evaluation,generation,stage,status,starts,violation,cost_1,cost_2,cost_1_standard_error,cost_2_standard_error,v_m_s,hardness_Pa,growth_deficit
+evaluation,generation,stage,status,replicates,violation,cost_1,cost_2,cost_1_standard_error,cost_2_standard_error,v_m_s,hardness_Pa,growth_deficit
 0,0,search,ok,2,0.0,0.9,-2.5,0.01,0.1,20.0,100000.0,0.9
 1,0,search,ok,2,0.0,0.7,-1.5,0.01,0.1,30.0,200000.0,0.7
 ";
@@ -193,7 +193,7 @@ fn limits_that_are_missed_are_marked_and_signs_are_their_own() {
     put(
         "evaluations.csv",
         "\
-evaluation,generation,stage,status,starts,repeats,violation,cost,cost_standard_error,v_m_s,hardness_Pa,n_f,impacts
+evaluation,generation,stage,status,replicates,repeats,violation,cost,cost_standard_error,v_m_s,hardness_Pa,n_f,impacts
 0,0,search,infeasible,2,,0.5,-2.5,0.01,20,100000,2.5,4.5
 1,1,search,ok,2,,0,-1.5,0.01,30,200000,1.5,3
 2,2,confirm,infeasible,4,,0.25,-1.25,0.02,30,200000,1.25,3.75
@@ -211,8 +211,8 @@ best_cost_standard_error,best_violation,infeasible
     put(
         "best.csv",
         "\
-rank,evaluation,cost,cost_standard_error,starts,violation,search_evaluation,search_cost,search_cost_standard_error,\
-search_starts,v_m_s,hardness_Pa
+rank,evaluation,cost,cost_standard_error,replicates,violation,search_evaluation,search_cost,search_cost_standard_error,\
+search_replicates,v_m_s,hardness_Pa
 1,2,-1.25,0.02,4,0.25,1,-1.5,0.01,2,30,200000
 ",
     );

@@ -1,6 +1,6 @@
 //! The evaluations of a search or study as plain data.
 
-use super::{Axis, Level, Moments, Starts};
+use super::{Axis, Level, Moments, Replicates};
 
 /// All evaluations of a search or study, in their order.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -11,10 +11,10 @@ pub struct Evaluations {
     pub parameters: Vec<Axis>,
     /// What was to be small or large: none, one or two.
     pub objectives: Vec<Objective>,
-    /// Figures of each start that the tables show.
+    /// Quantities of each replicate that the tables show.
     pub measures: Vec<Axis>,
-    /// Whether start k of all candidates has the same seed.
-    pub starts: Starts,
+    /// Whether replicate k of all candidates has the same seed.
+    pub replicates: Replicates,
     /// The evaluations.
     pub rows: Vec<EvaluationRow>,
 }
@@ -55,14 +55,14 @@ pub struct EvaluationRow {
     pub costs: Vec<f64>,
     /// Their standard errors; not numbers where they are not known.
     pub standard_errors: Vec<f64>,
-    /// Costs of each start: `start_costs[start][objective]`; may be left empty in a search.
-    pub start_costs: Vec<Vec<f64>>,
+    /// Costs of each replicate: `replicate_costs[replicate][objective]`; may be left empty in a search.
+    pub replicate_costs: Vec<Vec<f64>>,
     /// What came of it.
     pub status: Status,
     /// In which batch of proposals it was, from 0.
     pub generation: u32,
-    /// Measures of each start: `starts[start][measure]`; may be left empty in a search.
-    pub starts: Vec<Vec<f64>>,
+    /// Measures of each replicate: `replicates[replicate][measure]`; may be left empty in a search.
+    pub replicates: Vec<Vec<f64>>,
 }
 
 /// What came of a candidate.
@@ -73,7 +73,7 @@ pub enum Status {
     Feasible,
     /// It misses a limit of the outcome.
     Infeasible,
-    /// A start of it failed.
+    /// A replicate of it failed.
     Failed,
     /// It misses a constraint between parameters and was not run.
     Excluded,
@@ -98,20 +98,21 @@ impl EvaluationRow {
         self.costs.first().copied().filter(|cost| self.status == Status::Feasible && cost.is_finite())
     }
 
-    /// Moments over the starts of the measure with this number.
+    /// Moments over the replicates of the measure with this number.
     pub fn measure(&self, number: usize) -> Moments {
-        let values: Vec<f64> = self.starts.iter().filter_map(|start| start.get(number).copied()).collect();
+        let values: Vec<f64> =
+            self.replicates.iter().filter_map(|replicate| replicate.get(number).copied()).collect();
         Moments::of(&values)
     }
 
-    /// Values of a target in each start.
+    /// Values of a target in each replicate.
     pub(super) fn values(&self, target: &Target<'_>) -> Vec<f64> {
         match target.source {
             Source::Objective(number, sign) => {
-                self.start_costs.iter().filter_map(|costs| Some(sign * costs.get(number)?)).collect()
+                self.replicate_costs.iter().filter_map(|costs| Some(sign * costs.get(number)?)).collect()
             }
             Source::Measure(number) => {
-                self.starts.iter().filter_map(|start| start.get(number).copied()).collect()
+                self.replicates.iter().filter_map(|replicate| replicate.get(number).copied()).collect()
             }
         }
     }
@@ -164,7 +165,7 @@ impl Evaluations {
     /// Levels of a refinement study for one target, from coarse to fine, and the fineness of each; failed ones are left out.
     ///
     /// Where the parameter rises (rays, grains) the size is 1 over it, where it falls (steps) the parameter itself; of words
-    /// there are no sizes, and the order is then not known. Where levels share their starts, only those count that all
+    /// there are no sizes, and the order is then not known. Where levels share their replicates, only those count that all
     /// levels have, so that all have met the same luck.
     pub(super) fn levels(&self, target: &Target<'_>) -> (Vec<Level>, Vec<f64>) {
         let is_word = self.parameters.first().is_some_and(|axis| !axis.labels.is_empty());
@@ -178,14 +179,15 @@ impl Evaluations {
         };
         let whole = self.rows.iter().filter(|row| row.target(target).is_some());
         let level =
-            |row: &EvaluationRow| (Level { size: size(row), starts: row.values(target) }, fineness(row));
+            |row: &EvaluationRow| (Level { size: size(row), replicates: row.values(target) }, fineness(row));
         let (mut levels, fineness): (Vec<Level>, Vec<f64>) = whole.map(level).unzip();
-        if self.starts == Starts::Shared {
-            let fewest = levels.iter().map(|level| level.starts.len()).min().unwrap_or(0);
-            let is_known = |start: &usize| levels.iter().all(|level| level.starts[*start].is_finite());
+        if self.replicates == Replicates::Shared {
+            let fewest = levels.iter().map(|level| level.replicates.len()).min().unwrap_or(0);
+            let is_known =
+                |replicate: &usize| levels.iter().all(|level| level.replicates[*replicate].is_finite());
             let common: Vec<usize> = (0..fewest).filter(is_known).collect();
             for level in &mut levels {
-                level.starts = common.iter().map(|start| level.starts[*start]).collect();
+                level.replicates = common.iter().map(|replicate| level.replicates[*replicate]).collect();
             }
         }
         (levels, fineness)

@@ -1,7 +1,7 @@
 //! What a study says, in sentences: where values have settled, and what there is nothing to say of.
 
 use super::evaluations::Target;
-use super::refinement::{Difference, LEVEL, Starts, Verdict, differences, settled};
+use super::refinement::{Difference, LEVEL, Replicates, Verdict, differences, settled};
 use super::{Evaluations, elementary_effects, variance_shares, varies};
 use crate::search::plan::Plan;
 use crate::text::readable;
@@ -73,7 +73,7 @@ fn shares(target: &Target<'_>, blocks: usize, noise_share: f64) -> Option<String
     }
     (noise_share >= 0.5).then(|| {
         format!(
-            "{:.0} % of the variance of {name} may be scatter of the starts, so its shares say little; more starts would \
+            "{:.0} % of the variance of {name} may be scatter of the replicates, so its shares say little; more replicates would \
              tell",
             100.0 * noise_share.min(1.0)
         )
@@ -83,7 +83,7 @@ fn shares(target: &Target<'_>, blocks: usize, noise_share: f64) -> Option<String
 /// Where a value has settled under refinement.
 fn settling(evaluations: &Evaluations, target: &Target<'_>, tolerance: f64) -> String {
     let (levels, fineness) = evaluations.levels(target);
-    let found = differences(&levels, tolerance, evaluations.starts);
+    let found = differences(&levels, tolerance, evaluations.replicates);
     let (from, verdict) = settled(&found);
     let axis = &evaluations.parameters[0];
     let at = |level: usize| format!("{} = {}", axis.name, axis.cell(fineness[level]));
@@ -104,7 +104,7 @@ fn settling(evaluations: &Evaluations, target: &Target<'_>, tolerance: f64) -> S
             difference()
         ),
         (None, _) if last.half_width.is_infinite() => format!(
-            "{name} is not shown to have settled: one start of a level does not tell how much it scatters; give each 2 or \
+            "{name} is not shown to have settled: one replicate of a level does not tell how much it scatters; give each 2 or \
              more"
         ),
         (None, _) => format!(
@@ -112,10 +112,10 @@ fn settling(evaluations: &Evaluations, target: &Target<'_>, tolerance: f64) -> S
              more than {percent} %; {} would tell",
             at(found.len() - 1),
             difference(),
-            if evaluations.starts == Starts::Shared {
-                "more starts"
+            if evaluations.replicates == Replicates::Shared {
+                "more replicates"
             } else {
-                "more starts, or starts that levels share,"
+                "more replicates, or replicates that levels share,"
             }
         ),
     }
@@ -127,6 +127,6 @@ fn of_the_last(difference: &Difference, finest: f64) -> String {
     if finest == 0.0 {
         return format!("{} +- {}", readable(*value, ""), readable(*standard_error, ""));
     }
-    let part = |figure: f64| readable(100.0 * figure / finest.abs(), "");
+    let part = |quantity: f64| readable(100.0 * quantity / finest.abs(), "");
     format!("{} +- {} %", part(*value), part(*standard_error))
 }

@@ -22,7 +22,7 @@ pub use moments::{Moments, varies};
 pub use morris::{ElementaryEffects, elementary_effects};
 pub use pictures::{search_pictures, study_pictures};
 pub use refinement::{
-    Convergence, Difference, Level, Order, Starts, Verdict, differences, observed_order, settled,
+    Convergence, Difference, Level, Order, Replicates, Verdict, differences, observed_order, settled,
 };
 pub use sobol_indices::{Share, VarianceShares, variance_shares};
 pub use tables::{measures_table, study_tables};

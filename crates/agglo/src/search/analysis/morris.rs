@@ -19,9 +19,9 @@
 //! | σ      | `standard_deviation` | the outcome's| whether it acts by itself: 0 if it does        |
 //!
 //! # Valid when
-//! Effects below `noise` cannot be told from the noise of the random starts, which makes μ* and σ larger, μ not. Of an
+//! Effects below `noise` cannot be told from the noise of the random replicates, which makes μ* and σ larger, μ not. Of an
 //! outcome that does not vary beyond round-off, and of a parameter whose candidates all failed, there are no effects: all
-//! figures are then not numbers.
+//! quantities are then not numbers.
 //!
 //! # Compared with others
 //! The measures of `SALib.analyze.morris`; the same definition, for the same points.
@@ -50,7 +50,7 @@ pub struct ElementaryEffects {
     pub standard_error: f64,
     /// Standard deviation of the effects.
     pub standard_deviation: f64,
-    /// Root mean square of the effects' own standard errors; not a number where candidates had a single start.
+    /// Root mean square of the effects' own standard errors; not a number where candidates had a single replicate.
     pub noise: f64,
     /// How many effects there are: fewer than trajectories if candidates failed.
     pub count: usize,

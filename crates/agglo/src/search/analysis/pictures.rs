@@ -40,7 +40,7 @@ pub fn search_pictures(folder: &Path, evaluations: &Evaluations) -> Result<Vec<P
 }
 
 /// Writes what a study shows into a folder that exists: `refinement.svg`, `sensitivity.svg`, or `outcomes.svg` with the
-/// measures over the first parameter, or `parallel.svg`; and `histograms.svg` where candidates have several starts. Gives the
+/// measures over the first parameter, or `parallel.svg`; and `histograms.svg` where candidates have several replicates. Gives the
 /// files written.
 ///
 /// # Errors
@@ -65,7 +65,7 @@ pub fn study_pictures(
         Plan::Grid(_) if evaluations.parameters.len() > 1 => keep("parallel.svg", parallel(evaluations))?,
         Plan::Grid(_) | Plan::List(_) => keep("outcomes.svg", outcomes(evaluations))?,
     }
-    if evaluations.rows.iter().any(|row| row.starts.len() >= 8) && !evaluations.measures.is_empty() {
+    if evaluations.rows.iter().any(|row| row.replicates.len() >= 8) && !evaluations.measures.is_empty() {
         keep("histograms.svg", histograms(evaluations))?;
     }
     Ok(files)
@@ -121,11 +121,11 @@ fn costs(evaluations: &Evaluations) -> String {
         },
     ];
     let mut panels = vec![LinePanel { y: cost_axis(evaluations), lines }];
-    let has_starts = best().all(|(_, row)| !row.starts.is_empty());
+    let has_replicates = best().all(|(_, row)| !row.replicates.is_empty());
     // A measure that is the objective itself is in the first panel already.
     let is_new =
         |axis: &Axis| evaluations.objectives.iter().all(|objective| objective.axis.name != axis.name);
-    let measures = evaluations.measures.iter().enumerate().filter(|(_, axis)| has_starts && is_new(axis));
+    let measures = evaluations.measures.iter().enumerate().filter(|(_, axis)| has_replicates && is_new(axis));
     for (number, axis) in measures.take(PANELS - 1) {
         let moments = || best().map(|(generation, row)| (generation, row.measure(number)));
         let line = Line {
@@ -260,9 +260,9 @@ fn staircase(evaluations: &Evaluations, tolerance: f64) -> String {
         && evaluations.rows.iter().all(|row| row.values.first().is_some_and(|v| *v > 0.0));
     let panel = |target: Target<'_>| {
         let (levels, fineness) = evaluations.levels(&target);
-        let (from, verdict) = settled(&differences(&levels, tolerance, evaluations.starts));
+        let (from, verdict) = settled(&differences(&levels, tolerance, evaluations.replicates));
         let from = from.map(|level| fineness[level]);
-        let order = observed_order(&levels, evaluations.starts);
+        let order = observed_order(&levels, evaluations.replicates);
         let limit = if let Convergence::Converging(order) = order { Some(order.limit) } else { None };
         words.push(format!("{}: {}", target.axis.name, said(order, from.map(|from| x.cell(from)), verdict)));
         let value = levels.last().map_or(f64::NAN, |level| level.moments().mean);
@@ -373,9 +373,9 @@ fn shares(evaluations: &Evaluations, bootstraps: u32, level: f64, seed: u64) -> 
         intervals: all.iter().map(|share| share.total_interval).collect(),
     };
     let noise = if shares.noise_share.is_nan() {
-        "how much of the variance is noise of the starts is not known".to_owned()
+        "how much of the variance is noise of the replicates is not known".to_owned()
     } else {
-        format!("noise of the starts has up to {:.1} % of the variance", 100.0 * shares.noise_share)
+        format!("noise of the replicates has up to {:.1} % of the variance", 100.0 * shares.noise_share)
     };
     Bars {
         title: of_target(evaluations, "shares in the variance of", &target),
@@ -422,17 +422,17 @@ fn outcomes(evaluations: &Evaluations) -> String {
     .svg()
 }
 
-/// Starts of each candidate, for each measure, as long as there is room.
+/// Replicates of each candidate, for each measure, as long as there is room.
 fn histograms(evaluations: &Evaluations) -> String {
     let mut panels = Vec::new();
-    for (number, row) in evaluations.rows.iter().enumerate().filter(|(_, row)| row.starts.len() >= 8) {
+    for (number, row) in evaluations.rows.iter().enumerate().filter(|(_, row)| row.replicates.len() >= 8) {
         let candidate = match (evaluations.parameters.as_slice(), row.values.as_slice()) {
             ([parameter], [value]) => format!("{} = {}", parameter.name, parameter.cell(*value)),
             _ => format!("candidate {number}"),
         };
         for (measure, axis) in evaluations.measures.iter().enumerate() {
             let values: Vec<f64> =
-                row.starts.iter().filter_map(|start| start.get(measure).copied()).collect();
+                row.replicates.iter().filter_map(|replicate| replicate.get(measure).copied()).collect();
             let moments = row.measure(measure);
             let named = Axis { name: format!("{}, {candidate}", axis.name), ..axis.clone() };
             let mean = Some([moments.mean, moments.standard_error()]);
@@ -443,7 +443,7 @@ fn histograms(evaluations: &Evaluations) -> String {
     Histograms {
         title: titled(evaluations, "distributions"),
         description: format!(
-            "Values of single starts, {} histograms, with mean and standard error.",
+            "Values of single replicates, {} histograms, with mean and standard error.",
             panels.len()
         ),
         panels,

@@ -7,7 +7,7 @@
 //! GCI = 1.25 |f_1 - f_2|/(r_21^p - 1)                                                           (CV3)
 //! d_k = f_k - f_1,   |d_k| + t s_k <= TOL |f_1|: settled,   |d_k| - t s_k > TOL |f_1|: not settled     (CV4)
 //! ```
-//! Levels are numbered from the finest: 1 is the finest, 3 the coarsest. Where neither of (CV4) holds, the starts scatter
+//! Levels are numbered from the finest: 1 is the finest, 3 the coarsest. Where neither of (CV4) holds, the replicates scatter
 //! too much to tell, and that it has settled is *not shown*.
 //!
 //! # Source
@@ -36,15 +36,15 @@
 //! Intervals are those of one level; of many levels one in twenty may be outside its own.
 //!
 //! # Compared with others
-//! Where levels share their starts (common random numbers), start k of one is compared with start k of the other: much of
+//! Where levels share their replicates (common random numbers), replicate k of one is compared with replicate k of the other: much of
 //! the scatter is in both and cancels. Standard errors of the means by themselves would call differences noise that are not.
 //!
 //! # Example
 //! ```
-//! use agglo::search::analysis::{Convergence, Level, Starts, observed_order};
+//! use agglo::search::analysis::{Convergence, Level, Replicates, observed_order};
 //! // f = 1 + h² at h = 0.4, 0.2, 0.1.
-//! let levels = [0.4_f64, 0.2, 0.1].map(|size| Level { size, starts: vec![1.0 + size * size] });
-//! let Convergence::Converging(found) = observed_order(&levels, Starts::Own) else { panic!("it converges") };
+//! let levels = [0.4_f64, 0.2, 0.1].map(|size| Level { size, replicates: vec![1.0 + size * size] });
+//! let Convergence::Converging(found) = observed_order(&levels, Replicates::Own) else { panic!("it converges") };
 //! assert!((found.order - 2.0).abs() < 1e-12 && (found.limit - 1.0).abs() < 1e-12);
 //! ```
 
@@ -58,16 +58,16 @@ use crate::search::student::quantile;
 pub struct Level {
     /// Size that goes to zero: a step, or 1 over a number of rays or grains.
     pub size: f64,
-    /// The value in each start, in their order.
-    pub starts: Vec<f64>,
+    /// The value in each replicate, in their order.
+    pub replicates: Vec<f64>,
 }
 
-/// Whether start k of one level and start k of another have the same seed.
+/// Whether replicate k of one level and replicate k of another have the same seed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Starts {
+pub enum Replicates {
     /// They have: their difference is that of the levels.
     Shared,
-    /// Each level has starts of its own.
+    /// Each level has replicates of its own.
     #[default]
     Own,
 }
@@ -87,7 +87,7 @@ pub enum Convergence {
     Converging(Order),
 }
 
-/// How a value converges. Standard errors are not numbers where each level has a single start.
+/// How a value converges. Standard errors are not numbers where each level has a single replicate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Order {
     /// Observed order.
@@ -112,7 +112,7 @@ pub enum Verdict {
     Settled,
     /// It differs by more, with confidence.
     NotSettled,
-    /// The starts scatter too much to tell, or there is only one.
+    /// The replicates scatter too much to tell, or there is only one.
     NotShown,
 }
 
@@ -121,9 +121,9 @@ pub enum Verdict {
 pub struct Difference {
     /// The level's value less that of the finest.
     pub value: f64,
-    /// Its standard error; not a number from a single start.
+    /// Its standard error; not a number from a single replicate.
     pub standard_error: f64,
-    /// Half the width of its confidence interval; infinite from a single start.
+    /// Half the width of its confidence interval; infinite from a single replicate.
     pub half_width: f64,
     /// Whether it has settled there.
     pub verdict: Verdict,
@@ -139,9 +139,9 @@ const NOISE: f64 = 2.0;
 const SAFETY: f64 = 1.25;
 
 impl Level {
-    /// Mean and scatter of its starts.
+    /// Mean and scatter of its replicates.
     pub fn moments(&self) -> Moments {
-        Moments::of(&self.starts)
+        Moments::of(&self.replicates)
     }
 
     fn mean(&self) -> f64 {
@@ -170,11 +170,13 @@ impl Verdict {
     }
 }
 
-/// Standard error and degrees of freedom of the weighted sum of the levels' means; not a number from single starts.
-fn error_of_sum(levels: &[&Level], weights: &[f64], starts: Starts) -> (f64, u64) {
-    if starts == Starts::Shared {
-        let count = levels.iter().map(|level| level.starts.len()).min().unwrap_or(0);
-        let sum = |start: usize| levels.iter().zip(weights).map(|(level, w)| w * level.starts[start]).sum();
+/// Standard error and degrees of freedom of the weighted sum of the levels' means; not a number from single replicates.
+fn error_of_sum(levels: &[&Level], weights: &[f64], replicates: Replicates) -> (f64, u64) {
+    if replicates == Replicates::Shared {
+        let count = levels.iter().map(|level| level.replicates.len()).min().unwrap_or(0);
+        let sum = |replicate: usize| {
+            levels.iter().zip(weights).map(|(level, w)| w * level.replicates[replicate]).sum()
+        };
         let sums: Vec<f64> = (0..count).map(sum).collect();
         return (Moments::of(&sums).standard_error(), (count as u64).saturating_sub(1));
     }
@@ -192,19 +194,19 @@ fn error_of_sum(levels: &[&Level], weights: &[f64], starts: Starts) -> (f64, u64
 /// How far each level but the last, the finest, is from that one, and whether the value has settled there: within
 /// `tolerance` times the finest value.
 /// ```
-/// use agglo::search::analysis::{Level, Starts, Verdict, differences};
-/// // Two levels whose starts differ by 1.0 +- 0.1 although each of them scatters by 50.
-/// let coarse = Level { size: 2.0, starts: vec![151.1, 101.0, 50.9] };
-/// let fine = Level { size: 1.0, starts: vec![150.0, 100.0, 50.0] };
-/// let found = differences(&[coarse, fine], 0.02, Starts::Shared);
+/// use agglo::search::analysis::{Level, Replicates, Verdict, differences};
+/// // Two levels whose replicates differ by 1.0 +- 0.1 although each of them scatters by 50.
+/// let coarse = Level { size: 2.0, replicates: vec![151.1, 101.0, 50.9] };
+/// let fine = Level { size: 1.0, replicates: vec![150.0, 100.0, 50.0] };
+/// let found = differences(&[coarse, fine], 0.02, Replicates::Shared);
 /// assert!((found[0].value - 1.0).abs() < 1e-12 && found[0].verdict == Verdict::Settled);
 /// ```
-pub fn differences(levels: &[Level], tolerance: f64, starts: Starts) -> Vec<Difference> {
+pub fn differences(levels: &[Level], tolerance: f64, replicates: Replicates) -> Vec<Difference> {
     let Some((last, before)) = levels.split_last() else { return Vec::new() };
     let finest = last.mean();
     let of = |level: &Level| {
         let value = level.mean() - finest;
-        let (standard_error, freedom) = error_of_sum(&[level, last], &[1.0, -1.0], starts);
+        let (standard_error, freedom) = error_of_sum(&[level, last], &[1.0, -1.0], replicates);
         let half_width = if standard_error == 0.0 {
             0.0
         } else if standard_error.is_nan() {
@@ -228,13 +230,13 @@ pub fn settled(differences: &[Difference]) -> (Option<usize>, Verdict) {
 }
 
 /// Order and limit from the three finest of these levels, which stand from coarse to fine.
-pub fn observed_order(levels: &[Level], starts: Starts) -> Convergence {
+pub fn observed_order(levels: &[Level], replicates: Replicates) -> Convergence {
     let Some((before, three)) = levels.split_last_chunk::<3>() else { return Convergence::TooFewLevels };
     let [third, second, first] = three;
-    let found = of_three([third, second, first], starts);
+    let found = of_three([third, second, first], replicates);
     let Convergence::Converging(order) = found else { return found };
     let Some(level) = before.last() else { return found };
-    let is_asymptotic = match of_three([level, third, second], starts) {
+    let is_asymptotic = match of_three([level, third, second], replicates) {
         Convergence::Converging(earlier) => {
             let error = known(order.order_standard_error).hypot(known(earlier.order_standard_error));
             Some((order.order - earlier.order).abs() <= 0.1 * order.order + NOISE * error)
@@ -250,14 +252,14 @@ fn known(error: f64) -> f64 {
     if error.is_nan() { 0.0 } else { error }
 }
 
-fn of_three([third, second, first]: [&Level; 3], starts: Starts) -> Convergence {
+fn of_three([third, second, first]: [&Level; 3], replicates: Replicates) -> Convergence {
     let [r21, r32] = [second.size / first.size, third.size / second.size].map(f64::ln);
     if !(r21 > 0.0 && r32 > 0.0 && r21.is_finite() && r32.is_finite()) {
         return Convergence::TooFewLevels;
     }
     let (e21, e32) = (second.mean() - first.mean(), third.mean() - second.mean());
     let noise = |a: &Level, b: &Level| {
-        let (error, _) = error_of_sum(&[a, b], &[1.0, -1.0], starts);
+        let (error, _) = error_of_sum(&[a, b], &[1.0, -1.0], replicates);
         (NOISE * known(error)).max(ROUND_OFF * a.mean().abs().max(b.mean().abs()))
     };
     if !(e21.abs() > noise(first, second) && e32.abs() > noise(second, third)) {
@@ -278,7 +280,7 @@ fn of_three([third, second, first]: [&Level; 3], starts: Starts) -> Convergence 
         return Convergence::WithinNoise;
     }
     let order = root_between(residual, [least, most], [residual(least), residual(most)], 1e-14).at;
-    Convergence::Converging(extrapolated([first, second, third], [r21, r32], order, starts))
+    Convergence::Converging(extrapolated([first, second, third], [r21, r32], order, replicates))
 }
 
 /// The limit, and how errors of the means spread to it and to the order: first derivatives of (CV1) and (CV2).
@@ -286,7 +288,7 @@ fn extrapolated(
     levels @ [first, second, third]: [&Level; 3],
     [r21, r32]: [f64; 2],
     order: f64,
-    starts: Starts,
+    replicates: Replicates,
 ) -> Order {
     let (e21, e32) = (second.mean() - first.mean(), third.mean() - second.mean());
     let growth = (order * r21).exp_m1();
@@ -296,7 +298,7 @@ fn extrapolated(
     let of_growth = e21 * r21 * (growth + 1.0) / (growth * growth);
     let direct = [1.0 + 1.0 / growth, -1.0 / growth, 0.0];
     let of_limit = [0, 1, 2].map(|k| direct[k] + of_growth * of_order[k]);
-    let spread = |slopes: [f64; 3]| error_of_sum(&levels, &slopes, starts).0;
+    let spread = |slopes: [f64; 3]| error_of_sum(&levels, &slopes, replicates).0;
     Order {
         order,
         order_standard_error: spread(of_order),

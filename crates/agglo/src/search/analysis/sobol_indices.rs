@@ -18,7 +18,7 @@
 //! | V      | `variance`   | the outcome's ² | variance of the outcome when all parameters vary             |
 //!
 //! # Valid when
-//! Parameters vary independently and uniformly in the unit cube. Noise of the random starts adds to V and to every S_T and
+//! Parameters vary independently and uniformly in the unit cube. Noise of the random replicates adds to V and to every S_T and
 //! lowers every S; `noise_share` says by how much at most. With common random numbers a part of it cancels.
 //! Intervals take base points as independent; those of a Sobol' sequence are more even, so the intervals are too wide.
 //! An outcome that does not vary beyond round-off has no variance to share out, and a single block tells none: all shares

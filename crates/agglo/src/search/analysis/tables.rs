@@ -6,12 +6,12 @@ use crate::record::Rows;
 use crate::record::columns::{Cell, Column, Declared, Table, count, number_or_none, word};
 use crate::search::plan::Plan;
 
-/// Mean, standard error, standard deviation and number of starts of each measure, one line for each candidate; columns
+/// Mean, standard error, standard deviation and number of replicates of each measure, one line for each candidate; columns
 /// `<measure>`, `<measure>_standard_error`, `<measure>_standard_deviation`.
 pub fn measures_table(evaluations: &Evaluations) -> String {
     let mut header = vec!["evaluation".to_owned()];
     header.extend(evaluations.parameters.iter().map(Axis::column));
-    header.push("starts".to_owned());
+    header.push("replicates".to_owned());
     for axis in &evaluations.measures {
         let name = axis.column();
         header.extend([name.clone(), format!("{name}_standard_error"), format!("{name}_standard_deviation")]);
@@ -22,11 +22,11 @@ pub fn measures_table(evaluations: &Evaluations) -> String {
         let values: Vec<String> = values.collect();
         let mut cells = vec![Cell::Count(at as u64)];
         cells.extend(values.iter().map(|value| Cell::Word(value)));
-        cells.push(Cell::Count(row.starts.len() as u64));
+        cells.push(Cell::Count(row.replicates.len() as u64));
         for measure in 0..evaluations.measures.len() {
             let moments = row.measure(measure);
-            let figures = [moments.mean, moments.standard_error(), moments.standard_deviation];
-            cells.extend(figures.map(|figure| finite(figure).map_or(Cell::Unknown, Cell::Number)));
+            let quantities = [moments.mean, moments.standard_error(), moments.standard_deviation];
+            cells.extend(quantities.map(|quantity| finite(quantity).map_or(Cell::Unknown, Cell::Number)));
         }
         lines.add(cells);
     }
@@ -58,9 +58,9 @@ struct RefinementRow {
 }
 
 impl RefinementRow {
-    fn order(&self, figure: fn(&Order) -> f64) -> Option<f64> {
+    fn order(&self, quantity: fn(&Order) -> f64) -> Option<f64> {
         match &self.verdict {
-            Convergence::Converging(order) => finite(figure(order)),
+            Convergence::Converging(order) => finite(quantity(order)),
             _ => None,
         }
     }
@@ -93,13 +93,13 @@ static REFINEMENT: Table<RefinementRow> = Table { file: "refinement.csv", column
 fn convergence(evaluations: &Evaluations, tolerance: f64) -> String {
     let row = |target: &super::evaluations::Target<'_>| {
         let (levels, fineness) = evaluations.levels(target);
-        let (from, settling) = settled(&differences(&levels, tolerance, evaluations.starts));
+        let (from, settling) = settled(&differences(&levels, tolerance, evaluations.replicates));
         let from = from.map_or_else(String::new, |level| evaluations.parameters[0].cell(fineness[level]));
         RefinementRow {
             target: target.axis.column(),
             settled_from: from,
             settling: settling.word(),
-            verdict: observed_order(&levels, evaluations.starts),
+            verdict: observed_order(&levels, evaluations.replicates),
         }
     };
     text(&REFINEMENT, evaluations.targets().iter().map(row))
@@ -107,7 +107,7 @@ fn convergence(evaluations: &Evaluations, tolerance: f64) -> String {
 
 struct DifferenceRow {
     target: String,
-    starts: u64,
+    replicates: u64,
     mean: f64,
     difference: Difference,
 }
@@ -116,8 +116,8 @@ struct DifferenceRow {
 #[rustfmt::skip]
 static DIFFERENCES: Table<DifferenceRow> = Table { file: "differences.csv", columns: &[
     word("target", "target", "an objective or a measure", |row| &row.target),
-    count("starts", "starts", "that count", |row: &DifferenceRow| row.starts),
-    number_or_none("mean", "", "mean", "over the starts", |row| finite(row.mean)),
+    count("replicates", "replicates", "that count", |row: &DifferenceRow| row.replicates),
+    number_or_none("mean", "", "mean", "over the replicates", |row| finite(row.mean)),
     number_or_none("difference", "", "difference", "the level less the finest", |row| finite(row.difference.value)),
     number_or_none("difference_standard_error", "", "its standard error", "", |row| finite(row.difference.standard_error)),
     number_or_none("difference_lower", "", "its lower bound", "with 95 % confidence", |row| finite(row.difference.value - row.difference.half_width)),
@@ -133,11 +133,11 @@ fn differences_of_levels(evaluations: &Evaluations, tolerance: f64) -> String {
     let mut lines = Lines::under(names);
     for target in evaluations.targets() {
         let (levels, fineness) = evaluations.levels(&target);
-        let found = differences(&levels, tolerance, evaluations.starts);
+        let found = differences(&levels, tolerance, evaluations.replicates);
         for ((level, fineness), difference) in levels.iter().zip(fineness).zip(found) {
             let (moments, fineness) = (level.moments(), parameter.cell(fineness));
-            let (target, starts) = (target.axis.column(), moments.count as u64);
-            let row = DifferenceRow { target, starts, mean: moments.mean, difference };
+            let (target, replicates) = (target.axis.column(), moments.count as u64);
+            let row = DifferenceRow { target, replicates, mean: moments.mean, difference };
             let mut cells: Vec<Cell<'_>> = cells(DIFFERENCES.columns, &row).collect();
             cells.insert(1, Cell::Word(&fineness));
             lines.add(cells);
@@ -174,7 +174,7 @@ static EFFECTS: Table<EffectsRow> = Table { file: "sensitivity.csv", columns: &[
     number_or_none("mean_size", "", "mean size of the effects", "", |row| finite(row.effects.mean_size)),
     number_or_none("mean_size_standard_error", "", "its standard error", "", |row| finite(row.effects.standard_error)),
     number_or_none("standard_deviation", "", "standard deviation of the effects", "", |row| finite(row.effects.standard_deviation)),
-    number_or_none("noise", "", "noise", "what of the standard deviation is of the starts", |row| finite(row.effects.noise)),
+    number_or_none("noise", "", "noise", "what of the standard deviation is of the replicates", |row| finite(row.effects.noise)),
     count("effects", "effects", "how many", |row: &EffectsRow| row.effects.count as u64),
 ] };
 
@@ -212,7 +212,7 @@ static SHARES: Table<ShareRow> = Table { file: "sensitivity.csv", columns: &[
     number_or_none("total_lower", "", "its lower bound", "", |row| finite(row.share.total_interval[0])),
     number_or_none("total_upper", "", "its upper bound", "", |row| finite(row.share.total_interval[1])),
     number_or_none("variance", "", "variance", "of the target", |row| finite(row.variance)),
-    number_or_none("noise_share", "", "share of the starts", "", |row| finite(row.noise_share)),
+    number_or_none("noise_share", "", "share of the replicates", "", |row| finite(row.noise_share)),
     count("blocks", "blocks", "how many", |row: &ShareRow| row.blocks),
 ] };
 

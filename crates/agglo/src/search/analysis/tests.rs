@@ -17,29 +17,37 @@ fn what_does_not_vary_has_no_shares_and_no_effects() {
         let points = Plan::Morris(morris).points(&[None; 3], 1);
         let outcomes: Vec<_> = points.iter().map(&mut outcome).collect();
         for effect in elementary_effects(&points, &outcomes) {
-            let figures = [effect.mean, effect.mean_size, effect.standard_error, effect.standard_deviation];
-            assert!(figures.iter().all(|figure| figure.is_finite() == does_vary), "{relative}: {effect:?}");
-            assert!(effect.noise.is_nan() && effect.count == 20, "one start tells no noise");
+            let quantities =
+                [effect.mean, effect.mean_size, effect.standard_error, effect.standard_deviation];
+            assert!(
+                quantities.iter().all(|quantity| quantity.is_finite() == does_vary),
+                "{relative}: {effect:?}"
+            );
+            assert!(effect.noise.is_nan() && effect.count == 20, "one replicate tells no noise");
         }
         let outcomes: Vec<_> =
             Plan::SobolIndices(sobol).points(&[None; 3], 1).iter().map(&mut outcome).collect();
         let shares = variance_shares(3, &outcomes, 100, 0.95, 1);
         for share in &shares.parameters {
-            let figures = [[share.first, share.total], share.first_interval, share.total_interval].concat();
-            assert!(figures.iter().all(|figure| figure.is_finite() == does_vary), "{relative}: {share:?}");
+            let quantities =
+                [[share.first, share.total], share.first_interval, share.total_interval].concat();
+            assert!(
+                quantities.iter().all(|quantity| quantity.is_finite() == does_vary),
+                "{relative}: {share:?}"
+            );
         }
         assert_eq!(shares.variance == 0.0, !does_vary);
     }
 }
 
-/// Where all candidates failed, or all but one block, there are no figures, not even of errors.
+/// Where all candidates failed, or all but one block, there are no quantities, not even of errors.
 #[test]
 fn what_failed_has_no_shares_and_no_effects() {
     let points = Plan::Morris(Morris::default()).points(&[None; 2], 1);
     for effect in elementary_effects(&points, &vec![None; points.len()]) {
-        let figures =
+        let quantities =
             [effect.mean, effect.mean_size, effect.standard_error, effect.standard_deviation, effect.noise];
-        assert!(figures.iter().all(|figure| figure.is_nan()) && effect.count == 0, "{effect:?}");
+        assert!(quantities.iter().all(|quantity| quantity.is_nan()) && effect.count == 0, "{effect:?}");
     }
     for whole in [0, 1] {
         let outcomes: Vec<_> =
@@ -180,12 +188,12 @@ fn searched(objectives: usize) -> Evaluations {
         EvaluationRow {
             values: vec![20.0 + 180.0 * point[0], 10.0_f64.powf(5.0 + point[1]), (2.0 * point[2]).floor()],
             standard_errors: vec![0.01; costs.len()],
-            starts: (0..10).map(|_| vec![1.0 / (1.0 - cost.min(0.9)) + 0.1 * stream.normal()]).collect(),
+            replicates: (0..10).map(|_| vec![1.0 / (1.0 - cost.min(0.9)) + 0.1 * stream.normal()]).collect(),
             point,
             costs,
             status,
             generation: number / 20,
-            start_costs: Vec::new(),
+            replicate_costs: Vec::new(),
         }
     };
     Evaluations {
@@ -299,11 +307,11 @@ fn refined() -> Evaluations {
     let row = |(number, rays): (usize, f64)| EvaluationRow {
         point: vec![(number as f64 + 0.5) / 5.0],
         values: vec![rays],
-        starts: (0..16).map(|_| vec![2.0 + 80.0 / rays + 1e-3 * stream.normal()]).collect(),
+        replicates: (0..16).map(|_| vec![2.0 + 80.0 / rays + 1e-3 * stream.normal()]).collect(),
         ..EvaluationRow::default()
     };
     Evaluations {
-        starts: Starts::Shared,
+        replicates: Replicates::Shared,
         title: "Rays".to_owned(),
         parameters: vec![Axis::new("rays", "")],
         measures: vec![Axis::new("power", "W")],
@@ -348,7 +356,7 @@ fn an_objective_that_is_a_column_stands_once_with_its_own_sign() {
     let axis = evaluations.measures[0].clone();
     evaluations.objectives = vec![Objective { axis, is_to_be_large: true }];
     for row in &mut evaluations.rows {
-        row.start_costs = row.starts.iter().map(|start| vec![-start[0]]).collect();
+        row.replicate_costs = row.replicates.iter().map(|replicate| vec![-replicate[0]]).collect();
         row.costs = vec![-row.measure(0).mean];
         row.standard_errors = vec![row.measure(0).standard_error()];
     }
@@ -397,11 +405,11 @@ fn what_there_is_nothing_to_say_of_is_said() {
     }
     let single = {
         let mut refined = refined();
-        refined.rows.iter_mut().for_each(|row| row.starts.truncate(1));
+        refined.rows.iter_mut().for_each(|row| row.replicates.truncate(1));
         refined
     };
     let said = findings(&Plan::Refinement(Refinement::default()), &single, 1);
-    assert!(said[0].contains("is not shown to have settled: one start"), "{said:?}");
+    assert!(said[0].contains("is not shown to have settled: one replicate"), "{said:?}");
 }
 
 fn studied(plan: &Plan) -> Evaluations {
@@ -450,7 +458,7 @@ fn sensitivity_has_its_table_and_picture() {
 fn awkward_numbers_come_back_from_study_tables() {
     let row = |value: f64| EvaluationRow {
         values: vec![value],
-        starts: vec![vec![value]],
+        replicates: vec![vec![value]],
         ..EvaluationRow::default()
     };
     let evaluations = Evaluations {
@@ -473,10 +481,10 @@ fn awkward_numbers_come_back_from_study_tables() {
 fn measures_stand_in_a_table() {
     let mut evaluations = searched(1);
     evaluations.rows.truncate(1);
-    evaluations.rows[0].starts = vec![vec![1.0], vec![2.0], vec![6.0]];
+    evaluations.rows[0].replicates = vec![vec![1.0], vec![2.0], vec![6.0]];
     evaluations.rows[0].values = vec![30.0, 2e5, 1.0];
     let expected = format!(
-        "evaluation,speed_m_s,hardness_Pa,law,starts,radius_ratio,radius_ratio_standard_error,radius_ratio_standard_deviation\n\
+        "evaluation,speed_m_s,hardness_Pa,law,replicates,radius_ratio,radius_ratio_standard_error,radius_ratio_standard_deviation\n\
          0,30,200000,consistent,3,3,{},{}\n",
         (7.0_f64 / 3.0).sqrt(),
         7.0_f64.sqrt()

@@ -13,9 +13,9 @@ pub enum Stage {
     Search,
     /// Improving the best of the search.
     Polish,
-    /// Fresh starts for the best.
+    /// Fresh replicates for the best.
     Confirm,
-    /// Further fresh starts for the one that was chosen by these.
+    /// Further fresh replicates for the one that was chosen by these.
     Final,
     /// The run of the best and what is made of all that is known.
     Close,
@@ -48,7 +48,7 @@ pub enum Status {
     Infeasible,
     /// It misses a constraint between parameters and was not run.
     Excluded,
-    /// A start failed.
+    /// A replicate failed.
     Failed,
 }
 
@@ -77,35 +77,37 @@ pub struct Evaluation {
     pub candidate: Candidate,
     /// How it ended.
     pub status: Status,
-    /// Random starts that count.
-    pub starts: u32,
-    /// Number of the earlier evaluation with the same values, whose starts these are.
+    /// Random replicates that count.
+    pub replicates: u32,
+    /// Number of the earlier evaluation with the same values, whose replicates these are.
     pub repeats: Option<u64>,
     /// How good it is.
     pub fitness: Fitness,
-    /// Figures of its starts that count, one for each column of the model: `[starts][columns]`.
-    pub figures: Vec<Vec<f64>>,
-    /// Costs of its starts that count: `[starts][objectives]`.
+    /// Quantities of its replicates that count, one for each column of the model: `[replicates][columns]`.
+    pub quantities: Vec<Vec<f64>>,
+    /// Costs of its replicates that count: `[replicates][objectives]`.
     pub costs: Vec<Vec<f64>>,
 }
 
 impl Evaluation {
-    /// Whether it has figures.
-    pub fn has_figures(&self) -> bool {
+    /// Whether it has quantities.
+    pub fn has_quantities(&self) -> bool {
         matches!(self.status, Status::Ok | Status::Infeasible)
     }
 
-    /// Standard errors of its mean costs; not numbers from a single start.
+    /// Standard errors of its mean costs; not numbers from a single replicate.
     pub fn standard_errors(&self) -> Vec<f64> {
-        let known = |error: &f64| if self.starts > 1 { *error } else { f64::NAN };
+        let known = |error: &f64| if self.replicates > 1 { *error } else { f64::NAN };
         self.fitness.standard_errors.iter().map(known).collect()
     }
 
-    /// Means of its figures over its starts, one for each column of the model; empty if it failed.
-    pub fn mean_figures(&self) -> Vec<f64> {
-        let starts = if self.has_figures() { self.figures.as_slice() } else { &[] };
-        let columns = starts.first().map_or(0, Vec::len);
-        let mean = |k: usize| starts.iter().map(|figures| figures[k]).sum::<f64>() / starts.len() as f64;
+    /// Means of its quantities over its replicates, one for each column of the model; empty if it failed.
+    pub fn mean_quantities(&self) -> Vec<f64> {
+        let replicates = if self.has_quantities() { self.quantities.as_slice() } else { &[] };
+        let columns = replicates.first().map_or(0, Vec::len);
+        let mean = |k: usize| {
+            replicates.iter().map(|quantities| quantities[k]).sum::<f64>() / replicates.len() as f64
+        };
         (0..columns).map(mean).collect()
     }
 }
@@ -115,7 +117,7 @@ impl Evaluation {
 pub struct Archive {
     /// In the order of their numbers.
     pub evaluations: Vec<Evaluation>,
-    /// Starts that count.
+    /// Replicates that count.
     pub runs: u64,
     /// Candidates that failed.
     pub failures: u64,
@@ -132,36 +134,36 @@ pub struct Archive {
     scatter: Scatter,
 }
 
-/// Candidates and starts of each stage, in the order of the stages.
+/// Candidates and replicates of each stage, in the order of the stages.
 #[derive(Clone, Debug, Default)]
 pub struct Spent(pub Vec<(Stage, u64, u64)>);
 
 impl Spent {
-    fn add(&mut self, evaluation: &Evaluation, starts: u64) {
+    fn add(&mut self, evaluation: &Evaluation, replicates: u64) {
         match self.0.last_mut().filter(|(stage, ..)| *stage == evaluation.stage) {
-            Some((_, candidates, runs)) => (*candidates, *runs) = (*candidates + 1, *runs + starts),
-            None => self.0.push((evaluation.stage, 1, starts)),
+            Some((_, candidates, runs)) => (*candidates, *runs) = (*candidates + 1, *runs + replicates),
+            None => self.0.push((evaluation.stage, 1, replicates)),
         }
     }
 }
 
-/// Costs of the starts of all candidates about their means.
+/// Costs of the replicates of all candidates about their means.
 #[derive(Clone, Copy, Debug, Default)]
 struct Scatter {
     squares: f64,
     freedom: u64,
-    starts: u64,
+    replicates: u64,
     candidates: u64,
 }
 
 impl Scatter {
     fn add(&mut self, costs: &Moments) {
-        let starts = costs.count as u64;
-        if starts > 1 {
-            self.squares += costs.standard_deviation * costs.standard_deviation * (starts - 1) as f64;
-            self.freedom += starts - 1;
+        let replicates = costs.count as u64;
+        if replicates > 1 {
+            self.squares += costs.standard_deviation * costs.standard_deviation * (replicates - 1) as f64;
+            self.freedom += replicates - 1;
         }
-        self.starts += starts;
+        self.replicates += replicates;
         self.candidates += 1;
     }
 }
@@ -169,7 +171,7 @@ impl Scatter {
 impl Archive {
     /// Adds an evaluation.
     pub fn add(&mut self, evaluation: Evaluation) {
-        let new = if evaluation.repeats.is_some() { 0 } else { u64::from(evaluation.starts) };
+        let new = if evaluation.repeats.is_some() { 0 } else { u64::from(evaluation.replicates) };
         self.runs += new;
         self.repeats += u64::from(evaluation.repeats.is_some());
         self.infeasible += u64::from(evaluation.status == Status::Infeasible && evaluation.stage.is_search());
@@ -177,7 +179,7 @@ impl Archive {
         self.failures += u64::from(evaluation.status == Status::Failed);
         self.excluded += u64::from(evaluation.status == Status::Excluded);
         let costs: Vec<f64> = evaluation.costs.iter().filter_map(|costs| costs.first().copied()).collect();
-        if evaluation.has_figures() && !costs.is_empty() && evaluation.repeats.is_none() {
+        if evaluation.has_quantities() && !costs.is_empty() && evaluation.repeats.is_none() {
             self.scatter.add(&Moments::of(&costs));
         }
         let is_better = |best: usize| evaluation.fitness.compare(&self.evaluations[best].fitness).is_lt();
@@ -234,13 +236,13 @@ impl Archive {
 
     /// How much of the differences between candidates may be chance.
     pub fn noise(&self) -> Noise {
-        let Scatter { squares, freedom, starts, candidates } = self.scatter;
-        let starts_mean = (candidates > 0).then(|| starts as f64 / candidates as f64);
+        let Scatter { squares, freedom, replicates, candidates } = self.scatter;
+        let replicates_mean = (candidates > 0).then(|| replicates as f64 / candidates as f64);
         let deviation = (freedom > 0).then(|| (squares / freedom as f64).sqrt());
         let difference = deviation
-            .zip(starts_mean)
-            .map(|(deviation, starts)| quantile(0.95, freedom) * deviation * (2.0 / starts).sqrt());
-        Noise { start_deviation: deviation, starts_mean, significant_difference: difference }
+            .zip(replicates_mean)
+            .map(|(deviation, replicates)| quantile(0.95, freedom) * deviation * (2.0 / replicates).sqrt());
+        Noise { replicate_deviation: deviation, replicates_mean, significant_difference: difference }
     }
 }
 
@@ -248,20 +250,31 @@ impl Archive {
 mod tests {
     use super::*;
 
-    /// With these mean costs, and these first costs of its starts.
-    fn scattered(number: u64, costs: &[f64], starts: &[f64]) -> Evaluation {
-        let costs_of_starts = starts.iter().map(|cost| vec![*cost]).collect();
-        Evaluation { costs: costs_of_starts, ..evaluation(number, costs) }
+    /// With these mean costs, and these first costs of its replicates.
+    fn scattered(number: u64, costs: &[f64], replicates: &[f64]) -> Evaluation {
+        let costs_of_replicates = replicates.iter().map(|cost| vec![*cost]).collect();
+        Evaluation { costs: costs_of_replicates, ..evaluation(number, costs) }
     }
 
     fn evaluation(number: u64, costs: &[f64]) -> Evaluation {
         let candidate = Candidate { point: vec![0.5], values: vec![number as f64], violation: 0.0 };
         let fitness = if costs.is_empty() { Fitness::failed() } else { Fitness::new(costs.to_vec()) };
         let status = if costs.is_empty() { Status::Failed } else { Status::Ok };
-        let (stage, generation, starts) = (Stage::Search, 0, 3);
-        let (figures, costs) = (Vec::new(), Vec::new());
+        let (stage, generation, replicates) = (Stage::Search, 0, 3);
+        let (quantities, costs) = (Vec::new(), Vec::new());
         let repeats = None;
-        Evaluation { number, stage, generation, candidate, status, starts, repeats, fitness, figures, costs }
+        Evaluation {
+            number,
+            stage,
+            generation,
+            candidate,
+            status,
+            replicates,
+            repeats,
+            fitness,
+            quantities,
+            costs,
+        }
     }
 
     fn archive(costs: &[&[f64]]) -> Archive {
@@ -290,7 +303,7 @@ mod tests {
         assert_eq!(numbers(&archive.front()), [2, 4, 0]);
     }
 
-    /// Two candidates with 3 and 2 starts: squares 2 and 0.5 on 2 + 1 degrees of freedom: s = √(2.5/3); 2.5 starts in
+    /// Two candidates with 3 and 2 replicates: squares 2 and 0.5 on 2 + 1 degrees of freedom: s = √(2.5/3); 2.5 replicates in
     /// the mean; t(95 %, 3) = 3.182446: the difference is 3.182446 s √(2/2.5).
     #[test]
     fn the_noise_floor_by_hand() {
@@ -300,9 +313,9 @@ mod tests {
         archive.add(scattered(2, &[], &[]));
         let noise = archive.noise();
         let deviation = (2.5_f64 / 3.0).sqrt();
-        assert_eq!(noise.starts_mean, Some(2.5));
+        assert_eq!(noise.replicates_mean, Some(2.5));
         // Round-off of a root and its square.
-        assert_near!(noise.start_deviation.unwrap(), deviation, 1e-15);
+        assert_near!(noise.replicate_deviation.unwrap(), deviation, 1e-15);
         let difference = noise.significant_difference.unwrap();
         // The table's t has seven digits.
         assert!((difference / (3.182_446 * deviation * 0.8_f64.sqrt()) - 1.0).abs() < 1e-6, "{difference}");

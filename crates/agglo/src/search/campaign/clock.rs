@@ -19,12 +19,12 @@ pub(super) struct Clock<'a> {
     wall_s: &'a dyn Fn() -> f64,
     budget_s: Option<f64>,
     threads: usize,
-    /// Starts that are run after the search.
+    /// Replicates that are run after the search.
     afterwards: f64,
-    /// Starts that every candidate gets.
-    starts_at_least: f64,
-    /// Starts that earlier sittings have run.
-    starts_before: u64,
+    /// Replicates that every candidate gets.
+    replicates_at_least: f64,
+    /// Replicates that earlier sessions have run.
+    replicates_before: u64,
     /// Candidates at which it was decided to go on: the most.
     went_on: Option<u64>,
     /// Candidates at which it was decided to end.
@@ -32,7 +32,7 @@ pub(super) struct Clock<'a> {
 }
 
 impl<'a> Clock<'a> {
-    /// With what earlier sittings decided.
+    /// With what earlier sessions decided.
     pub fn new(course: &Course<'_>, journal: &'a Journal, past: &Past, wall_s: &'a dyn Fn() -> f64) -> Self {
         let confirm = course.confirm;
         Self {
@@ -40,9 +40,9 @@ impl<'a> Clock<'a> {
             wall_s,
             budget_s: course.budget_s,
             threads: course.threads.max(1),
-            afterwards: starts_after_the_search(confirm),
-            starts_at_least: f64::from(course.ensemble.least()),
-            starts_before: past.starts.len() as u64,
+            afterwards: replicates_after_the_search(confirm),
+            replicates_at_least: f64::from(course.ensemble.least()),
+            replicates_before: past.replicates.len() as u64,
             went_on: past.went_on,
             ended: past.ended,
         }
@@ -71,27 +71,27 @@ impl<'a> Clock<'a> {
         }
         let wall_s = (self.wall_s)();
         let goes_on =
-            done == 0 || wall_s + self.still_needed(archive, pool.starts(), count, wall_s) <= budget_s;
+            done == 0 || wall_s + self.still_needed(archive, pool.replicates(), count, wall_s) <= budget_s;
         self.journal.decide(done, goes_on, wall_s).map_err(CampaignError::from)?;
         let kept = if goes_on { &mut self.went_on } else { &mut self.ended };
         *kept = Some(done);
         Ok(if goes_on { count } else { 0 })
     }
 
-    /// Wall time [s] that so many candidates and what follows the search will take, by the starts so far.
-    fn still_needed(&self, archive: &Archive, starts_now: u64, candidates: usize, wall_s: f64) -> f64 {
-        let each = archive.noise().starts_mean.unwrap_or(self.starts_at_least);
-        let per_start = wall_s / (self.starts_before + starts_now).max(1) as f64;
-        // The run with frames is one start on one thread.
+    /// Wall time [s] that so many candidates and what follows the search will take, by the replicates so far.
+    fn still_needed(&self, archive: &Archive, replicates_now: u64, candidates: usize, wall_s: f64) -> f64 {
+        let each = archive.noise().replicates_mean.unwrap_or(self.replicates_at_least);
+        let per_replicate = wall_s / (self.replicates_before + replicates_now).max(1) as f64;
+        // The run with frames is one replicate on one thread.
         let with_frames = self.threads as f64;
-        per_start * (candidates as f64 * each + self.afterwards + with_frames)
+        per_replicate * (candidates as f64 * each + self.afterwards + with_frames)
     }
 }
 
-/// Each of the best gets fresh starts, and where there are several the one that is chosen gets others once more.
-fn starts_after_the_search(confirm: Confirm) -> f64 {
+/// Each of the best gets fresh replicates, and where there are several the one that is chosen gets others once more.
+fn replicates_after_the_search(confirm: Confirm) -> f64 {
     let again = if confirm.candidates > 1 { confirm.candidates + 1 } else { confirm.candidates };
-    f64::from(again) * f64::from(confirm.starts)
+    f64::from(again) * f64::from(confirm.replicates)
 }
 
 #[cfg(test)]
@@ -99,8 +99,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn starts_of_the_confirmation() {
-        let starts = |candidates| starts_after_the_search(Confirm { candidates, starts: 10 });
-        assert_eq!([0, 1, 2, 6].map(starts), [0.0, 10.0, 30.0, 70.0]);
+    fn replicates_of_the_confirmation() {
+        let replicates = |candidates| replicates_after_the_search(Confirm { candidates, replicates: 10 });
+        assert_eq!([0, 1, 2, 6].map(replicates), [0.0, 10.0, 30.0, 70.0]);
     }
 }

@@ -12,27 +12,27 @@ pub static EVALUATIONS: Table<Evaluation> = Table { file: "evaluations.csv", col
     count("generation", "generation", "number of its batch, from zero", |one: &Evaluation| one.generation),
     word("stage", "stage", "`search`, `polish`, `confirm` or `final`", |one: &Evaluation| one.stage.word()),
     word("status", "status", "`ok`, `infeasible`, `failed` or `excluded`", |one: &Evaluation| one.status.word()),
-    count("starts", "starts", "random starts that count", |one: &Evaluation| u64::from(one.starts)),
-    count_or_none("repeats", "repeats", "the earlier evaluation with the same values, whose starts these are", |one: &Evaluation| one.repeats),
+    count("replicates", "replicates", "random replicates that count", |one: &Evaluation| u64::from(one.replicates)),
+    count_or_none("repeats", "repeats", "the earlier evaluation with the same values, whose replicates these are", |one: &Evaluation| one.repeats),
     number_or_none("violation", "", "violation", "by how much it misses the limits", |one: &Evaluation| finite(one.fitness.violation)),
 ] };
 
-/// A start that counts.
-pub struct StartRow {
+/// A replicate that counts.
+pub struct ReplicateRow {
     /// Number of its evaluation.
     pub evaluation: u64,
     /// Its number.
-    pub start: u32,
+    pub replicate: u32,
     /// Its seed.
     pub seed: u64,
 }
 
 /// Simulations that count.
 #[rustfmt::skip]
-pub static RUNS: Table<StartRow> = Table { file: "runs.csv", columns: &[
-    count("evaluation", "evaluation", "number of the candidate's", |run: &StartRow| run.evaluation),
-    count("start", "start", "its number, from zero", |run: &StartRow| u64::from(run.start)),
-    count("seed", "seed", "of the simulation", |run: &StartRow| run.seed),
+pub static RUNS: Table<ReplicateRow> = Table { file: "runs.csv", columns: &[
+    count("evaluation", "evaluation", "number of the candidate's", |run: &ReplicateRow| run.evaluation),
+    count("replicate", "replicate", "its number, from zero", |run: &ReplicateRow| u64::from(run.replicate)),
+    count("seed", "seed", "of the simulation", |run: &ReplicateRow| run.seed),
 ] };
 
 /// A batch that was evaluated, with sums over all so far.
@@ -69,8 +69,8 @@ pub static GENERATIONS: Table<GenerationRow> = Table { file: "generations.csv", 
 
 /// A candidate that could not be run.
 pub struct Failure {
-    /// The start of it that failed.
-    pub run: StartRow,
+    /// The replicate of it that failed.
+    pub run: ReplicateRow,
     /// Why.
     pub reason: String,
 }
@@ -79,7 +79,7 @@ pub struct Failure {
 #[rustfmt::skip]
 pub static FAILURES: Table<Failure> = Table { file: "failures.csv", columns: &[
     count("evaluation", "evaluation", "number of the candidate's", |failure: &Failure| failure.run.evaluation),
-    count("start", "start", "the one that failed", |failure: &Failure| u64::from(failure.run.start)),
+    count("replicate", "replicate", "the one that failed", |failure: &Failure| u64::from(failure.run.replicate)),
     count("seed", "seed", "of the simulation", |failure: &Failure| failure.run.seed),
     word("reason", "reason", "what the simulation said", |failure| &failure.reason),
 ] };
@@ -90,7 +90,7 @@ pub struct Standing {
     number: u64,
     cost: Option<f64>,
     error: Option<f64>,
-    starts: u64,
+    replicates: u64,
     violation: Option<f64>,
 }
 
@@ -101,7 +101,7 @@ impl Standing {
             number: one.number,
             cost: one.fitness.costs.first().copied(),
             error: error_of(one),
-            starts: u64::from(one.starts),
+            replicates: u64::from(one.replicates),
             violation: finite(one.fitness.violation),
         }
     }
@@ -126,16 +126,16 @@ pub static BEST: Table<BestRow> = Table { file: "best.csv", columns: &[
     count("evaluation", "evaluation", "as it was run again, or as the search saw it", |row: &BestRow| row.evaluation.number),
     number_or_none("cost", "", "cost", "", |row: &BestRow| row.evaluation.cost),
     number_or_none("cost_standard_error", "", "standard error of the cost", "", |row: &BestRow| row.evaluation.error),
-    count("starts", "starts", "random starts that count", |row: &BestRow| row.evaluation.starts),
+    count("replicates", "replicates", "random replicates that count", |row: &BestRow| row.evaluation.replicates),
     number_or_none("violation", "", "violation", "by how much it misses the limits", |row: &BestRow| row.evaluation.violation),
     count_or_none("search_evaluation", "evaluation in the search", "", |row: &BestRow| Some(row.search?.number)),
     number_or_none("search_cost", "", "cost in the search", "too good where costs scatter", |row: &BestRow| row.search?.cost),
     number_or_none("search_cost_standard_error", "", "its standard error", "", |row: &BestRow| row.search?.error),
-    count_or_none("search_starts", "starts in the search", "", |row: &BestRow| Some(row.search?.starts)),
+    count_or_none("search_replicates", "replicates in the search", "", |row: &BestRow| Some(row.search?.replicates)),
     count_or_none("final_evaluation", "last evaluation", "of the one that was chosen", |row: &BestRow| Some(row.last?.number)),
-    number_or_none("final_cost", "", "last cost", "of starts that had no part in choosing it", |row: &BestRow| row.last?.cost),
+    number_or_none("final_cost", "", "last cost", "of replicates that had no part in choosing it", |row: &BestRow| row.last?.cost),
     number_or_none("final_cost_standard_error", "", "its standard error", "", |row: &BestRow| row.last?.error),
-    count_or_none("final_starts", "last starts", "", |row: &BestRow| Some(row.last?.starts)),
+    count_or_none("final_replicates", "last replicates", "", |row: &BestRow| Some(row.last?.replicates)),
     number_or_none("final_violation", "", "last violation", "", |row: &BestRow| row.last?.violation),
 ] };
 

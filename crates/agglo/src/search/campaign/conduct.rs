@@ -11,7 +11,7 @@ use super::clock::Clock;
 use super::course::{Course, Results};
 use super::journal::{Journal, Past};
 use super::progress::CampaignObserver;
-use super::records::{Records, Start};
+use super::records::{Records, Replicate};
 use super::summary::CampaignSummary;
 use super::watch::{Now, Watch};
 use super::{CampaignEnding, CampaignError};
@@ -68,19 +68,19 @@ pub fn conduct<M: Model>(
     (folder, text): (&CampaignFolder, &str),
     observer: &mut CampaignObserver<'_>,
 ) -> Result<CampaignEnding, CampaignError> {
-    let sat_down = Instant::now();
+    let began = Instant::now();
     let foreign = |reason| FolderError::NoCampaign { dir: folder.root().to_owned(), reason };
     let (journal, past) = Journal::open(&folder.journal(), text)?.map_err(foreign)?;
     let wall_before = past.wall_s;
-    let wall_s = || wall_before + sat_down.elapsed().as_secs_f64();
+    let wall_s = || wall_before + began.elapsed().as_secs_f64();
     let notebook = |finished: &Finished<'_>| journal.note(finished, wall_s());
     let pool = Pool::new(model, &notebook);
-    let known = past.starts.keys().next_back().map_or(0, |(evaluation, _)| *evaluation);
+    let known = past.replicates.keys().next_back().map_or(0, |(evaluation, _)| *evaluation);
     let mut observer = |progress: &super::CampaignProgress| observer(progress);
     let sign = course.objectives.first().map(|goal| if goal.is_to_be_large { -1.0 } else { 1.0 });
     let most = course.planned.iter().map(|(_, candidates)| candidates).sum::<u64>();
     let most = (most > 0).then_some(most);
-    let watch = Watch::new(&mut observer, sat_down, most, known, sign).warning(folder.warning());
+    let watch = Watch::new(&mut observer, began, most, known, sign).warning(folder.warning());
     let clock = Clock::new(&course, &journal, &past, &wall_s);
     let ended = std::thread::scope(|scope| {
         let _home = Home(&pool);
@@ -111,14 +111,14 @@ impl<M: Model> Drop for Home<'_, '_, M> {
     }
 }
 
-/// One sitting of a campaign.
+/// One session of a campaign.
 pub(super) struct Conductor<'a, M: Model> {
     model: &'a M,
     pool: &'a Pool<'a, M>,
     folder: &'a CampaignFolder,
     ensemble: Ensemble,
     fresh: Ensemble,
-    /// Of the search, of the starts that choose the best, and of those that it is reported by.
+    /// Of the search, of the replicates that choose the best, and of those that it is reported by.
     seeds: [Seeds; 3],
     past: Past,
     clock: Clock<'a>,
@@ -144,10 +144,10 @@ impl<'a, M: Model> Conductor<'a, M> {
         let Course { ensemble, seed, confirm, .. } = course;
         let fresh = Ensemble {
             common_random_numbers: ensemble.common_random_numbers,
-            ..Ensemble::fixed(confirm.starts)
+            ..Ensemble::fixed(confirm.replicates)
         };
         let (seen, unseen, last, seed) = (ensemble.clone(), fresh.clone(), fresh.clone(), *seed);
-        let chosen_by = confirm.starts;
+        let chosen_by = confirm.replicates;
         let records =
             Records::create(folder.root(), &course.parameters, course.objectives.len(), model.columns())?;
         Ok(Self {
@@ -157,9 +157,11 @@ impl<'a, M: Model> Conductor<'a, M> {
             ensemble: ensemble.clone(),
             fresh,
             seeds: [
-                Arc::new(move |evaluation, start| seen.seed(seed, evaluation, start)),
-                Arc::new(move |evaluation, start| unseen.fresh_seed(seed, evaluation, start)),
-                Arc::new(move |evaluation, start| last.fresh_seed(seed, evaluation, start + chosen_by)),
+                Arc::new(move |evaluation, replicate| seen.seed(seed, evaluation, replicate)),
+                Arc::new(move |evaluation, replicate| unseen.fresh_seed(seed, evaluation, replicate)),
+                Arc::new(move |evaluation, replicate| {
+                    last.fresh_seed(seed, evaluation, replicate + chosen_by)
+                }),
             ],
             past,
             clock,
@@ -186,10 +188,10 @@ impl<'a, M: Model> Conductor<'a, M> {
     fn stages(&mut self, mut course: Course<'_>, wall_s: &dyn Fn() -> f64) -> Result<CampaignSummary, Stop> {
         let mut recommended = self.ask_and_tell(Stage::Search, course.optimizer.as_mut())?;
         self.refuse_hopeless(1)?;
-        let start =
+        let replicate =
             recommended.clone().or_else(|| self.archive.best().map(|best| best.candidate.point.clone()));
-        if let Some((polish, start)) = course.polish.zip(start) {
-            recommended = self.ask_and_tell(Stage::Polish, polish(&start).as_mut())?;
+        if let Some((polish, replicate)) = course.polish.zip(replicate) {
+            recommended = self.ask_and_tell(Stage::Polish, polish(&replicate).as_mut())?;
         }
         let best = self.confirm(&course, recommended)?;
         self.folder.hold_on()?;
@@ -203,16 +205,16 @@ impl<'a, M: Model> Conductor<'a, M> {
             columns: self.model.columns(),
         };
         let (watch, pool, generations) = (&mut self.watch, self.pool, self.generations);
-        let now = || Now { stage: Stage::Close, generations, decided: 0, starts: pool.starts() };
+        let now = || Now { stage: Stage::Close, generations, decided: 0, replicates: pool.replicates() };
         if (course.closing)(&results, &mut || watch.tell(&self.archive, &now()))?.is_break() {
             return Err(Stop::Asked);
         }
         summary.wall_s = wall_s();
         self.folder.hold_on()?;
         let text = summary.to_json();
-        // What could not be read back, since a figure is not finite, is not written.
+        // What could not be read back, since a quantity is not finite, is not written.
         if let Err(error) = serde_json::from_str::<CampaignSummary>(&text) {
-            let (path, reason) = (self.folder.summary(), format!("a figure is not finite: {error}"));
+            let (path, reason) = (self.folder.summary(), format!("a quantity is not finite: {error}"));
             return Err(Stop::from(RecordError::Encode { path, reason }));
         }
         atomic::write(&self.folder.summary(), text.as_bytes())?;
@@ -275,8 +277,8 @@ impl<'a, M: Model> Conductor<'a, M> {
         let ensemble = if stage.is_search() { &self.ensemble } else { &self.fresh };
         let (watch, archive, generations) = (&mut self.watch, &self.archive, self.generations);
         let look_up = |pool: &Pool<'_, M>| {
-            let (decided, starts) = (pool.decided(), pool.starts());
-            watch.tell(archive, &Now { stage, generations, decided, starts })
+            let (decided, replicates) = (pool.decided(), pool.replicates());
+            watch.tell(archive, &Now { stage, generations, decided, replicates })
         };
         let mut ended = self.pool.evaluate(tasks, ensemble, &seeds, look_up)?.into_iter();
         for ((number, candidate), way) in (first as u64..).zip(candidates).zip(ways) {
@@ -290,7 +292,7 @@ impl<'a, M: Model> Conductor<'a, M> {
             self.records.flush()?;
             self.flushed = Instant::now();
         }
-        let now = Now { stage, generations, decided: 0, starts: self.pool.starts() };
+        let now = Now { stage, generations, decided: 0, replicates: self.pool.replicates() };
         if self.watch.tell(&self.archive, &now).is_break() { Err(Stop::Asked) } else { Ok(()) }
     }
 
@@ -333,13 +335,15 @@ impl<'a, M: Model> Conductor<'a, M> {
         Ok(())
     }
 
-    /// A task with what earlier sittings know of it; another seed or other figures would be another start.
+    /// A task with what earlier sessions know of it; another seed or other quantities would be another replicate.
     fn task(&self, evaluation: u64, candidate: &Candidate, seeds: &Seeds) -> Task {
         let columns = self.model.columns().len();
         let known = self.past.of(evaluation);
         let known = known
-            .filter(|(start, entry)| entry.is_of(seeds(evaluation, *start), columns))
-            .map(|(start, entry)| (start, pool::outcome(self.model, candidate, entry.outcome.clone())))
+            .filter(|(replicate, entry)| entry.is_of(seeds(evaluation, *replicate), columns))
+            .map(|(replicate, entry)| {
+                (replicate, pool::outcome(self.model, candidate, entry.outcome.clone()))
+            })
             .collect();
         Task { evaluation, candidate: candidate.clone(), known }
     }
@@ -354,39 +358,39 @@ impl<'a, M: Model> Conductor<'a, M> {
         seeds: &Seeds,
     ) -> Result<(), RecordError> {
         let is_excluded = outcomes.is_none();
-        let mut starts = Vec::new();
+        let mut replicates = Vec::new();
         let mut costs = Vec::new();
         let mut failure = None;
-        for (start, outcome) in (0_u32..).zip(outcomes.unwrap_or_default()) {
-            let seed = seeds(number, start);
+        for (replicate, outcome) in (0_u32..).zip(outcomes.unwrap_or_default()) {
+            let seed = seeds(number, replicate);
             match outcome {
-                Outcome::Figures { figures, costs: of_it } => {
-                    let row = Start { number: start, seed, costs: &of_it, figures: &figures };
-                    self.records.start(number, &row)?;
+                Outcome::Quantities { quantities, costs: of_it } => {
+                    let row = Replicate { number: replicate, seed, costs: &of_it, quantities: &quantities };
+                    self.records.replicate(number, &row)?;
                     costs.push(of_it);
-                    starts.push(figures);
+                    replicates.push(quantities);
                 }
-                Outcome::Failed(reason) => failure = Some((start, seed, reason)),
+                Outcome::Failed(reason) => failure = Some((replicate, seed, reason)),
             }
         }
-        let (status, fitness) = self.judge(&candidate, is_excluded, &starts, &mut failure);
-        if let Some((start, seed, reason)) = &failure {
-            self.records.failure(number, *start, *seed, reason)?;
+        let (status, fitness) = self.judge(&candidate, is_excluded, &replicates, &mut failure);
+        if let Some((replicate, seed, reason)) = &failure {
+            self.records.failure(number, *replicate, *seed, reason)?;
             if self.first_failure.is_empty() {
                 self.first_failure.clone_from(reason);
             }
         }
-        let (generation, count) = (self.generations, starts.len() as u32);
+        let (generation, count) = (self.generations, replicates.len() as u32);
         let evaluation = Evaluation {
             number,
             stage,
             generation,
             candidate,
             status,
-            starts: count,
+            replicates: count,
             repeats: None,
             fitness,
-            figures: starts,
+            quantities: replicates,
             costs,
         };
         self.records.evaluation(&evaluation, self.model.columns().len())?;
@@ -398,7 +402,7 @@ impl<'a, M: Model> Conductor<'a, M> {
         &self,
         candidate: &Candidate,
         is_excluded: bool,
-        starts: &[Vec<f64>],
+        replicates: &[Vec<f64>],
         failure: &mut Option<(u32, u64, String)>,
     ) -> (Status, Fitness) {
         if is_excluded {
@@ -408,7 +412,7 @@ impl<'a, M: Model> Conductor<'a, M> {
         if failure.is_some() {
             return (Status::Failed, Fitness::failed());
         }
-        let mut fitness = self.model.fitness(candidate, starts);
+        let mut fitness = self.model.fitness(candidate, replicates);
         // An empty sum is a negative zero, which would rank before the others.
         fitness.violation += 0.0;
         if fitness.violation.is_nan() || fitness.costs.iter().any(|cost| !cost.is_finite()) {
@@ -435,7 +439,7 @@ impl<'a, M: Model> Conductor<'a, M> {
         Ok(())
     }
 
-    pub(super) fn seed_of_first_start(&self, evaluation: &Evaluation) -> u64 {
+    pub(super) fn seed_of_first_replicate(&self, evaluation: &Evaluation) -> u64 {
         self.seeds[family(evaluation.stage)](evaluation.number, 0)
     }
 

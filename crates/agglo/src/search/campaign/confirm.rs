@@ -1,8 +1,8 @@
-//! Which of the best candidates is the best, by starts that the search has not seen; and how good it is, by further ones.
+//! Which of the best candidates is the best, by replicates that the search has not seen; and how good it is, by further ones.
 //!
-//! The lowest of many scattered costs is low by luck as well. So the best are run again with fresh starts, and the one with
+//! The lowest of many scattered costs is low by luck as well. So the best are run again with fresh replicates, and the one with
 //! the lowest fresh mean is taken. That choice is of the lowest of a few means again, so the one taken is run once more,
-//! with starts that had no part in it: the mean of those is reported, beside what it was chosen by.
+//! with replicates that had no part in it: the mean of those is reported, beside what it was chosen by.
 
 use serde_json::Value as Json;
 
@@ -27,7 +27,7 @@ pub(super) struct Chosen {
 }
 
 impl<M: Model> Conductor<'_, M> {
-    /// Runs the best candidates with fresh starts, the best of them once more, writes them down, and names the best.
+    /// Runs the best candidates with fresh replicates, the best of them once more, writes them down, and names the best.
     pub(super) fn confirm(
         &mut self,
         course: &Course<'_>,
@@ -36,7 +36,7 @@ impl<M: Model> Conductor<'_, M> {
         let searched: Vec<usize> = self.best_of_search(course);
         let Some(&best) = searched.first() else { return Ok(None) };
         let unconfirmed = Chosen { at: best, confirmed: None, search: Some(best) };
-        if course.confirm.candidates == 0 || course.confirm.starts == 0 {
+        if course.confirm.candidates == 0 || course.confirm.replicates == 0 {
             let ranked = searched.iter().map(|&at| Chosen { at, ..unconfirmed }).collect::<Vec<_>>();
             self.write_best(&ranked)?;
             return Ok(Some(unconfirmed));
@@ -48,15 +48,15 @@ impl<M: Model> Conductor<'_, M> {
         let mut ranked: Vec<Chosen> = (first..).zip(search).map(chosen).collect();
         let evaluation = |at: usize| &self.archive.evaluations[at];
         ranked.sort_by(|a, b| evaluation(a.at).fitness.compare(&evaluation(b.at).fitness));
-        // Where all fail with fresh starts, the search's best is all there is.
-        if !evaluation(ranked[0].at).has_figures() {
+        // Where all fail with fresh replicates, the search's best is all there is.
+        if !evaluation(ranked[0].at).has_quantities() {
             self.write_best(&ranked)?;
             return Ok(Some(unconfirmed));
         }
         if ranked.len() > 1 {
             let last = self.archive.evaluations.len();
             self.generation(Stage::Final, vec![evaluation(ranked[0].at).candidate.clone()])?;
-            if self.archive.evaluations[last].has_figures() {
+            if self.archive.evaluations[last].has_quantities() {
                 ranked[0] = Chosen { at: last, confirmed: Some(ranked[0].at), ..ranked[0] };
             }
         }
@@ -164,16 +164,16 @@ impl<M: Model> Conductor<'_, M> {
     fn best(&self, course: &Course<'_>, best: Chosen) -> Best {
         let evaluation = &self.archive.evaluations[best.at];
         let search =
-            best.search.map(|at| &self.archive.evaluations[at]).filter(|search| search.has_figures());
+            best.search.map(|at| &self.archive.evaluations[at]).filter(|search| search.has_quantities());
         let confirmed = best.confirmed.map(|at| &self.archive.evaluations[at]);
-        let figures = evaluation.mean_figures().into_iter().map(Json::from);
-        let figures = self.columns().iter().cloned().zip(figures);
+        let quantities = evaluation.mean_quantities().into_iter().map(Json::from);
+        let quantities = self.columns().iter().cloned().zip(quantities);
         Best {
             evaluation: evaluation.number,
             cost: evaluation.fitness.cost(),
             cost_standard_error: error_of(evaluation),
             costs: if course.objectives.len() > 1 { evaluation.fitness.costs.clone() } else { Vec::new() },
-            starts: evaluation.starts,
+            replicates: evaluation.replicates,
             is_confirmed: !evaluation.stage.is_search(),
             confirm_cost: confirmed.map(|confirmed| confirmed.fitness.cost()),
             confirm_cost_standard_error: confirmed.and_then(error_of),
@@ -181,11 +181,11 @@ impl<M: Model> Conductor<'_, M> {
             search_cost_standard_error: search.and_then(error_of),
             violation: evaluation.fitness.violation,
             limits: (course.limits)(evaluation),
-            start_seed: self.seed_of_first_start(evaluation),
+            replicate_seed: self.seed_of_first_replicate(evaluation),
             parameters: named_parameters(&course.parameters, &evaluation.candidate.values),
             readable: readable_parameters(&course.parameters, &evaluation.candidate.values),
             settings: (course.settings)(&evaluation.candidate),
-            figures: Named(figures.collect()),
+            quantities: Named(quantities.collect()),
         }
     }
 }

@@ -23,7 +23,7 @@ pub type Ask<'a> = dyn FnMut() -> ControlFlow<()> + Send + 'a;
 pub struct Course<'a> {
     /// One line that says what it is.
     pub title: &'a str,
-    /// Seed of the random starts.
+    /// Seed of the random replicates.
     pub seed: u64,
     /// Worker threads; at least 1.
     pub threads: usize,
@@ -33,7 +33,7 @@ pub struct Course<'a> {
     pub parameters: Vec<Axis>,
     /// What is to be small or large.
     pub objectives: Vec<Goal>,
-    /// How many random starts a candidate gets.
+    /// How many random replicates a candidate gets.
     pub ensemble: Ensemble,
     /// What proposes the points.
     pub optimizer: Box<dyn Optimizer>,

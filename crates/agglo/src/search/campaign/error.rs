@@ -18,7 +18,7 @@ pub enum CampaignError {
     Record(#[from] RecordError),
     /// A campaign was cut short because a file could not be written.
     #[error(
-        "{error}\nAll starts that ended are kept; once the cause is put right, `agglo resume {}` goes on from there.",
+        "{error}\nAll replicates that ended are kept; once the cause is put right, `agglo resume {}` goes on from there.",
         dir.display()
     )]
     CutShort {

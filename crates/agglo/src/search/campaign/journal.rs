@@ -1,13 +1,13 @@
-//! Starts that ended, one a line in the order in which they ended: what a campaign goes on from.
+//! Replicates that ended, one a line in the order in which they ended: what a campaign goes on from.
 //!
 //! ```text
 //! agglo 0.1.0,5a1f03c2                          version of the program and checksum of the campaign
-//! 17,0,5403271183612,12.3,ok,0.61,311.5,9e21ab04    evaluation, start, seed, wall time [s], figures, checksum
+//! 17,0,5403271183612,12.3,ok,0.61,311.5,9e21ab04    evaluation, replicate, seed, wall time [s], quantities, checksum
 //! 18,0,5403271183612,12.4,failed,"reason",11ce0792
 //! budget,16,12.4,goes_on,8c31aa02                   what the clock decided once so many candidates were evaluated
 //! ```
 //! Each line is handed to the operating system at once. A line that a kill or a loss of power cut short, or that was
-//! damaged, does not fit its checksum and is as if it had never been: its start is run again. Once the campaign has
+//! damaged, does not fit its checksum and is as if it had never been: its replicate is run again. Once the campaign has
 //! ended, its tables hold the same and the journal is removed.
 
 use std::collections::BTreeMap;
@@ -22,28 +22,28 @@ use crate::record::{RecordError, atomic, door};
 use crate::search::pool::Finished;
 use crate::text::{Number, cell};
 
-/// What a start came to in an earlier sitting.
+/// What a replicate came to in an earlier session.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     /// Its seed.
     pub seed: u64,
-    /// Figures, or the reason of its failure.
+    /// Quantities, or the reason of its failure.
     pub outcome: Result<Vec<f64>, String>,
 }
 
 impl Entry {
-    /// Whether it is what a start with this seed can have come to, of so many figures.
-    pub fn is_of(&self, seed: u64, figures: usize) -> bool {
-        self.seed == seed && self.outcome.as_ref().map_or(true, |found| found.len() == figures)
+    /// Whether it is what a replicate with this seed can have come to, of so many quantities.
+    pub fn is_of(&self, seed: u64, quantities: usize) -> bool {
+        self.seed == seed && self.outcome.as_ref().map_or(true, |found| found.len() == quantities)
     }
 }
 
-/// The starts of earlier sittings.
+/// The replicates of earlier sessions.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Past {
-    /// By evaluation and start.
-    pub starts: BTreeMap<(u64, u32), Entry>,
-    /// Wall time of all earlier sittings [s].
+    /// By evaluation and replicate.
+    pub replicates: BTreeMap<(u64, u32), Entry>,
+    /// Wall time of all earlier sessions [s].
     pub wall_s: f64,
     /// Candidates at which the budget of time let the search go on: the most.
     pub went_on: Option<u64>,
@@ -52,14 +52,14 @@ pub struct Past {
 }
 
 impl Past {
-    /// Starts of this evaluation.
+    /// Replicates of this evaluation.
     pub fn of(&self, evaluation: u64) -> impl Iterator<Item = (u32, &Entry)> {
-        let starts = self.starts.range((evaluation, 0)..=(evaluation, u32::MAX));
-        starts.map(|((_, start), entry)| (*start, entry))
+        let replicates = self.replicates.range((evaluation, 0)..=(evaluation, u32::MAX));
+        replicates.map(|((_, replicate), entry)| (*replicate, entry))
     }
 }
 
-/// The file that grows by a line with each start that ends.
+/// The file that grows by a line with each replicate that ends.
 #[derive(Debug)]
 pub struct Journal {
     path: PathBuf,
@@ -67,7 +67,7 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// Goes on with the journal at `path`, or begins one; `campaign` is the text that its starts belong to.
+    /// Goes on with the journal at `path`, or begins one; `campaign` is the text that its replicates belong to.
     ///
     /// # Errors
     /// [`RecordError::File`]; or the reason why the journal does not belong to this campaign and program.
@@ -110,7 +110,7 @@ impl Journal {
         Ok(Self { path: path.to_owned(), open: Mutex::new((file, String::new())) })
     }
 
-    /// Writes a start down; `wall_s` is the wall time of all sittings so far [s].
+    /// Writes a replicate down; `wall_s` is the wall time of all sessions so far [s].
     ///
     /// # Errors
     /// [`RecordError::File`].
@@ -118,14 +118,14 @@ impl Journal {
         let mut open = self.open.lock().unwrap_or_else(PoisonError::into_inner);
         let (file, line) = &mut *open;
         line.clear();
-        let Finished { evaluation, start, seed, outcome } = finished;
+        let Finished { evaluation, replicate, seed, outcome } = finished;
         // Writing to a string cannot fail.
-        let _ = write!(line, "{evaluation},{start},{seed},{wall_s:.3},");
+        let _ = write!(line, "{evaluation},{replicate},{seed},{wall_s:.3},");
         match outcome {
-            Ok(figures) => {
+            Ok(quantities) => {
                 line.push_str("ok");
-                figures.iter().for_each(|figure| {
-                    let _ = write!(line, ",{}", Number(*figure));
+                quantities.iter().for_each(|quantity| {
+                    let _ = write!(line, ",{}", Number(*quantity));
                 });
             }
             Err(reason) => {
@@ -137,7 +137,7 @@ impl Journal {
         file.write_all(line.as_bytes()).map_err(RecordError::file("write", &self.path))
     }
 
-    /// Writes down what the clock decided once so many candidates were evaluated, so that a later sitting decides the same.
+    /// Writes down what the clock decided once so many candidates were evaluated, so that a later session decides the same.
     ///
     /// # Errors
     /// [`RecordError::File`].
@@ -172,9 +172,9 @@ impl Past {
             self.wall_s = self.wall_s.max(wall_s);
             let kept = if goes_on { &mut self.went_on } else { &mut self.ended };
             *kept = (*kept).max(Some(evaluations));
-        } else if let Some((key, wall_s, entry)) = start(content) {
+        } else if let Some((key, wall_s, entry)) = replicate(content) {
             self.wall_s = self.wall_s.max(wall_s);
-            self.starts.entry(key).or_insert(entry);
+            self.replicates.entry(key).or_insert(entry);
         }
     }
 }
@@ -198,7 +198,7 @@ fn time(word: &str) -> Option<f64> {
     word.parse().ok().filter(|wall_s: &f64| wall_s.is_finite() && *wall_s >= 0.0)
 }
 
-fn start(content: &str) -> Option<Line> {
+fn replicate(content: &str) -> Option<Line> {
     let mut words = content.splitn(6, ',');
     let key = (words.next()?.parse().ok()?, words.next()?.parse().ok()?);
     let seed = words.next()?.parse().ok()?;
@@ -229,16 +229,16 @@ mod tests {
     }
 
     fn written(path: &Path) -> BTreeMap<(u64, u32), Entry> {
-        let mut figures = vec![0.1 + 0.2, -0.0, f64::INFINITY, 1e-300];
-        figures.extend(agglo_testing::AWKWARD);
+        let mut quantities = vec![0.1 + 0.2, -0.0, f64::INFINITY, 1e-300];
+        quantities.extend(agglo_testing::AWKWARD);
         let (journal, past) = open(path);
         assert_eq!(past, Past::default());
         let outcomes: [Result<&[f64], &str>; 4] =
-            [Ok(&figures), Err("it,\nfailed \"there\""), Ok(&[]), Ok(&[1.5])];
+            [Ok(&quantities), Err("it,\nfailed \"there\""), Ok(&[]), Ok(&[1.5])];
         let mut entries = BTreeMap::new();
         for (k, outcome) in (0..).zip(outcomes) {
             let seed = (1 << 53) - 1 - k;
-            journal.note(&Finished { evaluation: k, start: 7, seed, outcome }, 0.5 * k as f64).unwrap();
+            journal.note(&Finished { evaluation: k, replicate: 7, seed, outcome }, 0.5 * k as f64).unwrap();
             let outcome = outcome.map(<[f64]>::to_vec).map_err(str::to_owned);
             entries.insert((k, 7), Entry { seed, outcome });
         }
@@ -246,21 +246,21 @@ mod tests {
     }
 
     #[test]
-    fn starts_come_back_as_they_were() {
+    fn replicates_come_back_as_they_were() {
         let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("starts.journal");
+        let path = folder.path().join("replicates.journal");
         let entries = written(&path);
         let (journal, past) = open(&path);
-        assert_eq!((&past.starts, past.wall_s), (&entries, 1.5));
-        assert_eq!(past.of(1).map(|(start, _)| start).collect::<Vec<_>>(), [7]);
-        journal.note(&Finished { evaluation: 9, start: 0, seed: 1, outcome: Ok(&[]) }, 2.0).unwrap();
-        assert_eq!(open(&path).1.starts.len(), 5);
+        assert_eq!((&past.replicates, past.wall_s), (&entries, 1.5));
+        assert_eq!(past.of(1).map(|(replicate, _)| replicate).collect::<Vec<_>>(), [7]);
+        journal.note(&Finished { evaluation: 9, replicate: 0, seed: 1, outcome: Ok(&[]) }, 2.0).unwrap();
+        assert_eq!(open(&path).1.replicates.len(), 5);
     }
 
     #[test]
     fn what_the_clock_decided_comes_back() {
         let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("starts.journal");
+        let path = folder.path().join("replicates.journal");
         let (journal, _) = open(&path);
         journal.decide(8, true, 1.25).unwrap();
         journal.decide(16, true, 2.5).unwrap();
@@ -274,7 +274,7 @@ mod tests {
     #[test]
     fn a_torn_journal_loses_its_last_line_only() {
         let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("starts.journal");
+        let path = folder.path().join("replicates.journal");
         let entries = written(&path);
         let whole = std::fs::read(&path).unwrap();
         for length in 0..whole.len() {
@@ -282,16 +282,18 @@ mod tests {
             let lines = whole[..length].split(|byte| *byte == b'\n').count() - 1;
             let (journal, past) = open(&path);
             let kept: BTreeMap<_, _> = entries.clone().into_iter().take(lines.saturating_sub(1)).collect();
-            assert_eq!(past.starts, kept, "cut at {length}");
-            journal.note(&Finished { evaluation: 9, start: 0, seed: 1, outcome: Ok(&[2.5]) }, 0.0).unwrap();
-            assert_eq!(open(&path).1.starts.len(), kept.len() + 1);
+            assert_eq!(past.replicates, kept, "cut at {length}");
+            journal
+                .note(&Finished { evaluation: 9, replicate: 0, seed: 1, outcome: Ok(&[2.5]) }, 0.0)
+                .unwrap();
+            assert_eq!(open(&path).1.replicates.len(), kept.len() + 1);
         }
     }
 
     #[test]
     fn damaged_lines_are_as_if_they_had_never_been() {
         let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("starts.journal");
+        let path = folder.path().join("replicates.journal");
         written(&path);
         let whole = std::fs::read(&path).unwrap();
         let heading = whole.iter().position(|byte| *byte == b'\n').unwrap() + 1;
@@ -299,7 +301,7 @@ mod tests {
             let mut damaged = whole.clone();
             damaged[at] ^= 1;
             std::fs::write(&path, &damaged).unwrap();
-            let kept = open(&path).1.starts.len();
+            let kept = open(&path).1.replicates.len();
             // A damaged end of a line takes the next line along.
             let is_end = whole[at] == b'\n';
             assert!(kept == 3 || is_end && kept >= 2, "{kept} kept with byte {at} damaged");
@@ -319,21 +321,21 @@ mod tests {
             }
         }
         let entry = |outcome| Entry { seed: 7, outcome };
-        let figures = entry(Ok(vec![1.0, 2.0]));
-        assert_true!(figures.is_of(7, 2), "an outcome of this candidate and start");
-        assert_false!(figures.is_of(7, 3), "an outcome of this candidate and start");
-        assert_false!(figures.is_of(7, 1), "an outcome of this candidate and start");
-        assert_false!(figures.is_of(8, 2), "an outcome of this candidate and start");
+        let quantities = entry(Ok(vec![1.0, 2.0]));
+        assert_true!(quantities.is_of(7, 2), "an outcome of this candidate and replicate");
+        assert_false!(quantities.is_of(7, 3), "an outcome of this candidate and replicate");
+        assert_false!(quantities.is_of(7, 1), "an outcome of this candidate and replicate");
+        assert_false!(quantities.is_of(8, 2), "an outcome of this candidate and replicate");
         assert_true!(
             entry(Err("it failed".to_owned())).is_of(7, 3),
-            "an outcome of this candidate and start"
+            "an outcome of this candidate and replicate"
         );
     }
 
     #[test]
     fn a_journal_of_another_campaign_is_refused() {
         let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("starts.journal");
+        let path = folder.path().join("replicates.journal");
         written(&path);
         let reason = Journal::open(&path, "version = 2").unwrap().unwrap_err();
         assert!(reason.contains("its journal is of \"agglo "), "{reason}");

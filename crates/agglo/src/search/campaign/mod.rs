@@ -1,8 +1,8 @@
-//! A whole search or study: proposals, random starts, confirmation of the best, tables and summary in one folder.
+//! A whole search or study: proposals, random replicates, confirmation of the best, tables and summary in one folder.
 //!
 //! A campaign is the same to the last bit for any number of threads, and resumed or not. Its optimizer is a function of
-//! its seed and of what it was told; decisions look at the starts in their order; and going on with a campaign means
-//! beginning it anew with the starts that are known from its journal.
+//! its seed and of what it was told; decisions look at the replicates in their order; and going on with a campaign means
+//! beginning it anew with the replicates that are known from its journal.
 
 mod archive;
 mod clock;
@@ -41,7 +41,7 @@ use crate::record::door;
 pub enum CampaignEnding {
     /// It reached its end.
     Finished(Box<CampaignSummary>),
-    /// The observer asked to stop; all starts that ended are kept.
+    /// The observer asked to stop; all replicates that ended are kept.
     Interrupted,
 }
 

@@ -6,7 +6,7 @@ use super::archive::{Evaluation, Status};
 use super::course::Results;
 use crate::record::{RecordError, atomic};
 use crate::search::analysis::{
-    self, EvaluationRow, Evaluations, Objective, Starts, measures_table, parameter_axis, parameter_value,
+    self, EvaluationRow, Evaluations, Objective, Replicates, measures_table, parameter_axis, parameter_value,
     search_pictures, study_pictures, study_tables,
 };
 use crate::search::{Axis, Campaign, Model, Problem};
@@ -33,7 +33,7 @@ pub fn findings(campaign: &Campaign, problem: &Problem, known: &[Evaluation]) ->
     campaign.plan.as_ref().map_or_else(Vec::new, said)
 }
 
-/// Takes away what an earlier sitting may have left half done.
+/// Takes away what an earlier session may have left half done.
 pub fn clear(folder: &Path) -> Result<(), RecordError> {
     match std::fs::remove_dir_all(folder) {
         Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
@@ -53,7 +53,11 @@ fn evaluations(campaign: &Campaign, problem: &Problem, known: &[Evaluation]) -> 
         parameters: problem.axes().iter().map(parameter_axis).collect(),
         objectives: problem.objectives().map(objective).collect(),
         measures: problem.columns().iter().map(|name| plain(name)).collect(),
-        starts: if campaign.ensemble.common_random_numbers { Starts::Shared } else { Starts::Own },
+        replicates: if campaign.ensemble.common_random_numbers {
+            Replicates::Shared
+        } else {
+            Replicates::Own
+        },
         rows: searched.map(|evaluation| row(problem.axes(), evaluation)).collect(),
     }
 }
@@ -65,7 +69,7 @@ fn row(axes: &[Axis], evaluation: &Evaluation) -> EvaluationRow {
         values: axes.iter().zip(&evaluation.candidate.values).map(number).collect(),
         costs: evaluation.fitness.costs.clone(),
         standard_errors: evaluation.standard_errors(),
-        start_costs: evaluation.costs.clone(),
+        replicate_costs: evaluation.costs.clone(),
         status: match evaluation.status {
             Status::Ok => analysis::Status::Feasible,
             Status::Infeasible => analysis::Status::Infeasible,
@@ -73,6 +77,6 @@ fn row(axes: &[Axis], evaluation: &Evaluation) -> EvaluationRow {
             Status::Failed => analysis::Status::Failed,
         },
         generation: evaluation.generation as u32,
-        starts: evaluation.figures.clone(),
+        replicates: evaluation.quantities.clone(),
     }
 }

@@ -19,10 +19,10 @@ pub struct CampaignProgress {
     pub evaluations_at_most: Option<u64>,
     /// Batches that were evaluated so far.
     pub generations: u64,
-    /// Simulations that ended in this sitting.
-    pub starts: u64,
-    /// Simulations in a second of this sitting.
-    pub starts_per_second: f64,
+    /// Simulations that ended in this session.
+    pub replicates: u64,
+    /// Simulations in a second of this session.
+    pub replicates_per_second: f64,
     /// Candidates that failed so far.
     pub failures: u64,
     /// Wall time that is left [s], if that can be said.

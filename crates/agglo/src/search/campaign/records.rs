@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::archive::{Archive, Evaluation, Stage, Status};
 use super::columns::{BEST, BestRow, EVALUATIONS, FAILURES, Failure, GENERATIONS, GenerationRow, RUNS};
-use super::columns::{Standing, StartRow};
+use super::columns::{ReplicateRow, Standing};
 use super::tables::Table;
 use crate::record::RecordError;
 use crate::record::columns::{Cell, Declared};
@@ -21,17 +21,17 @@ pub struct Records {
     failures: Table,
 }
 
-/// A start that counts.
+/// A replicate that counts.
 #[derive(Clone, Copy, Debug)]
-pub struct Start<'a> {
+pub struct Replicate<'a> {
     /// Its number.
     pub number: u32,
     /// Its seed.
     pub seed: u64,
     /// Its costs.
     pub costs: &'a [f64],
-    /// Its figures.
-    pub figures: &'a [f64],
+    /// Its quantities.
+    pub quantities: &'a [f64],
 }
 
 /// One of the best candidates.
@@ -84,27 +84,27 @@ impl Records {
     /// # Errors
     /// [`RecordError::File`].
     pub fn evaluation(&mut self, evaluation: &Evaluation, columns: usize) -> Result<(), RecordError> {
-        let (figures, errors) = (evaluation.mean_figures(), evaluation.standard_errors());
-        let known = |figures: &[f64], k: usize| number(figures.get(k).copied());
+        let (quantities, errors) = (evaluation.mean_quantities(), evaluation.standard_errors());
+        let known = |quantities: &[f64], k: usize| number(quantities.get(k).copied());
         let mut more = Vec::new();
         for of_it in [&evaluation.fitness.costs, &errors] {
             more.extend((0..self.objectives).map(|k| known(of_it, k)));
         }
         let values = parameters(&self.parameters, &evaluation.candidate.values);
         more.extend(values.iter().map(Value::cell));
-        more.extend((0..columns).map(|k| known(&figures, k)));
+        more.extend((0..columns).map(|k| known(&quantities, k)));
         self.evaluations.put(EVALUATIONS.columns, evaluation, more)
     }
 
-    /// Writes a start that counts.
+    /// Writes a replicate that counts.
     ///
     /// # Errors
     /// [`RecordError::File`].
-    pub fn start(&mut self, evaluation: u64, start: &Start<'_>) -> Result<(), RecordError> {
-        let costs = start.costs.iter().take(self.objectives).map(|cost| Cell::Number(*cost));
-        let figures = start.figures.iter().map(|figure| number(Some(*figure)));
-        let row = StartRow { evaluation, start: start.number, seed: start.seed };
-        self.runs.put(RUNS.columns, &row, costs.chain(figures))
+    pub fn replicate(&mut self, evaluation: u64, replicate: &Replicate<'_>) -> Result<(), RecordError> {
+        let costs = replicate.costs.iter().take(self.objectives).map(|cost| Cell::Number(*cost));
+        let quantities = replicate.quantities.iter().map(|quantity| number(Some(*quantity)));
+        let row = ReplicateRow { evaluation, replicate: replicate.number, seed: replicate.seed };
+        self.runs.put(RUNS.columns, &row, costs.chain(quantities))
     }
 
     /// Writes a failure.
@@ -114,11 +114,12 @@ impl Records {
     pub fn failure(
         &mut self,
         evaluation: u64,
-        start: u32,
+        replicate: u32,
         seed: u64,
         reason: &str,
     ) -> Result<(), RecordError> {
-        let failure = Failure { run: StartRow { evaluation, start, seed }, reason: reason.to_owned() };
+        let failure =
+            Failure { run: ReplicateRow { evaluation, replicate, seed }, reason: reason.to_owned() };
         self.failures.put(FAILURES.columns, &failure, [])
     }
 
@@ -178,7 +179,7 @@ impl Records {
     }
 }
 
-/// The standard error of its first cost; nothing from a single start, of which none is known.
+/// The standard error of its first cost; nothing from a single replicate, of which none is known.
 pub(super) fn error_of(evaluation: &Evaluation) -> Option<f64> {
     evaluation.standard_errors().first().copied().filter(|error| error.is_finite())
 }

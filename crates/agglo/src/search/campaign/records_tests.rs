@@ -1,4 +1,4 @@
-//! The tables of a campaign: evaluations of distinct figures, read back by the names of the columns.
+//! The tables of a campaign: evaluations of distinct quantities, read back by the names of the columns.
 
 use super::*;
 use crate::search::{Candidate, Choice, Fitness, Scale};
@@ -15,7 +15,7 @@ fn axes() -> Vec<Axis> {
     ]
 }
 
-/// An evaluation whose figures all follow from its number and differ from those of others.
+/// An evaluation whose quantities all follow from its number and differ from those of others.
 fn evaluation(number: u64, (stage, status): (Stage, Status), costs: &[f64]) -> Evaluation {
     let k = number as f64;
     Evaluation {
@@ -24,14 +24,14 @@ fn evaluation(number: u64, (stage, status): (Stage, Status), costs: &[f64]) -> E
         generation: 40 + number,
         candidate: Candidate { point: vec![0.5, 0.9], values: vec![20.0 + k, 1.0], violation: 0.0 },
         status,
-        starts: 3 + number as u32,
+        replicates: 3 + number as u32,
         repeats: None,
         fitness: Fitness {
             costs: costs.to_vec(),
             standard_errors: costs.iter().map(|cost| cost / 64.0).collect(),
             violation: if status == Status::Infeasible { 0.125 + k } else { 0.0 },
         },
-        figures: vec![vec![300.0 + k, 400.0 + k], vec![301.0 + k, 402.0 + k]],
+        quantities: vec![vec![300.0 + k, 400.0 + k], vec![301.0 + k, 402.0 + k]],
         costs: vec![costs.to_vec(); 2],
     }
 }
@@ -75,8 +75,8 @@ fn evaluations_stand_under_their_columns() {
     records.evaluation(&one, 2).unwrap();
     let failed = Evaluation {
         fitness: Fitness::failed(),
-        figures: Vec::new(),
-        starts: 0,
+        quantities: Vec::new(),
+        replicates: 0,
         ..evaluation(6, (Stage::Search, Status::Failed), &[])
     };
     records.evaluation(&failed, 2).unwrap();
@@ -87,7 +87,7 @@ fn evaluations_stand_under_their_columns() {
         ("generation", "45"),
         ("stage", "polish"),
         ("status", "infeasible"),
-        ("starts", "8"),
+        ("replicates", "8"),
         ("repeats", "2"),
         ("violation", "5.125"),
         ("cost_1", "16"),
@@ -101,7 +101,7 @@ fn evaluations_stand_under_their_columns() {
     ];
     assert_row("evaluations.csv", &rows[0], &wanted);
     let wanted = [("evaluation", "6"), ("generation", "46"), ("stage", "search"), ("status", "failed")];
-    let of_failed = [("starts", "0"), ("v_m_s", "26"), ("law", "hooke")];
+    let of_failed = [("replicates", "0"), ("v_m_s", "26"), ("law", "hooke")];
     for (name, cell) in &rows[1] {
         let due =
             wanted.iter().chain(&of_failed).find(|(known, _)| known == name).map_or("", |(_, cell)| cell);
@@ -113,22 +113,24 @@ fn evaluations_stand_under_their_columns() {
 }
 
 #[test]
-fn starts_and_failures_stand_under_their_columns() {
+fn replicates_and_failures_stand_under_their_columns() {
     let folder = tempfile::tempdir().unwrap();
     let mut records = records(folder.path(), 1);
-    records.start(5, &Start { number: 2, seed: 77, costs: &[1.25], figures: &[8.5, 9.5] }).unwrap();
+    records
+        .replicate(5, &Replicate { number: 2, seed: 77, costs: &[1.25], quantities: &[8.5, 9.5] })
+        .unwrap();
     records.failure(6, 3, 78, "too low").unwrap();
     records.flush().unwrap();
     let wanted = [
         ("evaluation", "5"),
-        ("start", "2"),
+        ("replicate", "2"),
         ("seed", "77"),
         ("cost", "1.25"),
         ("n_f", "8.5"),
         ("wall_s", "9.5"),
     ];
     assert_row("runs.csv", &rows(folder.path(), "runs.csv")[0], &wanted);
-    let wanted = [("evaluation", "6"), ("start", "3"), ("seed", "78"), ("reason", "too low")];
+    let wanted = [("evaluation", "6"), ("replicate", "3"), ("seed", "78"), ("reason", "too low")];
     assert_row("failures.csv", &rows(folder.path(), "failures.csv")[0], &wanted);
 }
 
@@ -172,7 +174,7 @@ fn generations_stand_under_their_columns() {
         "best_violation",
         "infeasible",
     ];
-    // Of 3 starts and one more for each number.
+    // Of 3 replicates and one more for each number.
     let wanted = [
         ["7", "search", "1", "3", "0", "0", "", "", "0", "2", "0.03125", "0.125", "1"],
         ["8", "search", "5", "25", "0", "1", "3", "5.5", "2", "3", "0.046875", "0", "2"],
@@ -202,16 +204,16 @@ fn the_best_stand_under_their_columns() {
         ("evaluation", "7"),
         ("cost", "16"),
         ("cost_standard_error", "0.25"),
-        ("starts", "10"),
+        ("replicates", "10"),
         ("violation", "7.125"),
         ("search_evaluation", "4"),
         ("search_cost", "32"),
         ("search_cost_standard_error", "0.5"),
-        ("search_starts", "7"),
+        ("search_replicates", "7"),
         ("final_evaluation", "9"),
         ("final_cost", "48"),
         ("final_cost_standard_error", "0.75"),
-        ("final_starts", "12"),
+        ("final_replicates", "12"),
         ("final_violation", "9.125"),
         ("v_m_s", "27"),
         ("law", "hooke"),
@@ -223,7 +225,7 @@ fn the_best_stand_under_their_columns() {
             "evaluation" => "4",
             "cost" => "32",
             "cost_standard_error" => "0.5",
-            "starts" => "7",
+            "replicates" => "7",
             "violation" => "0",
             "v_m_s" => "24",
             "law" => "hooke",

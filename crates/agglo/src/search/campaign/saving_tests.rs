@@ -21,11 +21,12 @@ fn candidates_that_come_again_use_what_is_known() {
     for (number, row) in evaluations.iter().enumerate() {
         let own = runs.iter().filter(|run| run["evaluation"] == number.to_string()).count();
         let Ok(earlier) = row["repeats"].parse::<usize>() else {
-            assert_eq!(own, tests::number(row, "starts") as usize);
+            assert_eq!(own, tests::number(row, "replicates") as usize);
             continue;
         };
         repeats += 1;
-        let same = ["status", "starts", "cost", "cost_standard_error", "x_m_s", "y_m_s", "value", "noise"];
+        let same =
+            ["status", "replicates", "cost", "cost_standard_error", "x_m_s", "y_m_s", "value", "noise"];
         assert!(same.iter().all(|column| row[*column] == evaluations[earlier][*column]), "{row:?}");
         assert_below!(earlier, number);
         assert_eq!(own, 0);
@@ -38,7 +39,7 @@ fn candidates_that_come_again_use_what_is_known() {
     let failures = fs::read_to_string(dir.join("failures.csv")).unwrap();
     let failures = failures.lines().filter(|line| line.starts_with(|first: char| first.is_ascii_digit()));
     assert_eq!(failures.count() as u64, summary.failures);
-    // One thread runs nothing in vain; starts that fail have no row.
+    // One thread runs nothing in vain; replicates that fail have no row.
     let failed = evaluations.iter().filter(|row| row["status"] == "failed" && row["repeats"].is_empty());
     assert_eq!(model.runs.into_inner(), summary.runs + failed.count() as u64);
 }
@@ -56,7 +57,7 @@ fn a_budget_of_time_ends_the_search_and_is_kept_when_resumed() {
     let interrupted = Setup { budget_s: Some(1.0), is_interrupted: true, ..Setup::default() };
     let ended = conducted_with(&slow(), &dir, (2, &method), &interrupted, go_on).unwrap();
     assert_matches!(ended, CampaignEnding::Interrupted);
-    let journal = fs::read_to_string(dir.join("starts.journal")).unwrap();
+    let journal = fs::read_to_string(dir.join("replicates.journal")).unwrap();
     let decided: Vec<&str> = journal.lines().filter(|line| line.starts_with("budget,")).collect();
     assert!(decided.last().unwrap().contains(",ends,"), "{decided:?}");
     let at: u64 = decided.last().unwrap().split(',').nth(1).unwrap().parse().unwrap();
@@ -65,7 +66,7 @@ fn a_budget_of_time_ends_the_search_and_is_kept_when_resumed() {
     // The same journal on another number of threads, with all the time in the world gone by: the same files.
     let again = folder.path().join("again");
     fs::create_dir(&again).unwrap();
-    for file in ["search.toml", "scenario.toml", "starts.journal"] {
+    for file in ["search.toml", "scenario.toml", "replicates.journal"] {
         fs::copy(dir.join(file), again.join(file)).unwrap();
     }
     let mut summaries = Vec::new();

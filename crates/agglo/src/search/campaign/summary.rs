@@ -29,7 +29,7 @@ pub struct CampaignSummary {
     pub front: Vec<FrontPoint>,
     /// Batches that were evaluated one after the other.
     pub generations: u64,
-    /// Candidates that were evaluated, those included that failed, were excluded, or got fresh starts at the end.
+    /// Candidates that were evaluated, those included that failed, were excluded, or got fresh replicates at the end.
     pub evaluations: u64,
     /// What each stage came to, beside what it was allowed.
     #[serde(default)]
@@ -54,7 +54,7 @@ pub struct CampaignSummary {
     /// What a study says, in sentences; empty for a search.
     #[serde(default)]
     pub findings: Vec<String>,
-    /// Wall time [s], all sittings together.
+    /// Wall time [s], all sessions together.
     pub wall_s: f64,
 }
 
@@ -80,9 +80,9 @@ pub struct LimitKept {
     pub at_least: Option<f64>,
     /// Its largest value.
     pub at_most: Option<f64>,
-    /// Its mean over the starts.
+    /// Its mean over the replicates.
     pub mean: Option<f64>,
-    /// Standard error of that; null from one start.
+    /// Standard error of that; null from one replicate.
     pub standard_error: Option<f64>,
     /// Whether the mean is within the bounds.
     pub is_kept: bool,
@@ -91,8 +91,8 @@ pub struct LimitKept {
 impl LimitKept {
     /// "dispersion_degree = 0.75 +- 0.01, where at least 0.8 is wanted: missed".
     pub fn in_words(&self) -> String {
-        let error = self.standard_error.map(|error| format!(" +- {}", figure(error))).unwrap_or_default();
-        let mean = self.mean.map_or("unknown".to_owned(), |mean| figure(mean) + &error);
+        let error = self.standard_error.map(|error| format!(" +- {}", quantity(error))).unwrap_or_default();
+        let mean = self.mean.map_or("unknown".to_owned(), |mean| quantity(mean) + &error);
         let least = self.at_least.map(|least| format!("at least {least}"));
         let most = self.at_most.map(|most| format!("at most {most}"));
         let wanted: Vec<String> = least.into_iter().chain(most).collect();
@@ -113,45 +113,45 @@ pub struct Goal {
 /// The best candidate.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Best {
-    /// Number of the evaluation that these figures are from.
+    /// Number of the evaluation that these quantities are from.
     pub evaluation: u64,
-    /// Its mean cost over `starts`; if it was confirmed, over starts that had no part in choosing it.
+    /// Its mean cost over `replicates`; if it was confirmed, over replicates that had no part in choosing it.
     pub cost: f64,
-    /// Standard error of that; null from one start.
+    /// Standard error of that; null from one replicate.
     pub cost_standard_error: Option<f64>,
     /// All costs, if there are several.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub costs: Vec<f64>,
-    /// Random starts.
-    pub starts: u32,
-    /// Whether the starts are fresh.
+    /// Random replicates.
+    pub replicates: u32,
+    /// Whether the replicates are fresh.
     pub is_confirmed: bool,
     /// Its mean cost by which it was chosen among those that were run again, which is too good where costs scatter; null if
     /// there was nothing to choose.
     #[serde(default)]
     pub confirm_cost: Option<f64>,
-    /// Standard error of that; null from one start.
+    /// Standard error of that; null from one replicate.
     #[serde(default)]
     pub confirm_cost_standard_error: Option<f64>,
     /// Its mean cost in the search, which is too good where costs scatter; null if the search did not evaluate it.
     pub search_cost: Option<f64>,
-    /// Standard error of that; null from one start.
+    /// Standard error of that; null from one replicate.
     pub search_cost_standard_error: Option<f64>,
     /// By how much it misses the limits: the sum of the parts; 0 if it keeps them.
     pub violation: f64,
     /// The limits of its outcome.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub limits: Vec<LimitKept>,
-    /// Seed of its first start, which the run in `best/` has.
-    pub start_seed: u64,
+    /// Seed of its first replicate, which the run in `best/` has.
+    pub replicate_seed: u64,
     /// Values by the names of parameters, in SI units; choices as their words.
     pub parameters: Named,
     /// The same for people: "v = 120.5 m/s".
     pub readable: Vec<String>,
     /// Settings that make its scenario of `scenario.toml`: `agglo run scenario.toml --set ...`.
     pub settings: Vec<String>,
-    /// Mean figures by their columns.
-    pub figures: Named,
+    /// Mean quantities by their columns.
+    pub quantities: Named,
 }
 
 /// A candidate of the front.
@@ -173,11 +173,11 @@ pub struct FrontPoint {
 /// How much of the differences between candidates may be chance; null where it cannot be said.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Noise {
-    /// Standard deviation of the cost of one start, pooled over all candidates.
-    pub start_deviation: Option<f64>,
-    /// Mean number of starts of a candidate.
-    pub starts_mean: Option<f64>,
-    /// Difference of two candidates' mean costs that chance exceeds once in twenty times, if each has so many starts of
+    /// Standard deviation of the cost of one replicate, pooled over all candidates.
+    pub replicate_deviation: Option<f64>,
+    /// Mean number of replicates of a candidate.
+    pub replicates_mean: Option<f64>,
+    /// Difference of two candidates' mean costs that chance exceeds once in twenty times, if each has so many replicates of
     /// its own. Common random numbers make smaller differences significant.
     pub significant_difference: Option<f64>,
 }
@@ -208,8 +208,8 @@ impl CampaignSummary {
             rows.push(("front".to_owned(), format!("{count} candidates that no other beats{missed}")));
         }
         rows.push(("evaluations".to_owned(), self.evaluations_row()));
-        let starts = self.noise.starts_mean.map(|mean| format!(", {} a candidate", figure(mean)));
-        rows.push(("runs".to_owned(), format!("{}{}", self.runs, starts.unwrap_or_default())));
+        let replicates = self.noise.replicates_mean.map(|mean| format!(", {} a candidate", quantity(mean)));
+        rows.push(("runs".to_owned(), format!("{}{}", self.runs, replicates.unwrap_or_default())));
         rows.extend(self.noise_row().map(|row| ("noise".to_owned(), row)));
         rows.extend(self.findings.iter().map(|finding| ("finding".to_owned(), finding.clone())));
         rows.push(("wall time".to_owned(), readable(self.wall_s, "s")));
@@ -247,14 +247,14 @@ impl CampaignSummary {
         let goal = self.objectives.first();
         let sign = if goal.is_some_and(|goal| goal.is_to_be_large) { -1.0 } else { 1.0 };
         let value = |cost: f64, error: Option<f64>| {
-            error.map_or_else(|| figure(sign * cost), |error| with_error(sign * cost, error))
+            error.map_or_else(|| quantity(sign * cost), |error| with_error(sign * cost, error))
         };
         let name = goal.map_or("cost", |goal| goal.formula.as_str());
-        let starts = match (best.starts, best.is_confirmed) {
-            (1, true) => "1 fresh start".to_owned(),
-            (1, false) => "1 start".to_owned(),
-            (count, true) => format!("{count} fresh starts"),
-            (count, false) => format!("{count} starts"),
+        let replicates = match (best.replicates, best.is_confirmed) {
+            (1, true) => "1 fresh replicate".to_owned(),
+            (1, false) => "1 replicate".to_owned(),
+            (count, true) => format!("{count} fresh replicates"),
+            (count, false) => format!("{count} replicates"),
         };
         let chosen = best.confirm_cost.map(|cost| value(cost, best.confirm_cost_standard_error));
         let chosen = chosen.map(|value| format!("; chosen by {value}")).unwrap_or_default();
@@ -263,7 +263,7 @@ impl CampaignSummary {
         let searched = searched.map(|value| format!("; in the search {value}")).unwrap_or_default();
         let missed = if best.violation > 0.0 { "; IT MISSES THE LIMITS" } else { "" };
         let value = value(best.cost, best.cost_standard_error);
-        format!("{name} = {value} from {starts}{chosen}{searched}{missed}")
+        format!("{name} = {value} from {replicates}{chosen}{searched}{missed}")
     }
 
     fn evaluations_row(&self) -> String {
@@ -296,17 +296,17 @@ impl CampaignSummary {
     }
 
     fn noise_row(&self) -> Option<String> {
-        let deviation = self.noise.start_deviation?;
+        let deviation = self.noise.replicate_deviation?;
         let difference = self.noise.significant_difference?;
-        let (deviation, difference) = (figure(deviation), figure(difference));
+        let (deviation, difference) = (quantity(deviation), quantity(difference));
         Some(format!(
-            "one start scatters by {deviation}; two candidates differ by more than chance (95 %) from {difference} on"
+            "one replicate scatters by {deviation}; two candidates differ by more than chance (95 %) from {difference} on"
         ))
     }
 }
 
 /// Four significant digits.
-fn figure(value: f64) -> String {
+fn quantity(value: f64) -> String {
     readable(value, "")
 }
 

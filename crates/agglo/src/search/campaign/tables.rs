@@ -1,4 +1,4 @@
-//! The tables of a campaign as files. They are written in the order of evaluations and starts, whoever ended first.
+//! The tables of a campaign as files. They are written in the order of evaluations and replicates, whoever ended first.
 
 use std::fs::File;
 use std::io::BufWriter;

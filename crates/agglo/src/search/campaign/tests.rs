@@ -90,7 +90,7 @@ pub(super) fn conducted_with(
         budget_s: setup.budget_s,
         limits: &|_| Vec::new(),
         polish: setup.polishes.then_some(polish),
-        confirm: Confirm { candidates: 3, starts: 5 },
+        confirm: Confirm { candidates: 3, replicates: 5 },
         settings: &|candidate| candidate.values.iter().map(|value| format!("x={value}")).collect(),
         findings: &|known| vec![format!("{} candidates were tried", known.len())],
         closing: &mut |results, _| {
@@ -179,33 +179,33 @@ fn a_campaign_that_was_stopped_and_cut_ends_with_the_same_files() {
     let reference = noisy();
     whole(&reference, &straight, 2, &genetic());
     let model = noisy();
-    let mut sittings = 0;
+    let mut sessions = 0;
     let mut turns = agglo_testing::Turns::at_most(1_000, "the campaign to end");
     loop {
         turns.take();
-        sittings += 1;
+        sessions += 1;
         let mut stop = |progress: &CampaignProgress| {
-            if progress.starts > 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            if progress.replicates > 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         match conducted(&model, &dir, (2, &genetic()), &mut stop).unwrap() {
             CampaignEnding::Finished(_) => break,
             CampaignEnding::Interrupted => {
                 assert_none!(finished(&dir));
                 assert_gone!(dir.join("summary.json"));
-                let journal = dir.join("starts.journal");
+                let journal = dir.join("replicates.journal");
                 let bytes = fs::read(&journal).unwrap();
-                // Not for ever: the last start would be lost again and again.
-                let cut = if sittings < 6 { 3 * sittings } else { 0 };
+                // Not for ever: the last replicate would be lost again and again.
+                let cut = if sessions < 6 { 3 * sessions } else { 0 };
                 fs::write(&journal, &bytes[..bytes.len() - cut]).unwrap();
             }
         }
     }
-    assert!(sittings > 2, "it was stopped {sittings} times");
+    assert!(sessions > 2, "it was stopped {sessions} times");
     assert_eq!(results(&dir), results(&straight));
     assert_eq!(finished(&dir).unwrap().best, finished(&straight).unwrap().best);
-    // Two starts in each sitting may have been in progress, one line is cut, and decisions may come a little later.
+    // Two replicates in each session may have been in progress, one line is cut, and decisions may come a little later.
     let (runs, wanted) = (model.runs.into_inner(), reference.runs.into_inner());
-    assert!(runs <= wanted + 8 * sittings as u64, "{runs} starts instead of {wanted}");
+    assert!(runs <= wanted + 8 * sessions as u64, "{runs} replicates instead of {wanted}");
 }
 
 #[test]
@@ -214,7 +214,7 @@ fn tables_and_summary_tell_the_same() {
     let dir = folder.path().join("run");
     let summary = whole(&noisy(), &dir, 2, &genetic());
     let (evaluations, runs) = (rows(&dir, "evaluations.csv"), rows(&dir, "runs.csv"));
-    // 20 strings, four times 14, five points of the polish, three candidates with fresh starts, the best of them once more.
+    // 20 strings, four times 14, five points of the polish, three candidates with fresh replicates, the best of them once more.
     assert_eq!((evaluations.len(), summary.evaluations), (85, 85));
     let spent: Vec<(&str, Option<u64>, u64)> =
         summary.stages.iter().map(|one| (one.stage.as_str(), one.allowed, one.candidates)).collect();
@@ -229,12 +229,12 @@ fn tables_and_summary_tell_the_same() {
             .filter(|row| row["evaluation"] == n.to_string())
             .map(|row| number(row, "cost"))
             .collect();
-        assert_eq!(number(evaluation, "starts") as usize, costs.len());
+        assert_eq!(number(evaluation, "replicates") as usize, costs.len());
         match evaluation["status"].as_str() {
             "ok" => {
                 let mean = costs.iter().sum::<f64>() / costs.len() as f64;
                 assert_eq!(number(evaluation, "cost"), mean);
-                // The cost is the sum of both figures; round-off of the means.
+                // The cost is the sum of both quantities; round-off of the means.
                 let sum = number(evaluation, "value") + number(evaluation, "noise");
                 assert_near!(sum, mean, 1e-12 * (1.0 + mean.abs()));
             }
@@ -264,14 +264,14 @@ fn tables_and_summary_tell_the_same() {
 
 /// Where all candidates are equally good, the lowest of many costs is low by luck: the fresh mean is not.
 #[test]
-fn the_best_is_told_by_starts_that_the_search_did_not_see() {
+fn the_best_is_told_by_replicates_that_the_search_did_not_see() {
     let folder = tempfile::tempdir().unwrap();
     let dir = folder.path().join("run");
     let model = Analytic { sigma: 1000.0, ..Analytic::default() };
     let summary = whole(&model, &dir, 2, &genetic());
     let best = summary.best.unwrap();
     assert_true!(best.is_confirmed, "the best was run again on new seeds");
-    assert_eq!(best.starts, 5);
+    assert_eq!(best.replicates, 5);
     let (evaluations, runs) = (rows(&dir, "evaluations.csv"), rows(&dir, "runs.csv"));
     let stage =
         |row: &BTreeMap<String, String>| evaluations[number(row, "evaluation") as usize]["stage"].clone();
@@ -284,7 +284,7 @@ fn the_best_is_told_by_starts_that_the_search_did_not_see() {
     assert_true!(seen.is_disjoint(&fresh), "{seen:?} and {fresh:?}");
     assert_true!(seen.is_disjoint(&last), "{seen:?} and {last:?}");
     assert_true!(fresh.is_disjoint(&last), "{fresh:?} and {last:?}");
-    assert_has!(last, best.start_seed.to_string().as_str());
+    assert_has!(last, best.replicate_seed.to_string().as_str());
     let table = rows(&dir, "best.csv");
     assert_eq!(table.len(), 3);
     assert_all!(table.windows(2), |pair| number(&pair[0], "cost") <= number(&pair[1], "cost"));
@@ -294,7 +294,7 @@ fn the_best_is_told_by_starts_that_the_search_did_not_see() {
     );
     assert_empty!(table[1]["final_cost"]);
     assert_empty!(table[1]["final_evaluation"]);
-    // The error of the fresh mean from its five starts.
+    // The error of the fresh mean from its five replicates.
     let costs: Vec<f64> = runs
         .iter()
         .filter(|row| row["evaluation"] == best.evaluation.to_string())
@@ -303,15 +303,15 @@ fn the_best_is_told_by_starts_that_the_search_did_not_see() {
     let mean = costs.iter().sum::<f64>() / 5.0;
     let error = (costs.iter().map(|cost| (cost - mean).powi(2)).sum::<f64>() / 20.0).sqrt();
     assert_close!(best.cost_standard_error.unwrap(), error, 1e-12);
-    // About 300 starts of which the pooled deviation is made: 4 % of scatter, five times that.
-    let deviation = summary.noise.start_deviation.unwrap();
+    // About 300 replicates of which the pooled deviation is made: 4 % of scatter, five times that.
+    let deviation = summary.noise.replicate_deviation.unwrap();
     assert!((deviation / 1000.0 - 1.0).abs() < 0.35, "{deviation}");
 }
 
 /// The best so far is the lowest cost of search and polish until then, the first of equals; the best in the end is the one
 /// of the lowest fresh mean, which is not always the search's own best.
 #[test]
-fn the_best_so_far_and_the_best_of_fresh_starts() {
+fn the_best_so_far_and_the_best_of_fresh_replicates() {
     let folder = tempfile::tempdir().unwrap();
     let mut changed = 0;
     for seed in 0..8 {
@@ -355,7 +355,7 @@ fn the_best_so_far_and_the_best_of_fresh_starts() {
     }
     assert!(
         (2..8).contains(&changed),
-        "in {changed} of 8 searches fresh starts chose another than the search"
+        "in {changed} of 8 searches fresh replicates chose another than the search"
     );
 }
 
@@ -393,7 +393,7 @@ fn folders_in_use_and_foreign_journals_are_refused() {
     let error = CampaignFolder::take(folder.path()).unwrap_err();
     assert_matches!(error, FolderError::NoCampaign { .. });
     assert_eq!(error.exit_code(), 2);
-    fs::write(dir.join("starts.journal"), "agglo 0.0.1,00000000\n").unwrap();
+    fs::write(dir.join("replicates.journal"), "agglo 0.0.1,00000000\n").unwrap();
     let go_on = &mut |_: &CampaignProgress| ControlFlow::Continue(());
     let error = conducted(&Analytic::default(), &dir, (1, &genetic()), go_on).unwrap_err();
     assert!(error.to_string().contains("its journal is of \"agglo 0.0.1,00000000\""), "{error}");
@@ -414,20 +414,20 @@ fn the_observer_is_told_how_far_it_is() {
     assert_above!(last.evaluations, 0);
     assert_eq!(last.evaluations_at_most, Some(85));
     assert_some!(last.best);
-    assert_at_least!(last.starts, last.evaluations);
-    assert_above!(last.starts_per_second, 0.0);
+    assert_at_least!(last.replicates, last.evaluations);
+    assert_above!(last.replicates_per_second, 0.0);
     assert_all!(told.windows(2), |pair| pair[0].evaluations <= pair[1].evaluations);
     assert_any!(told.iter(), |progress| progress.left_s.is_some());
 }
 
 /// Sixty searches among candidates that are all equal but for noise of standard deviation 1000 (the bowl has 52 at most),
-/// each start with its own luck. What the best is reported by is the mean of five starts, so its mean over the searches
+/// each replicate with its own luck. What the best is reported by is the mean of five replicates, so its mean over the searches
 /// is 0 ± 1000/√300 = 58; what it was chosen by is the lowest of three such means, 0.846 · 1000/√5 = 378 too low.
 #[test]
 fn the_best_is_reported_without_the_luck_of_being_chosen() {
     let folder = tempfile::tempdir().unwrap();
     let model = Analytic { sigma: 1000.0, ..Analytic::default() };
-    let until = Until::Fixed(Fixed { starts: 2 });
+    let until = Until::Fixed(Fixed { replicates: 2 });
     let (mut told, mut chosen) = (0.0, 0.0);
     for seed in 0..60 {
         let ensemble = Ensemble { until: until.clone(), common_random_numbers: false };

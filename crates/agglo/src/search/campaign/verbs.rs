@@ -46,7 +46,7 @@ pub fn run(
 /// Refuses simulations that the memory cannot hold, so many at a time as there are threads.
 ///
 /// # Errors
-/// [`CampaignError::TooLarge`] with the figures.
+/// [`CampaignError::TooLarge`] with the numbers.
 pub fn refuse_too_large(problem: &Problem, threads: usize) -> Result<(), CampaignError> {
     let refused = crate::forecast::refuse_quiet(problem.base(), problem.folder(), threads);
     refused.map_err(CampaignError::TooLarge)
@@ -133,9 +133,9 @@ fn go_on(
         planned: planned(&campaign, &problem),
         budget_s: campaign.budget.as_ref().map(|budget| budget.time.si()),
         polish: campaign.polish.as_ref().map(|_| &polish as &Polish<'_>),
-        confirm: if is_search { campaign.confirm } else { Confirm { candidates: 0, starts: 0 } },
+        confirm: if is_search { campaign.confirm } else { Confirm { candidates: 0, replicates: 0 } },
         settings: &|candidate| problem.settings(candidate),
-        limits: &|evaluation| problem.limits_of(&evaluation.candidate, &evaluation.figures),
+        limits: &|evaluation| problem.limits_of(&evaluation.candidate, &evaluation.quantities),
         findings: &|known| pictures::findings(&campaign, &problem, known),
         closing: &mut |results, ask| {
             pictures::clear(&results.folder.pictures())?;
@@ -150,7 +150,7 @@ fn goal(formula: &str, is_to_be_large: bool) -> Goal {
     Goal { formula: formula.to_owned(), is_to_be_large }
 }
 
-/// Runs the best candidate with frames, from the first of its starts that count.
+/// Runs the best candidate with frames, from the first of its replicates that count.
 fn run_best(
     problem: &Problem,
     results: &Results<'_>,
@@ -164,10 +164,10 @@ fn run_best(
         return Ok(ControlFlow::Continue(()));
     }
     if dir.exists() {
-        // What a killed sitting left; the run is no longer than any other of the campaign.
+        // What a killed session left; the run is no longer than any other of the campaign.
         std::fs::remove_dir_all(&dir).map_err(RecordError::file("remove", &dir))?;
     }
-    let scenario = Scenario { seed: best.start_seed, ..problem.scenario(candidate)? };
+    let scenario = Scenario { seed: best.replicate_seed, ..problem.scenario(candidate)? };
     match run::run(&scenario, problem.folder(), &dir, &mut |_| ask()) {
         Ok(Ending::Finished(_)) => Ok(ControlFlow::Continue(())),
         Ok(Ending::Interrupted(_))
@@ -198,8 +198,8 @@ pub fn planned(campaign: &Campaign, problem: &Problem) -> Vec<(Stage, u64)> {
     }
     let searched = campaign.method.as_ref().map_or(0, Method::evaluations) as u64;
     let polished = campaign.polish.as_ref().map_or(0, |polish| polish.evaluations) as u64;
-    let Confirm { candidates, starts } = campaign.confirm;
-    let confirmed = if starts > 0 { u64::from(candidates) } else { 0 };
+    let Confirm { candidates, replicates } = campaign.confirm;
+    let confirmed = if replicates > 0 { u64::from(candidates) } else { 0 };
     // Where there is a choice, the one that was chosen is run once more.
     let last = u64::from(confirmed > 1);
     let all = [

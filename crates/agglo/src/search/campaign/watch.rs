@@ -12,7 +12,7 @@ const TELL_EVERY: Duration = Duration::from_millis(100);
 /// Keeps the time and tells the observer.
 pub struct Watch<'a> {
     observer: &'a mut CampaignObserver<'a>,
-    sat_down: Instant,
+    began: Instant,
     told: Option<Instant>,
     evaluations_at_most: Option<u64>,
     /// Evaluations that were known when it sat down.
@@ -32,20 +32,20 @@ pub struct Now {
     pub generations: u64,
     /// Candidates of the batch at hand that are decided.
     pub decided: u64,
-    /// Simulations that ended in this sitting.
-    pub starts: u64,
+    /// Simulations that ended in this session.
+    pub replicates: u64,
 }
 
 impl<'a> Watch<'a> {
-    /// Sits down with `known` evaluations from earlier sittings; what is told is `sign` times the cost, if there is one.
+    /// Begins with `known` evaluations from earlier sessions; what is told is `sign` times the cost, if there is one.
     pub fn new(
         observer: &'a mut CampaignObserver<'a>,
-        sat_down: Instant,
+        began: Instant,
         evaluations_at_most: Option<u64>,
         known: u64,
         sign: Option<f64>,
     ) -> Self {
-        Self { observer, sat_down, told: None, evaluations_at_most, known, sign, warnings: Vec::new() }
+        Self { observer, began, told: None, evaluations_at_most, known, sign, warnings: Vec::new() }
     }
 
     /// The same with something to be told first.
@@ -60,7 +60,7 @@ impl<'a> Watch<'a> {
             return ControlFlow::Continue(());
         }
         self.told = Some(Instant::now());
-        let wall = self.sat_down.elapsed().as_secs_f64();
+        let wall = self.began.elapsed().as_secs_f64();
         let evaluations = archive.evaluations.len() as u64 + now.decided;
         let new = evaluations.saturating_sub(self.known) as f64;
         let left = self.evaluations_at_most.map(|most| most.saturating_sub(evaluations) as f64);
@@ -75,8 +75,8 @@ impl<'a> Watch<'a> {
             evaluations,
             evaluations_at_most: self.evaluations_at_most,
             generations: now.generations,
-            starts: now.starts,
-            starts_per_second: if wall > 0.0 { now.starts as f64 / wall } else { 0.0 },
+            replicates: now.replicates,
+            replicates_per_second: if wall > 0.0 { now.replicates as f64 / wall } else { 0.0 },
             failures: archive.failures,
             left_s: left.filter(|_| new > 0.0).map(|left| left * wall / new),
             warnings: std::mem::take(&mut self.warnings),

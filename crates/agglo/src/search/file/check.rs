@@ -96,7 +96,10 @@ impl Check<'_> {
         let all: Vec<(String, String)> = set.chain(follow).collect();
         for (at, (place, key)) in all.iter().enumerate() {
             if key == "seed" {
-                self.fail(place, "the seed belongs to the random starts; `ensemble` says how many there are");
+                self.fail(
+                    place,
+                    "the seed belongs to the random replicates; `ensemble` says how many there are",
+                );
             }
             let clash = all[..at].iter().find(|(_, earlier)| {
                 let within = |a: &str, b: &str| a.strip_prefix(b).is_some_and(|rest| rest.starts_with('.'));
@@ -167,16 +170,16 @@ impl Check<'_> {
             }
         }
         let confirm = &self.campaign.confirm;
-        if confirm.candidates > 0 && confirm.starts == 0 {
-            self.fail("confirm.starts", "found 0; 1 or more is wanted, or candidates = 0");
+        if confirm.candidates > 0 && confirm.replicates == 0 {
+            self.fail("confirm.replicates", "found 0; 1 or more is wanted, or candidates = 0");
         }
     }
 
     fn ensemble(&mut self) {
         match &self.campaign.ensemble.until {
             Until::Fixed(fixed) => {
-                if fixed.starts == 0 {
-                    self.fail("ensemble.until.fixed.starts", "found 0; 1 or more is wanted");
+                if fixed.replicates == 0 {
+                    self.fail("ensemble.until.fixed.replicates", "found 0; 1 or more is wanted");
                 }
             }
             Until::RunningMean(rule) => {
@@ -200,7 +203,7 @@ impl Check<'_> {
         }
     }
 
-    /// Rules that compare starts need two of them.
+    /// Rules that compare replicates need two of them.
     fn counts(&mut self, key: &str, least: u32, fewest: u32, most: u32) {
         if least < fewest {
             self.fail(format!("{key}.least"), format!("found {least}; {fewest} or more is wanted"));

@@ -24,7 +24,7 @@ pub struct Campaign {
     /// One line that says what it is.
     #[serde(default)]
     pub title: String,
-    /// Seed of the proposals and of the random starts.
+    /// Seed of the proposals and of the random replicates.
     #[serde(default = "one")]
     pub seed: u64,
     /// The scenario that is varied.
@@ -49,7 +49,7 @@ pub struct Campaign {
     /// Further columns of the summary that the tables show.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub columns: Vec<String>,
-    /// How many random starts a candidate gets.
+    /// How many random replicates a candidate gets.
     #[serde(default)]
     pub ensemble: Ensemble,
     /// How the space is searched; of a search.
@@ -172,23 +172,23 @@ pub struct Limit {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Budget {
-    /// Wall time of all sittings together. No candidates are begun for which, with the confirmation and the run of the best,
-    /// there is no time left by the starts so far.
+    /// Wall time of all sessions together. No candidates are begun for which, with the confirmation and the run of the best,
+    /// there is no time left by the replicates so far.
     pub time: Time,
 }
 
-/// What the best candidates are held to at the end: starts that the search has not seen.
+/// What the best candidates are held to at the end: replicates that the search has not seen.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Confirm {
     /// How many of the best candidates; none with 0.
     pub candidates: u32,
-    /// Fresh starts for each.
-    pub starts: u32,
+    /// Fresh replicates for each.
+    pub replicates: u32,
 }
 
 impl Default for Confirm {
     fn default() -> Self {
-        Self { candidates: 6, starts: 32 }
+        Self { candidates: 6, replicates: 32 }
     }
 }

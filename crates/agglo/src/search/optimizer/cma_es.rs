@@ -25,7 +25,7 @@
 //! N. Hansen, *The CMA evolution strategy: a tutorial*, arXiv:1604.00772 (2016), appendix A; restarts: A. Auger and
 //! N. Hansen, *A restart CMA evolution strategy with increasing population size*, CEC (2005). The rule for noise is ours;
 //! it stands in the place of the re-evaluations of N. Hansen et al., IEEE Trans. Evol. Comput. 13, 180 (2009), since an
-//! ensemble of random starts tells the standard error at no cost.
+//! ensemble of random replicates tells the standard error at no cost.
 //!
 //! # Symbols
 //! | symbol | name in code          | unit | meaning                                       |

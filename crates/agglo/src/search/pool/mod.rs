@@ -1,7 +1,7 @@
-//! Worker threads that run the starts of candidates, each start on one thread.
+//! Worker threads that run the replicates of candidates, each replicate on one thread.
 //!
 //! A worker owns a rayon pool of one thread, itself, so that loops inside a simulation run inline. All workers live as
-//! long as the campaign. A worker that has nothing certain to do runs further starts of undecided candidates ahead of
+//! long as the campaign. A worker that has nothing certain to do runs further replicates of undecided candidates ahead of
 //! the decision; what lies beyond the decision is dropped, so the outcome does not depend on the number of workers.
 
 mod schedule;
@@ -29,27 +29,27 @@ pub struct Task {
     pub evaluation: u64,
     /// What it stands for.
     pub candidate: Candidate,
-    /// What its starts are known to have come to, from an earlier sitting: start and outcome.
+    /// What its replicates are known to have come to, from an earlier session: replicate and outcome.
     pub known: Vec<(u32, Outcome)>,
 }
 
-/// A start that was run.
+/// A replicate that was run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finished<'a> {
     /// Number of the candidate's evaluation.
     pub evaluation: u64,
-    /// Number of the start.
-    pub start: u32,
+    /// Number of the replicate.
+    pub replicate: u32,
     /// Its seed.
     pub seed: u64,
-    /// What it came to: figures, or the reason of its failure.
+    /// What it came to: quantities, or the reason of its failure.
     pub outcome: Result<&'a [f64], &'a str>,
 }
 
-/// Told of every start that was run, by the worker that ran it.
+/// Told of every replicate that was run, by the worker that ran it.
 pub type Notebook<'a> = dyn Fn(&Finished<'_>) -> Result<(), RecordError> + Sync + 'a;
 
-/// Gives the seed of a start from evaluation and start.
+/// Gives the seed of a replicate from evaluation and replicate.
 pub type Seeds = Arc<dyn Fn(u64, u32) -> u64 + Send + Sync>;
 
 /// Why a batch was not evaluated to its end.
@@ -57,11 +57,11 @@ pub type Seeds = Arc<dyn Fn(u64, u32) -> u64 + Send + Sync>;
 pub enum Halt {
     /// It was asked to stop.
     Stopped,
-    /// A start could not be written down.
+    /// A replicate could not be written down.
     Record(RecordError),
 }
 
-/// Runs the starts of batches of candidates on threads that call [`Pool::work`].
+/// Runs the replicates of batches of candidates on threads that call [`Pool::work`].
 pub struct Pool<'a, M: Model> {
     model: &'a M,
     notebook: &'a Notebook<'a>,
@@ -70,14 +70,14 @@ pub struct Pool<'a, M: Model> {
     work: Condvar,
     /// A batch is evaluated, or cannot be.
     done: Condvar,
-    /// Starts run so far.
-    starts: AtomicU64,
+    /// Replicates run so far.
+    replicates: AtomicU64,
 }
 
 /// What workers share.
 struct Desk<P> {
     batch: Option<Batch<P>>,
-    /// Number of the batch, so that a late start of an earlier one is known for what it is.
+    /// Number of the batch, so that a late replicate of an earlier one is known for what it is.
     number: u64,
     halt: Option<Halt>,
     is_closed: bool,
@@ -89,21 +89,21 @@ struct Batch<P> {
     schedule: Schedule,
 }
 
-/// A candidate and what its starts share.
+/// A candidate and what its replicates share.
 struct Slot<P> {
     evaluation: u64,
     candidate: Candidate,
     prepared: OnceLock<Result<P, String>>,
-    /// Set once no further start of it is wanted.
+    /// Set once no further replicate of it is wanted.
     stop: AtomicBool,
 }
 
-/// A start that a worker runs.
+/// A replicate that a worker runs.
 struct Order<P> {
     batch: u64,
     slots: Arc<[Slot<P>]>,
     slot: usize,
-    start: u32,
+    replicate: u32,
     seed: u64,
 }
 
@@ -116,13 +116,13 @@ impl<'a, M: Model> Pool<'a, M> {
             desk: Mutex::new(Desk { batch: None, number: 0, halt: None, is_closed: false }),
             work: Condvar::new(),
             done: Condvar::new(),
-            starts: AtomicU64::new(0),
+            replicates: AtomicU64::new(0),
         }
     }
 
-    /// Starts run so far, those included that were run in vain.
-    pub fn starts(&self) -> u64 {
-        self.starts.load(Ordering::Relaxed)
+    /// Replicates run so far, those included that were run in vain.
+    pub fn replicates(&self) -> u64 {
+        self.replicates.load(Ordering::Relaxed)
     }
 
     /// Candidates of the batch at hand that are decided.
@@ -135,7 +135,7 @@ impl<'a, M: Model> Pool<'a, M> {
         self.desk.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Evaluates candidates: what the starts of each came to, in their order, up to the one that decided.
+    /// Evaluates candidates: what the replicates of each came to, in their order, up to the one that decided.
     ///
     /// `look_up` is called now and then and may stop it.
     ///
@@ -151,8 +151,8 @@ impl<'a, M: Model> Pool<'a, M> {
         let mut schedule = Schedule::new(ensemble, tasks.len());
         let mut slots = Vec::with_capacity(tasks.len());
         for (number, Task { evaluation, candidate, known }) in tasks.into_iter().enumerate() {
-            for (start, outcome) in known {
-                schedule.report(number, start, outcome);
+            for (replicate, outcome) in known {
+                schedule.report(number, replicate, outcome);
             }
             let (prepared, stop) = (OnceLock::new(), AtomicBool::new(false));
             slots.push(Slot { evaluation, candidate, prepared, stop });
@@ -200,7 +200,7 @@ impl<'a, M: Model> Pool<'a, M> {
         desk
     }
 
-    /// Sends the workers home; starts in progress are dropped.
+    /// Sends the workers home; replicates in progress are dropped.
     pub fn close(&self) {
         let mut desk = self.desk();
         desk.is_closed = true;
@@ -236,28 +236,28 @@ impl<'a, M: Model> Pool<'a, M> {
         drop(alone);
     }
 
-    /// Runs a start and has it written down; nothing comes of it if it was asked to stop.
+    /// Runs a replicate and has it written down; nothing comes of it if it was asked to stop.
     fn run(&self, order: &Order<M::Prepared>) -> Result<Option<Outcome>, RecordError> {
         let slot = &order.slots[order.slot];
-        let figures = catch_unwind(AssertUnwindSafe(|| self.figures(slot, order.seed)));
-        let figures = match figures {
+        let quantities = catch_unwind(AssertUnwindSafe(|| self.quantities(slot, order.seed)));
+        let quantities = match quantities {
             Ok(Err(Trouble::Stopped)) => return Ok(None),
             Ok(Err(Trouble::Failed(reason))) => Err(reason),
-            Ok(Ok(figures)) => Ok(figures),
+            Ok(Ok(quantities)) => Ok(quantities),
             Err(panic) => Err(format!("the program made an error: {}", words_of(panic.as_ref()))),
         };
-        self.starts.fetch_add(1, Ordering::Relaxed);
-        let outcome = outcome(self.model, &slot.candidate, figures);
+        self.replicates.fetch_add(1, Ordering::Relaxed);
+        let outcome = outcome(self.model, &slot.candidate, quantities);
         let told = match &outcome {
-            Outcome::Figures { figures, .. } => Ok(figures.as_slice()),
+            Outcome::Quantities { quantities, .. } => Ok(quantities.as_slice()),
             Outcome::Failed(reason) => Err(reason.as_str()),
         };
-        let Order { start, seed, .. } = *order;
-        (self.notebook)(&Finished { evaluation: slot.evaluation, start, seed, outcome: told })?;
+        let Order { replicate, seed, .. } = *order;
+        (self.notebook)(&Finished { evaluation: slot.evaluation, replicate, seed, outcome: told })?;
         Ok(Some(outcome))
     }
 
-    fn figures(&self, slot: &Slot<M::Prepared>, seed: u64) -> Result<Vec<f64>, Trouble> {
+    fn quantities(&self, slot: &Slot<M::Prepared>, seed: u64) -> Result<Vec<f64>, Trouble> {
         match slot.prepared.get_or_init(|| self.model.prepare(&slot.candidate)) {
             Ok(prepared) => self.model.run(prepared, seed, &slot.stop),
             Err(reason) => Err(Trouble::Failed(reason.clone())),
@@ -265,15 +265,15 @@ impl<'a, M: Model> Pool<'a, M> {
     }
 }
 
-/// What figures, or the reason why there are none, amount to: costs that are not finite numbers are a failure.
-pub fn outcome<M: Model>(model: &M, candidate: &Candidate, figures: Result<Vec<f64>, String>) -> Outcome {
-    let figures = match figures {
-        Ok(figures) => figures,
+/// What quantities, or the reason why there are none, amount to: costs that are not finite numbers are a failure.
+pub fn outcome<M: Model>(model: &M, candidate: &Candidate, quantities: Result<Vec<f64>, String>) -> Outcome {
+    let quantities = match quantities {
+        Ok(quantities) => quantities,
         Err(reason) => return Outcome::Failed(reason),
     };
-    let costs = model.costs(candidate, &figures);
+    let costs = model.costs(candidate, &quantities);
     match costs.iter().find(|cost| !cost.is_finite()) {
-        None => Outcome::Figures { figures, costs },
+        None => Outcome::Quantities { quantities, costs },
         Some(cost) => Outcome::Failed(format!("its cost is {cost}")),
     }
 }
@@ -284,14 +284,14 @@ impl<P> Desk<P> {
             return None;
         }
         let batch = self.batch.as_mut()?;
-        let (slot, start) = batch.schedule.next()?;
-        let seed = (batch.seeds)(batch.slots[slot].evaluation, start);
-        Some(Order { batch: self.number, slots: Arc::clone(&batch.slots), slot, start, seed })
+        let (slot, replicate) = batch.schedule.next()?;
+        let seed = (batch.seeds)(batch.slots[slot].evaluation, replicate);
+        Some(Order { batch: self.number, slots: Arc::clone(&batch.slots), slot, replicate, seed })
     }
 
     fn take_down(&mut self, order: &Order<P>, outcome: Outcome) {
         let Some(batch) = self.batch.as_mut().filter(|_| order.batch == self.number) else { return };
-        if batch.schedule.report(order.slot, order.start, outcome) {
+        if batch.schedule.report(order.slot, order.replicate, outcome) {
             batch.slots[order.slot].stop.store(true, Ordering::Relaxed);
         }
     }

@@ -20,7 +20,7 @@ fn tasks(model: &Analytic, count: u64) -> Vec<Task> {
 
 fn seeds(ensemble: &Ensemble) -> Seeds {
     let ensemble = ensemble.clone();
-    Arc::new(move |evaluation, start| ensemble.seed(3, evaluation, start))
+    Arc::new(move |evaluation, replicate| ensemble.seed(3, evaluation, replicate))
 }
 
 /// Evaluates in batches on so many workers.
@@ -43,7 +43,11 @@ fn evaluate(model: &Analytic, ensemble: &Ensemble, workers: usize, batches: usiz
         pool.close();
         all
     });
-    assert_eq!(noted.load(Ordering::Relaxed) as u64, pool.starts(), "each start that ended was told of");
+    assert_eq!(
+        noted.load(Ordering::Relaxed) as u64,
+        pool.replicates(),
+        "each replicate that ended was told of"
+    );
     outcomes
 }
 
@@ -81,17 +85,18 @@ fn failures_and_errors_of_the_program_are_told_and_cost_one_candidate_each() {
 fn costs_that_are_not_numbers_are_failures() {
     let model = Analytic { sigma: f64::NAN, ..Analytic::default() };
     let outcomes = evaluate(&model, &Ensemble::fixed(3), 2, 1);
-    assert_all!(outcomes.iter(), |starts| starts[..] == [Outcome::Failed("its cost is NaN".to_owned())]);
+    assert_all!(outcomes.iter(), |replicates| replicates[..]
+        == [Outcome::Failed("its cost is NaN".to_owned())]);
 }
 
 #[test]
 fn candidates_that_cannot_be_prepared_say_why() {
     let outcomes = evaluate(&Analytic { is_broken: true, ..Analytic::default() }, &Ensemble::fixed(3), 2, 1);
     let wanted = [Outcome::Failed("there is no scenario, \"really\"".to_owned())];
-    assert_all!(outcomes.iter(), |starts| starts[..] == wanted);
+    assert_all!(outcomes.iter(), |replicates| replicates[..] == wanted);
 }
 
-/// Two workers and starts of up to 2 ms: without look-ahead one would wait while the other settles a lone candidate.
+/// Two workers and replicates of up to 2 ms: without look-ahead one would wait while the other settles a lone candidate.
 #[test]
 fn idle_workers_run_ahead() {
     let slowest = Duration::from_millis(2);
@@ -108,7 +113,7 @@ fn idle_workers_run_ahead() {
         let ensemble = Ensemble { until, common_random_numbers: true };
         let begun = Instant::now();
         let outcomes = pool.evaluate(one, &ensemble, &seeds(&ensemble), go_on).unwrap();
-        // 400 starts of 1 ms in the mean: 400 ms on one worker, 100 ms on four, which only sleep.
+        // 400 replicates of 1 ms in the mean: 400 ms on one worker, 100 ms on four, which only sleep.
         assert!(begun.elapsed() < Duration::from_millis(300), "{:?}", begun.elapsed());
         assert_eq!(outcomes[0].len(), 400);
         pool.close();
@@ -116,11 +121,11 @@ fn idle_workers_run_ahead() {
 }
 
 #[test]
-fn it_stops_when_asked_and_when_a_start_cannot_be_written_down() {
+fn it_stops_when_asked_and_when_a_replicate_cannot_be_written_down() {
     let slowest = Duration::from_millis(400);
     let model = Analytic { slowest, ..Analytic::default() };
     let refuse = |_: &Finished<'_>| {
-        Err(RecordError::file("write", std::path::Path::new("starts.journal"))(
+        Err(RecordError::file("write", std::path::Path::new("replicates.journal"))(
             std::io::ErrorKind::StorageFull.into(),
         ))
     };

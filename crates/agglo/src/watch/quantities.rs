@@ -8,9 +8,9 @@ use crate::record::{About, RecordError};
 use crate::run::tables;
 use crate::text::readable;
 
-/// A figure of the newest row.
+/// A quantity of the newest row.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Figure {
+pub struct Reading {
     /// Its name in plain words.
     pub name: &'static str,
     /// Its table in `series/` and its column.
@@ -21,7 +21,7 @@ pub struct Figure {
     pub unit: &'static str,
 }
 
-impl Figure {
+impl Reading {
     /// The value as people read it: "3.2 mm/s", "41.0 %".
     pub fn text(&self) -> String {
         match self.unit {
@@ -32,7 +32,7 @@ impl Figure {
     }
 }
 
-/// A figure over time.
+/// A quantity over time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
     /// Its name in plain words.
@@ -46,7 +46,7 @@ pub struct Curve {
 /// The name of a table, and one of its columns that is told of.
 type Shown = (&'static str, Glance, &'static About);
 
-/// The tables that figures come from.
+/// The tables that quantities come from.
 #[derive(Debug)]
 pub(super) struct Tables {
     tails: Vec<(&'static str, Tail)>,
@@ -94,14 +94,14 @@ impl Tables {
         self.shown.iter().filter(move |(table, ..)| *table != "rays" || has_rays)
     }
 
-    /// Figures of the newest rows.
-    pub fn figures(&self) -> Vec<Figure> {
-        let figure = |&(table, _, column): &Shown| {
+    /// Quantities of the newest rows.
+    pub fn quantities(&self) -> Vec<Reading> {
+        let quantity = |&(table, _, column): &Shown| {
             let value = self.newest(table, column.name)?;
             let unit = if column.is_part { "%" } else { column.unit };
-            Some(Figure { name: column.label, column: (table, column.name), value, unit })
+            Some(Reading { name: column.label, column: (table, column.name), value, unit })
         };
-        self.shown().filter_map(figure).collect()
+        self.shown().filter_map(quantity).collect()
     }
 
     /// Curves over time.

@@ -12,7 +12,7 @@ use crate::scenario::Scenario;
 
 /// The frames of a run.
 #[derive(Clone, Debug)]
-pub struct Reel {
+pub struct FrameSequence {
     dir: PathBuf,
     /// Times [s] and files of grains, and of bonds and rays where there are such.
     grains: Vec<(f64, PathBuf)>,
@@ -25,7 +25,7 @@ pub struct Reel {
 /// A grain's place and size: center [m] and radius [m].
 pub(super) type Ball = (Vec3, f64);
 
-impl Reel {
+impl FrameSequence {
     /// Opens the frames in the folder of a run; of a search or study those of its best run.
     ///
     /// # Errors
@@ -56,7 +56,7 @@ impl Reel {
         self.grains.len()
     }
 
-    /// Never: a reel without frames cannot be opened.
+    /// Never: a sequence without frames cannot be opened.
     pub fn is_empty(&self) -> bool {
         self.grains.is_empty()
     }

@@ -6,9 +6,9 @@ use rayon::prelude::*;
 
 use super::camera::{Camera, Side};
 use super::error::RenderError;
+use super::frame_sequence::{Ball, FrameSequence};
 use super::image::{Image, light_of};
 use super::overlay::{Entry, Legend, Overlay};
-use super::reel::{Ball, Reel};
 use super::scene::{Background, Ground, Scene};
 use super::solid::{Light, Line, Sphere};
 use crate::math::Vec3;
@@ -91,8 +91,8 @@ struct Survey {
 
 /// A run before the camera.
 #[derive(Debug)]
-pub struct Studio {
-    reel: Reel,
+pub struct Renderer {
+    sequence: FrameSequence,
     options: Options,
     quantity: Quantity,
     camera: Camera,
@@ -118,23 +118,23 @@ const RAY: u32 = 0x1c_1c1c;
 const RAY_ON_DARK: u32 = 0x56_b4e9;
 const EDGE: u32 = 0x8c_8c8c;
 
-impl Studio {
+impl Renderer {
     /// Looks through the frames with these numbers and sets up the camera and the colors. `look` is told how many
     /// are done and may end it.
     ///
     /// # Errors
     /// [`RenderError`]; nothing where `look` ended it.
     pub fn prepare(
-        reel: Reel,
+        sequence: FrameSequence,
         options: Options,
         frames: &[usize],
         look: &mut dyn FnMut(usize) -> bool,
     ) -> Result<Option<Self>, RenderError> {
         let first = frames.first().copied().unwrap_or(0);
-        let quantity = quantity(&reel, first, &options.color)?;
+        let quantity = quantity(&sequence, first, &options.color)?;
         for (wanted, what) in [(options.bonds, "bonds"), (options.rays, "rays")] {
             if wanted {
-                reel.needs(what)?;
+                sequence.needs(what)?;
             }
         }
         let mut surveys = Vec::new();
@@ -142,23 +142,33 @@ impl Studio {
             if !look(surveys.len()) {
                 return Ok(None);
             }
-            let found = some.par_iter().map(|&number| survey(&reel, number, &quantity, options.side));
+            let found = some.par_iter().map(|&number| survey(&sequence, number, &quantity, options.side));
             surveys.extend(found.collect::<Result<Vec<_>, _>>()?);
         }
         let mut reaches = surveys.iter().filter_map(|survey| survey.reach);
         let reach = if options.view == View::First { reaches.next() } else { reaches.reduce(joined) };
         let Some(reach) = reach else {
-            return Err(RenderError::NoGrains { dir: reel.dir().to_owned() });
+            return Err(RenderError::NoGrains { dir: sequence.dir().to_owned() });
         };
-        let reach = corners(&reel, &options).fold(reach, |reach, corner| {
+        let reach = corners(&sequence, &options).fold(reach, |reach, corner| {
             joined(reach, options.side.axes().map(|axis| [axis.dot(corner); 2]))
         });
         let (range, beyond) = range(&surveys, &quantity, options.range);
         let camera = camera(reach, &options);
-        let last_time = frames.last().and_then(|&last| reel.times().nth(last)).unwrap_or(0.0);
+        let last_time = frames.last().and_then(|&last| sequence.times().nth(last)).unwrap_or(0.0);
         let ground = options.ground.then(|| ground(reach, options.side));
         let has_shown_rays = AtomicBool::new(false);
-        Ok(Some(Self { reel, options, quantity, camera, ground, range, beyond, last_time, has_shown_rays }))
+        Ok(Some(Self {
+            sequence,
+            options,
+            quantity,
+            camera,
+            ground,
+            range,
+            beyond,
+            last_time,
+            has_shown_rays,
+        }))
     }
 
     /// The camera.
@@ -180,8 +190,8 @@ impl Studio {
     }
 
     /// The frames.
-    pub fn reel(&self) -> &Reel {
-        &self.reel
+    pub fn sequence(&self) -> &FrameSequence {
+        &self.sequence
     }
 
     /// The picture of the frame with this number.
@@ -189,10 +199,10 @@ impl Studio {
     /// # Errors
     /// [`RenderError`] where it cannot be read.
     pub fn picture(&self, number: usize) -> Result<Image, RenderError> {
-        let frame = self.reel.read(number)?;
+        let frame = self.sequence.read(number)?;
         let values = self.values(number, &frame)?;
         let colors = self.colors(&values);
-        let balls = self.reel.balls(number, &frame)?;
+        let balls = self.sequence.balls(number, &frame)?;
         let spheres =
             balls.iter().zip(colors).map(|(&(center, radius), color)| Sphere { center, radius, color });
         let scene = Scene {
@@ -209,7 +219,7 @@ impl Studio {
     }
 
     fn values(&self, number: usize, frame: &crate::record::frames::Frame) -> Result<Vec<f64>, RenderError> {
-        let path = || self.reel.path(number).to_owned();
+        let path = || self.sequence.path(number).to_owned();
         self.quantity.of(frame).ok_or_else(|| RenderError::Field { path: path(), field: self.quantity.field })
     }
 
@@ -274,13 +284,13 @@ impl Studio {
             let smallest = balls.iter().fold(f64::INFINITY, |least, ball| least.min(ball.1));
             let (radius, is_dark) = (0.25 * smallest, self.options.background == Background::Dark);
             let color = light_of(if is_dark { BOND_ON_DARK } else { BOND });
-            let bonds = self.reel.bonds(number)?.into_iter();
+            let bonds = self.sequence.bonds(number)?.into_iter();
             lines.extend(bonds.map(|ends| Line { ends, radius, color }));
         }
         if self.options.rays {
             let (length, radius) = (0.02 * f64::from(self.options.size[1]) * pixel, 0.6 * pixel);
             let streak = |[at, to]: [Vec3; 2]| [at - to * length, at];
-            let rays = self.reel.rays(number)?;
+            let rays = self.sequence.rays(number)?;
             self.has_shown_rays.fetch_or(!rays.is_empty(), Ordering::Relaxed);
             let is_dark = self.options.background == Background::Dark;
             let color = light_of(if is_dark { RAY_ON_DARK } else { RAY });
@@ -288,7 +298,7 @@ impl Studio {
         }
         if self.options.volume {
             let (radius, color) = (0.9 * pixel, light_of(EDGE));
-            lines.extend(edges(&self.reel).map(|ends| Line { ends, radius, color }));
+            lines.extend(edges(&self.sequence).map(|ends| Line { ends, radius, color }));
         }
         Ok(lines)
     }
@@ -321,7 +331,7 @@ impl Studio {
     /// Materials are numbered in the order of the alphabet.
     fn materials(&self) -> Vec<Entry> {
         let names =
-            self.reel.scenario().map(|scenario| scenario.materials.keys().cloned().collect::<Vec<_>>());
+            self.sequence.scenario().map(|scenario| scenario.materials.keys().cloned().collect::<Vec<_>>());
         let names = names.unwrap_or_else(|| {
             (self.range[0] as usize..=self.range[1] as usize)
                 .take(NAMED.len())
@@ -339,8 +349,8 @@ fn cluster_number(cluster: usize) -> usize {
 }
 
 /// The quantity with this word, if the frames hold it.
-fn quantity(reel: &Reel, number: usize, word: &str) -> Result<Quantity, RenderError> {
-    let frame = reel.read(number)?;
+fn quantity(sequence: &FrameSequence, number: usize, word: &str) -> Result<Quantity, RenderError> {
+    let frame = sequence.read(number)?;
     let known: Vec<Quantity> = Quantity::all_in(&frame).collect();
     let asked = word.to_lowercase().replace(['-', ' '], "_");
     known.iter().find(|quantity| quantity.word == asked).copied().ok_or_else(|| {
@@ -349,7 +359,7 @@ fn quantity(reel: &Reel, number: usize, word: &str) -> Result<Quantity, RenderEr
         let advice = nearest.map(|(_, word)| format!("; did you mean \"{word}\"?")).unwrap_or_default();
         let words: Vec<&str> = known.iter().map(|quantity| quantity.word).collect();
         RenderError::Color {
-            dir: reel.dir().to_owned(),
+            dir: sequence.dir().to_owned(),
             found: word.to_owned(),
             advice,
             known: words.join(", "),
@@ -357,10 +367,15 @@ fn quantity(reel: &Reel, number: usize, word: &str) -> Result<Quantity, RenderEr
     })
 }
 
-fn survey(reel: &Reel, number: usize, quantity: &Quantity, side: Side) -> Result<Survey, RenderError> {
-    let frame = reel.read(number)?;
-    let balls = reel.balls(number, &frame)?;
-    let missing = || RenderError::Field { path: reel.path(number).to_owned(), field: quantity.field };
+fn survey(
+    sequence: &FrameSequence,
+    number: usize,
+    quantity: &Quantity,
+    side: Side,
+) -> Result<Survey, RenderError> {
+    let frame = sequence.read(number)?;
+    let balls = sequence.balls(number, &frame)?;
+    let missing = || RenderError::Field { path: sequence.path(number).to_owned(), field: quantity.field };
     let mut values = quantity.of(&frame).ok_or_else(missing)?;
     values.retain(|value| value.is_finite());
     let all = values
@@ -441,14 +456,14 @@ fn ground(reach: [[f64; 2]; 3], side: Side) -> Ground {
     Ground { center: middle - Vec3::AXES[2] * half[1], radius: 4.0 * size }
 }
 
-fn corners(reel: &Reel, options: &Options) -> impl Iterator<Item = Vec3> {
+fn corners(sequence: &FrameSequence, options: &Options) -> impl Iterator<Item = Vec3> {
     let is_shown = options.volume && options.view != View::First;
-    edges(reel).flatten().filter(move |_| is_shown)
+    edges(sequence).flatten().filter(move |_| is_shown)
 }
 
 /// The edges of the control volume.
-fn edges(reel: &Reel) -> impl Iterator<Item = [Vec3; 2]> {
-    reel.volume().into_iter().flat_map(|volume| {
+fn edges(sequence: &FrameSequence) -> impl Iterator<Item = [Vec3; 2]> {
+    sequence.volume().into_iter().flat_map(|volume| {
         let (lower, upper) = (volume.lower().to_array(), volume.upper().to_array());
         (0..12).map(move |edge| {
             let (along, others) = (edge / 4, [(edge / 4 + 1) % 3, (edge / 4 + 2) % 3]);
@@ -467,5 +482,5 @@ fn edges(reel: &Reel) -> impl Iterator<Item = [Vec3; 2]> {
 }
 
 #[cfg(test)]
-#[path = "studio_tests.rs"]
+#[path = "renderer_tests.rs"]
 mod tests;

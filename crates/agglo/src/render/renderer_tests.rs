@@ -1,4 +1,4 @@
-//! Views, colors and films of small folders.
+//! Views, colors and animations of small folders.
 
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -6,7 +6,7 @@ use std::path::Path;
 use super::*;
 use crate::math::rng::{Purpose, Stream};
 use crate::record::frames::{Cells, Collection, Field, PolyData};
-use crate::render::{Film, FilmEnding, FilmProgress, Output, Shots, film};
+use crate::render::{Animation, AnimationEnding, AnimationProgress, Output, Shots, animate};
 
 /// Writes frames of grains of radius 0.05: each a list of places with a speed along x.
 fn write_frames(dir: &Path, frames: &[Vec<(Vec3, f64)>]) {
@@ -41,10 +41,10 @@ fn small(color: &str) -> Options {
     Options { color: color.to_owned(), size: [64, 48], ..Options::default() }
 }
 
-fn studio(dir: &Path, options: Options) -> Result<Studio, RenderError> {
-    let reel = Reel::open(dir)?;
-    let numbers: Vec<usize> = (0..reel.len()).collect();
-    Ok(Studio::prepare(reel, options, &numbers, &mut |_| true)?.unwrap())
+fn prepared(dir: &Path, options: Options) -> Result<Renderer, RenderError> {
+    let sequence = FrameSequence::open(dir)?;
+    let numbers: Vec<usize> = (0..sequence.len()).collect();
+    Ok(Renderer::prepare(sequence, options, &numbers, &mut |_| true)?.unwrap())
 }
 
 /// Two frames; the second is three times as large and has a grain that flew away.
@@ -61,12 +61,12 @@ fn two_frames() -> tempfile::TempDir {
 fn the_view_holds_nearly_all_grains_of_all_frames() {
     let dir = two_frames();
     let inside = |view: View| {
-        let studio = studio(dir.path(), Options { view, ..small("speed") }).unwrap();
+        let renderer = prepared(dir.path(), Options { view, ..small("speed") }).unwrap();
         let seen = ball(400, 3.0).into_iter().filter(|(place, _)| {
-            let ([x, y], _) = studio.camera().project(*place).unwrap();
+            let ([x, y], _) = renderer.camera().project(*place).unwrap();
             (0.0..64.0).contains(&x) && (0.0..48.0).contains(&y)
         });
-        (seen.count() as f64 / 400.0, studio.camera().distance())
+        (seen.count() as f64 / 400.0, renderer.camera().distance())
     };
     let (fit, distance) = inside(View::Fit);
     assert!(fit > 0.9, "{fit}");
@@ -78,8 +78,8 @@ fn the_view_holds_nearly_all_grains_of_all_frames() {
 fn a_place_can_be_looked_at() {
     let dir = two_frames();
     let place = Vec3::new(0.5, -1.0, 0.25);
-    let studio = studio(dir.path(), Options { view: View::At(place), ..small("speed") }).unwrap();
-    let ([x, y], _) = studio.camera().project(place).unwrap();
+    let renderer = prepared(dir.path(), Options { view: View::At(place), ..small("speed") }).unwrap();
+    let ([x, y], _) = renderer.camera().project(place).unwrap();
     assert_near!(x, 32.0, 1e-6);
     assert_near!(y, 24.0, 1e-6);
 }
@@ -88,15 +88,15 @@ fn a_place_can_be_looked_at() {
 #[test]
 fn colors_have_one_range() {
     let dir = two_frames();
-    let found = studio(dir.path(), small("speed")).unwrap();
+    let found = prepared(dir.path(), small("speed")).unwrap();
     // Of 0 to 399, and 1e6: a hundredth of 400 is 4.
     assert_eq!((found.range, found.beyond), ([0.0, 396.0], [false, true]));
     let given = Options { range: Some([100.0, 1e7]), ..small("speed") };
-    let given = studio(dir.path(), given).unwrap();
+    let given = prepared(dir.path(), given).unwrap();
     assert_eq!((given.range, given.beyond), ([100.0, 1e7], [true, false]));
     assert_eq!(given.colors(&[50.0, 1e9]), [0.0, 1.0].map(|part| light_of(Map::Viridis.color(part))));
     // All radii are the same: their color is in the middle of the map.
-    let same = studio(dir.path(), small("size")).unwrap();
+    let same = prepared(dir.path(), small("size")).unwrap();
     let middle = light_of(Map::Cividis.color(0.5));
     assert_all!(same.colors(&[0.05])[0].iter().zip(middle), |(a, b)| (a - b).abs() < 0.01);
 }
@@ -104,8 +104,8 @@ fn colors_have_one_range() {
 #[test]
 fn clusters_have_colors_and_single_grains_are_gray() {
     let dir = two_frames();
-    let studio = studio(dir.path(), small("cluster")).unwrap();
-    let colors = studio.colors(&[0.0, 0.0, 1.0, 1.0, 2.0, 0.0, 7.0, 7.0]);
+    let renderer = prepared(dir.path(), small("cluster")).unwrap();
+    let colors = renderer.colors(&[0.0, 0.0, 1.0, 1.0, 2.0, 0.0, 7.0, 7.0]);
     assert_eq!(colors[0], colors[5]);
     assert_ne!(colors[0], colors[2]);
     assert_eq!(colors[4], light_of(name_color(None)));
@@ -113,7 +113,7 @@ fn clusters_have_colors_and_single_grains_are_gray() {
     assert_ne!(colors[6], colors[0]);
     // Numbers that no run writes are names as well, and take no room.
     let odd = [4e9, 4e9, 1e300, f64::NAN, f64::NEG_INFINITY, -1.0, -1.0];
-    let colors = studio.colors(&odd);
+    let colors = renderer.colors(&odd);
     assert_eq!(colors[0], colors[1]);
     assert_eq!([2, 3, 4].map(|at| colors[at]), [light_of(name_color(None)); 3]);
 }
@@ -121,22 +121,22 @@ fn clusters_have_colors_and_single_grains_are_gray() {
 #[test]
 fn what_frames_do_not_hold_is_told() {
     let dir = two_frames();
-    let message = studio(dir.path(), small("speeds")).unwrap_err().to_string();
+    let message = prepared(dir.path(), small("speeds")).unwrap_err().to_string();
     assert!(message.contains("\"speeds\"; did you mean \"speed\"?"), "{message}");
     assert!(message.ends_with("they can be by speed, cluster, size"), "{message}");
-    let bonds = studio(dir.path(), Options { bonds: true, ..small("speed") }).unwrap_err().to_string();
+    let bonds = prepared(dir.path(), Options { bonds: true, ..small("speed") }).unwrap_err().to_string();
     assert!(bonds.contains("has no frames of bonds"), "{bonds}");
     let empty = tempfile::tempdir().unwrap();
-    let nothing = studio(empty.path(), small("speed")).unwrap_err();
+    let nothing = prepared(empty.path(), small("speed")).unwrap_err();
     assert_matches!(nothing, RenderError::NoFrames { .. });
     assert_eq!(nothing.exit_code(), 2);
     write_frames(empty.path(), &[Vec::new()]);
-    assert_matches!(studio(empty.path(), small("speed")), Err(RenderError::NoGrains { .. }));
+    assert_matches!(prepared(empty.path(), small("speed")), Err(RenderError::NoGrains { .. }));
 }
 
-fn make(dir: &Path, to: &Path, shots: Shots) -> Result<FilmEnding, RenderError> {
-    let wanted = Film { output: Output::of(to)?, shots, options: small("speed") };
-    film(dir, wanted, &mut |_| ControlFlow::Continue(()))
+fn make(dir: &Path, to: &Path, shots: Shots) -> Result<AnimationEnding, RenderError> {
+    let wanted = Animation { output: Output::of(to)?, shots, options: small("speed") };
+    animate(dir, wanted, &mut |_| ControlFlow::Continue(()))
 }
 
 #[test]
@@ -153,12 +153,12 @@ fn pictures_of_chosen_frames() {
     };
     let shots = Shots { frames: Some(1..=6), every: 2, ..Shots::default() };
     let pattern = out.path().join("some/shot*.png");
-    assert_eq!(make(dir.path(), &pattern, shots.clone()).unwrap(), FilmEnding::Finished(3));
+    assert_eq!(make(dir.path(), &pattern, shots.clone()).unwrap(), AnimationEnding::Finished(3));
     assert_eq!(names(&out.path().join("some")), ["shot000000.png", "shot000001.png", "shot000002.png"]);
     // Pictures that are there already are not mixed with others.
     assert_matches!(make(dir.path(), &pattern, shots.clone()), Err(RenderError::Occupied { .. }));
     let single = out.path().join("one.png");
-    assert_eq!(make(dir.path(), &single, shots).unwrap(), FilmEnding::Finished(1));
+    assert_eq!(make(dir.path(), &single, shots).unwrap(), AnimationEnding::Finished(1));
     assert_eq!(names(out.path()), ["one.png", "some"]);
     let beyond = Shots { frames: Some(5..=7), ..Shots::default() };
     let message = make(dir.path(), &single, beyond).unwrap_err().to_string();
@@ -184,13 +184,14 @@ fn a_cut_frame_is_named() {
 fn a_stop_leaves_no_half_movie() {
     let dir = two_frames();
     let to = dir.path().join("out/movie.mp4");
-    let wanted = Film { output: Output::of(&to).unwrap(), shots: Shots::default(), options: small("speed") };
-    let ending = film(dir.path(), wanted, &mut |progress| match progress {
-        FilmProgress::Drawing(1, 2) => ControlFlow::Break(()),
+    let wanted =
+        Animation { output: Output::of(&to).unwrap(), shots: Shots::default(), options: small("speed") };
+    let ending = animate(dir.path(), wanted, &mut |progress| match progress {
+        AnimationProgress::Drawing(1, 2) => ControlFlow::Break(()),
         _ => ControlFlow::Continue(()),
     });
     match ending {
-        Ok(ending) => assert_eq!(ending, FilmEnding::Interrupted(1)),
+        Ok(ending) => assert_eq!(ending, AnimationEnding::Interrupted(1)),
         Err(error) => assert!(matches!(error, RenderError::NoFfmpeg), "{error}"),
     }
     assert_eq!(std::fs::read_dir(dir.path().join("out")).unwrap().count(), 0);
@@ -208,7 +209,7 @@ fn outputs_are_told_by_their_names() {
     }
     assert_eq!(of("m.mp4").unwrap().fitting([641, 360]), [642, 360]);
     let options = Options { background: Background::Transparent, ..small("speed") };
-    let wanted = Film { output: of("m.mp4").unwrap(), shots: Shots::default(), options };
-    let refused = film(Path::new("nowhere"), wanted, &mut |_| ControlFlow::Continue(()));
+    let wanted = Animation { output: of("m.mp4").unwrap(), shots: Shots::default(), options };
+    let refused = animate(Path::new("nowhere"), wanted, &mut |_| ControlFlow::Continue(()));
     assert_matches!(refused, Err(RenderError::TransparentMovie));
 }

@@ -4,10 +4,10 @@ use std::ops::{ControlFlow, RangeInclusive};
 use std::path::Path;
 
 use super::error::RenderError;
+use super::frame_sequence::FrameSequence;
 use super::output::Output;
-use super::reel::Reel;
+use super::renderer::{Options, Renderer};
 use super::scene::Background;
-use super::studio::{Options, Studio};
 
 /// Which frames are shown and how fast.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,7 +28,7 @@ impl Default for Shots {
 
 /// What is made: where, of which frames, how it looks.
 #[derive(Clone, Debug)]
-pub struct Film {
+pub struct Animation {
     /// Where pictures go.
     pub output: Output,
     /// Which frames.
@@ -39,7 +39,7 @@ pub struct Film {
 
 /// What an observer is told.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum FilmProgress {
+pub enum AnimationProgress {
     /// Something will not be in the pictures, and why.
     Without(String),
     /// So many of all frames were looked through.
@@ -50,7 +50,7 @@ pub enum FilmProgress {
 
 /// How it ended without an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FilmEnding {
+pub enum AnimationEnding {
     /// So many pictures were drawn.
     Finished(usize),
     /// The observer asked to stop after so many; an unfinished movie is gone, finished pictures stay.
@@ -61,31 +61,31 @@ pub enum FilmEnding {
 ///
 /// # Errors
 /// [`RenderError`].
-pub fn film(
+pub fn animate(
     dir: &Path,
-    film: Film,
-    observer: &mut dyn FnMut(FilmProgress) -> ControlFlow<()>,
-) -> Result<FilmEnding, RenderError> {
-    let Film { output, shots, mut options } = film;
+    animation: Animation,
+    observer: &mut dyn FnMut(AnimationProgress) -> ControlFlow<()>,
+) -> Result<AnimationEnding, RenderError> {
+    let Animation { output, shots, mut options } = animation;
     if output.is_movie() && options.background == Background::Transparent {
         return Err(RenderError::TransparentMovie);
     }
-    let reel = Reel::open(dir)?;
-    if let Some(note) = reel.note()
-        && observer(FilmProgress::Without(note)).is_break()
+    let sequence = FrameSequence::open(dir)?;
+    if let Some(note) = sequence.note()
+        && observer(AnimationProgress::Without(note)).is_break()
     {
-        return Ok(FilmEnding::Interrupted(0));
+        return Ok(AnimationEnding::Interrupted(0));
     }
-    let mut numbers = numbers(&reel, &shots)?;
+    let mut numbers = numbers(&sequence, &shots)?;
     options.size = output.fitting(options.size);
     let size = options.size;
-    let look = &mut |done| observer(FilmProgress::Looking(done, numbers.len())).is_continue();
-    let Some(studio) = Studio::prepare(reel, options, &numbers, look)? else {
-        return Ok(FilmEnding::Interrupted(0));
+    let look = &mut |done| observer(AnimationProgress::Looking(done, numbers.len())).is_continue();
+    let Some(renderer) = Renderer::prepare(sequence, options, &numbers, look)? else {
+        return Ok(AnimationEnding::Interrupted(0));
     };
-    for note in studio.notes() {
-        if observer(FilmProgress::Without(note)).is_break() {
-            return Ok(FilmEnding::Interrupted(0));
+    for note in renderer.notes() {
+        if observer(AnimationProgress::Without(note)).is_break() {
+            return Ok(AnimationEnding::Interrupted(0));
         }
     }
     if output.is_single() {
@@ -93,29 +93,29 @@ pub fn film(
     }
     let mut sink = output.open(size, shots.rate)?;
     for (done, &number) in numbers.iter().enumerate() {
-        if observer(FilmProgress::Drawing(done, numbers.len())).is_break() {
-            return Ok(FilmEnding::Interrupted(done));
+        if observer(AnimationProgress::Drawing(done, numbers.len())).is_break() {
+            return Ok(AnimationEnding::Interrupted(done));
         }
-        sink.take(&studio.picture(number)?)?;
+        sink.take(&renderer.picture(number)?)?;
     }
     sink.finish()?;
-    if let Some(note) = studio.note_of_rays() {
+    if let Some(note) = renderer.note_of_rays() {
         // Everything is drawn: there is nothing left to stop.
-        let _ = observer(FilmProgress::Without(note));
+        let _ = observer(AnimationProgress::Without(note));
     }
-    Ok(FilmEnding::Finished(numbers.len()))
+    Ok(AnimationEnding::Finished(numbers.len()))
 }
 
 /// Numbers of the frames that are asked for; at least one.
-fn numbers(reel: &Reel, shots: &Shots) -> Result<Vec<usize>, RenderError> {
-    let (last, asked) = (reel.len() - 1, shots.frames.clone().unwrap_or(0..=reel.len() - 1));
+fn numbers(sequence: &FrameSequence, shots: &Shots) -> Result<Vec<usize>, RenderError> {
+    let (last, asked) = (sequence.len() - 1, shots.frames.clone().unwrap_or(0..=sequence.len() - 1));
     if asked.is_empty() || *asked.end() > last {
         let asked = if asked.start() == asked.end() {
             asked.start().to_string()
         } else {
             format!("{}..{}", asked.start(), asked.end())
         };
-        return Err(RenderError::FrameRange { dir: reel.dir().to_owned(), asked, count: reel.len() });
+        return Err(RenderError::FrameRange { dir: sequence.dir().to_owned(), asked, count: sequence.len() });
     }
     Ok(asked.step_by(shots.every.max(1)).collect())
 }
