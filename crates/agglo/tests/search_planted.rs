@@ -146,7 +146,8 @@ fn restitution_and_spread_of_a_gas_are_found_again() {
     let file = folder.path().join("search.toml");
     fs::write(&file, text("impacts")).unwrap();
     let problem = Problem::new(&Campaign::load(&file).unwrap(), folder.path()).unwrap();
-    let truth = problem.prepare(&problem.candidate_at(&planted)).unwrap();
+    let point = [(planted[0] - 0.5) / 0.48, (planted[1] - 0.5) / 1.5];
+    let truth = problem.prepare(&problem.candidate(&point)).unwrap();
     let columns = |name: &str| problem.columns().iter().position(|column| column == name).unwrap();
     let (temperature, impacts) = (columns("granular_temperature_m2_s2"), columns("impacts"));
     let mut sums = [0.0; 2];

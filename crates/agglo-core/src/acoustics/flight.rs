@@ -151,11 +151,6 @@ impl Flight {
         }
     }
 
-    /// Power [W] of the rays of a pulse that are in flight.
-    pub fn power_in_flight(&self, pulse: usize) -> f64 {
-        self.rays.iter().filter(|ray| ray.pulse as usize == pulse).map(|ray| ray.power).sum()
-    }
-
     /// What is left of a pulse ([A] 39), summed over all its rays: those that ended count with the power and the direction
     /// that they had then. A ray that was dropped counts too, since nobody knows what would have become of it; the pulse's
     /// `power_truncated` bounds that doubt.

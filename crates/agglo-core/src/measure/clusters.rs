@@ -115,13 +115,6 @@ impl Clusters {
         1.0 - self.largest_mass_fraction()
     }
 
-    /// How many clusters there are of each size: (grains in the cluster, clusters), from small to large.
-    pub fn size_distribution(&self) -> Vec<(u32, u32)> {
-        let mut sizes = self.sizes.clone();
-        sizes.sort_unstable();
-        sizes.chunk_by(|a, b| a == b).map(|alike| (alike[0], alike.len() as u32)).collect()
-    }
-
     /// Grains [index] of one cluster, in rising order.
     pub fn members(&self, cluster: u32) -> Vec<u32> {
         (0..).zip(&self.labels).filter(|&(_, &label)| label == cluster).map(|(grain, _)| grain).collect()
@@ -142,7 +135,6 @@ mod tests {
             (found.sizes.as_slice(), found.masses.as_slice()),
             (&[1, 2, 2, 1][..], &[5.0, 2.0, 2.0, 1.0][..])
         );
-        assert_eq!(found.size_distribution(), [(1, 2), (2, 2)]);
         assert_eq!(found.members(1), [0, 4]);
         assert_near!(found.largest_mass_fraction(), 0.5, 1e-15);
         assert_eq!(found.count(), 4);

@@ -1,24 +1,11 @@
 //! The state of the grains as columns, declared once.
 //!
-//! Everything that handles "all columns" (frames, checkpoints, reordering, merging) is derived from the one
+//! Everything that handles "all columns" (frames, checkpoints, reordering) is derived from the one
 //! declaration below.
 
 use serde::{Deserialize, Serialize};
 
 use crate::math::Vec3;
-
-/// What becomes of a quantity when two grains merge.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum OnMerge {
-    /// The larger grain's value stays.
-    Larger,
-    /// Values add up.
-    Sum,
-    /// Mean weighted by mass.
-    MassMean,
-    /// Worked out anew from other columns.
-    Derived,
-}
 
 /// What is known of a column besides its values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,8 +14,6 @@ pub struct Column {
     pub name: &'static str,
     /// SI unit; empty for numbers and ids.
     pub unit: &'static str,
-    /// What becomes of it when two grains merge.
-    pub on_merge: OnMerge,
 }
 
 /// The values of one column.
@@ -70,7 +55,7 @@ impl<'a> From<&'a [Vec3]> for ColumnValues<'a> {
 }
 
 macro_rules! columns {
-    ($($(#[$doc:meta])* $field:ident: $type:ty, $unit:literal, $merge:ident;)*) => {
+    ($($(#[$doc:meta])* $field:ident: $type:ty, $unit:literal;)*) => {
         /// The grains, one vector per quantity, all of the same length.
         #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
         pub struct Particles {
@@ -85,7 +70,7 @@ macro_rules! columns {
 
         /// Every column, in the order of declaration.
         pub const COLUMNS: &[Column] = &[
-            $(Column { name: stringify!($field), unit: $unit, on_merge: OnMerge::$merge },)*
+            $(Column { name: stringify!($field), unit: $unit },)*
         ];
 
         impl Particles {
@@ -134,29 +119,29 @@ macro_rules! columns {
 
 columns! {
     /// Id of the grain, which never changes [n].
-    id: u32, "", Larger;
+    id: u32, "";
     /// Center [n, 3] [m].
-    position: Vec3, "m", MassMean;
+    position: Vec3, "m";
     /// Velocity of the center [n, 3] [m/s].
-    velocity: Vec3, "m/s", MassMean;
+    velocity: Vec3, "m/s";
     /// Angular velocity [n, 3] [rad/s].
-    spin: Vec3, "rad/s", Derived;
+    spin: Vec3, "rad/s";
     /// Radius [n] [m].
-    radius: f64, "m", Derived;
+    radius: f64, "m";
     /// Mass [n] [kg].
-    mass: f64, "kg", Sum;
+    mass: f64, "kg";
     /// Number of the material [n].
-    material: u32, "", Larger;
+    material: u32, "";
     /// Temperature [n] [K].
-    temperature: f64, "K", MassMean;
+    temperature: f64, "K";
     /// Electric charge [n] [C].
-    charge: f64, "C", Sum;
+    charge: f64, "C";
     /// Sign c_i of the near field [n]: +1 or -1.
-    polarity: f64, "", Larger;
+    polarity: f64, "";
     /// Contact stiffness at the grain's temperature [n] [Pa].
-    contact_stiffness: f64, "Pa", Larger;
+    contact_stiffness: f64, "Pa";
     /// Power taken from rays, summed over all hits since the start [n] [W].
-    absorbed_power: f64, "W", Sum;
+    absorbed_power: f64, "W";
 }
 
 impl Particles {

@@ -4,6 +4,6 @@ mod columns;
 mod material;
 mod motion;
 
-pub use columns::{COLUMNS, Column, ColumnValues, OnMerge, Particles, Row};
+pub use columns::{COLUMNS, Column, ColumnValues, Particles, Row};
 pub use material::{Material, Mixture, PairTable, Softening};
 pub use motion::Motion;

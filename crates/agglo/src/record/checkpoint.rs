@@ -83,20 +83,12 @@ pub fn keep_only(kept: &Path) -> Result<(), RecordError> {
         .try_for_each(|(_, path)| std::fs::remove_file(&path).map_err(RecordError::file("remove", &path)))
 }
 
-/// Reads the newest whole checkpoint in `dir`: the state, its step, and the newer ones that cannot be used.
+/// Reads the newest whole checkpoint in `dir` that `accept` takes: what it makes of the state, its step, and the newer ones that
+/// cannot be used. `accept` gives the reason where it refuses one.
 ///
 /// # Errors
 /// [`RecordError::NoCheckpoint`] where none is whole, [`RecordError::File`] where the folder cannot be read.
-pub fn load_newest<T: DeserializeOwned>(dir: &Path) -> Result<(T, u64, Vec<Refused>), RecordError> {
-    load_newest_that(dir, Ok)
-}
-
-/// As [`load_newest`]: the newest whole checkpoint that `accept` takes, and what it makes of it; it gives the reason where
-/// it refuses one.
-///
-/// # Errors
-/// As [`load_newest`].
-pub fn load_newest_that<T: DeserializeOwned, U>(
+pub fn load_newest<T: DeserializeOwned, U>(
     dir: &Path,
     mut accept: impl FnMut(T) -> Result<U, String>,
 ) -> Result<(U, u64, Vec<Refused>), RecordError> {
@@ -237,7 +229,7 @@ mod tests {
             save(dir.path(), step, &state(step)).unwrap();
         }
         assert_eq!(names(dir.path()), ["checkpoint-000000000999.agglo", "checkpoint-000000001000.agglo"]);
-        assert_eq!(load_newest(dir.path()).unwrap(), (state(1000), 1000, vec![]));
+        assert_eq!(load_newest(dir.path(), Ok::<State, _>).unwrap(), (state(1000), 1000, vec![]));
     }
 
     #[test]
@@ -256,14 +248,14 @@ mod tests {
             let mut bytes = std::fs::read(&newest).unwrap();
             damage(&mut bytes);
             std::fs::write(&newest, bytes).unwrap();
-            let (found, step, refused) = load_newest::<State>(dir.path()).unwrap();
+            let (found, step, refused) = load_newest(dir.path(), Ok::<State, _>).unwrap();
             assert_eq!((found, step), (state(1), 1));
             assert_eq!(refused.len(), 1);
             assert_eq!(refused[0].path, newest);
             assert!(refused[0].reason.contains(words), "{}", refused[0]);
             // The run goes on from step 1; the damaged one of the course given up must not push out whole ones.
             save(dir.path(), 2, &state(2)).unwrap();
-            assert_eq!(load_newest::<State>(dir.path()).unwrap().2, []);
+            assert_eq!(load_newest(dir.path(), Ok::<State, _>).unwrap().2, []);
         }
     }
 
@@ -279,12 +271,12 @@ mod tests {
     #[test]
     fn none_is_an_error_that_lists_all() {
         let dir = tempfile::tempdir().unwrap();
-        let message = load_newest::<State>(dir.path()).unwrap_err().to_string();
+        let message = load_newest(dir.path(), Ok::<State, _>).unwrap_err().to_string();
         assert!(message.starts_with("no usable checkpoint in "), "{message}");
         std::fs::write(dir.path().join("checkpoint-000000000003.agglo"), "text").unwrap();
-        let message = load_newest::<State>(dir.path()).unwrap_err().to_string();
+        let message = load_newest(dir.path(), Ok::<State, _>).unwrap_err().to_string();
         assert!(message.contains("checkpoint-000000000003.agglo: not a checkpoint"), "{message}");
-        let nowhere = load_newest::<State>(Path::new("/nowhere")).unwrap_err().to_string();
+        let nowhere = load_newest(Path::new("/nowhere"), Ok::<State, _>).unwrap_err().to_string();
         assert_eq!(nowhere, "cannot read /nowhere: no such file or folder");
     }
 

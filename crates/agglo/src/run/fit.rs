@@ -42,7 +42,7 @@ pub fn load(folder: &RunFolder, before_the_end: bool, reading: &mut Reading<'_>)
     let dir = folder.checkpoints();
     let mut found = Err(RecordError::NoCheckpoint { dir: dir.clone(), refused: Vec::new() });
     if before_the_end {
-        found = checkpoint::load_newest_that(&dir, |saved: AnySaved<'static>| {
+        found = checkpoint::load_newest(&dir, |saved: AnySaved<'static>| {
             if saved.time() < fit.scenario.time.end.si() { fit.accept(saved) } else { Err(String::new()) }
         });
         // That it is not the newest is as it should be.
@@ -52,7 +52,7 @@ pub fn load(folder: &RunFolder, before_the_end: bool, reading: &mut Reading<'_>)
     }
     if found.is_err() {
         (fit.edits, fit.others) = (Vec::new(), 0);
-        found = checkpoint::load_newest_that(&dir, |saved| fit.accept(saved));
+        found = checkpoint::load_newest(&dir, |saved| fit.accept(saved));
     }
     if fit.is_stopped {
         return Err(RunError::StoppedBefore("while the run's files were read; nothing was changed"));

@@ -142,11 +142,6 @@ impl Problem {
         self.candidate(&vec![0.5; self.knobs.len()])
     }
 
-    /// The candidate with these values: SI units, numbers of choices from 0.
-    pub fn candidate_at(&self, values: &[f64]) -> Candidate {
-        self.candidate(&space::point(&self.axes, values))
-    }
-
     /// A candidate's scenario, checked.
     ///
     /// # Errors

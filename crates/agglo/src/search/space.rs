@@ -102,18 +102,6 @@ impl Scale {
         }
     }
 
-    /// The coordinate of a value: where it lies, or the middle of its part of the axis.
-    pub fn coordinate(&self, value: f64) -> f64 {
-        let part = |number: f64| (number + 0.5) / self.levels().unwrap_or(1) as f64;
-        let coordinate = match self {
-            Self::Linear([lower, upper]) => (value - lower) / (upper - lower),
-            Self::Log([lower, upper]) => (value / lower).ln() / (upper / lower).ln(),
-            Self::Whole([lower, _]) => part(value - *lower as f64),
-            Self::Choices(_) => part(value),
-        };
-        coordinate.clamp(0.0, 1.0)
-    }
-
     fn bin(&self, u: f64) -> f64 {
         let levels = self.levels().unwrap_or(1) as f64;
         (u * levels).floor().min(levels - 1.0)
@@ -123,11 +111,6 @@ impl Scale {
 /// Values of all axes at a point of the unit cube.
 pub fn values(axes: &[Axis], point: &[f64]) -> Vec<f64> {
     axes.iter().zip(point).map(|(axis, coordinate)| axis.scale.value(*coordinate)).collect()
-}
-
-/// The point of the unit cube at which the axes have these values.
-pub fn point(axes: &[Axis], values: &[f64]) -> Vec<f64> {
-    axes.iter().zip(values).map(|(axis, value)| axis.scale.coordinate(*value)).collect()
 }
 
 /// The unit of a dimension as an axis shows it.
@@ -152,28 +135,9 @@ mod tests {
             let (Scale::Linear(bounds) | Scale::Log(bounds)) = scale.clone() else { continue };
             assert_eq!([scale.value(0.0), scale.value(1.0)], bounds);
             assert_eq!([scale.value(-0.5), scale.value(1.5)], bounds);
-            assert_eq!(bounds.map(|bound| scale.coordinate(bound)), [0.0, 1.0]);
         }
         assert_eq!([0.0, 1.0].map(|u| Scale::Whole([-2, 3]).value(u)), [-2.0, 3.0]);
         assert_eq!([0.0, 0.34, 1.0].map(|u| choices(&["a", "b", "c"]).value(u)), [0.0, 1.0, 2.0]);
-    }
-
-    /// Rounding of a sum, a logarithm and an exponential: a few parts in 1e16 of numbers of order 10.
-    #[test]
-    fn there_and_back() {
-        let mut stream = Stream::new(3, Purpose::Sampling, 0);
-        for scale in [Scale::Linear([20.0, 200.0]), Scale::Log([1e-3, 1e3])] {
-            for _ in 0..1000 {
-                let u = stream.uniform();
-                assert_near!(scale.coordinate(scale.value(u)), u, 1e-14);
-            }
-        }
-        for scale in [Scale::Whole([4, 17]), choices(&["1", "5", "x"])] {
-            for _ in 0..1000 {
-                let value = scale.value(stream.uniform());
-                assert_eq!(scale.value(scale.coordinate(value)), value);
-            }
-        }
     }
 
     /// The middle of a logarithmic axis is the geometric mean: sqrt(1e-2 · 1e4) = 10.

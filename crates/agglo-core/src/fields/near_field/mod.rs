@@ -127,24 +127,6 @@ impl NearFieldLaw {
     pub fn is_capped(&self) -> bool {
         matches!(self, Self::VanDerWaals(_))
     }
-
-    /// The power b with which the force falls off at least as fast as d^-b beyond any distance.
-    fn slowest_decay(&self) -> f64 {
-        match self {
-            Self::PowerPair(law) => law.slowest_decay(),
-            Self::Coulomb(_) => 2.0,
-            // Nearer than infinity Hamaker's force is steeper than its limit d^-7.
-            Self::VanDerWaals(_) => 7.0,
-        }
-    }
-
-    /// A bound on the size of the force [N] at and beyond a distance [m] that decays with `slowest_decay`.
-    fn bound(&self, a: &Source, b: &Source, distance: f64) -> f64 {
-        match self {
-            Self::PowerPair(law) => law.bound(a, b, distance),
-            _ => self.force(a, b, distance).abs(),
-        }
-    }
 }
 
 impl NearField {
@@ -169,29 +151,6 @@ impl NearField {
             Some(cutoff) if distance > cutoff.si() => 0.0,
             Some(cutoff) => self.law.energy(a, b, distance) - self.law.energy(a, b, cutoff.si()),
             None => self.law.energy(a, b, distance),
-        }
-    }
-
-    /// Largest force [N] that the cut-off takes from one pair: a bound on what it left out at any distance
-    /// beyond, by which the force of a pair jumps there. 0 without a cut-off.
-    pub fn truncation_error(&self, a: &Source, b: &Source) -> f64 {
-        self.cutoff.map_or(0.0, |cutoff| self.law.bound(a, b, cutoff.si()))
-    }
-
-    /// Bound on the force [N] that the cut-off takes from a grain at the surface of a uniform cloud of
-    /// `number_density` [1/m³] that fills half of space: π n F(r_c) r_c³/(b - 3) for forces that fall off
-    /// like d^-b. Infinite for b <= 3 (charges, masses): such a force needs all pairs.
-    pub fn truncation_error_in_cloud(&self, a: &Source, b: &Source, number_density: f64) -> f64 {
-        let Some(cutoff) = self.cutoff.map(Length::si) else { return 0.0 };
-        let bound = self.law.bound(a, b, cutoff);
-        let margin = self.law.slowest_decay() - 3.0;
-        if bound == 0.0 {
-            return 0.0;
-        }
-        if margin > 0.0 {
-            std::f64::consts::PI * number_density * bound * cutoff * cutoff * cutoff / margin
-        } else {
-            f64::INFINITY
         }
     }
 
@@ -284,40 +243,6 @@ mod tests {
             let near = NearField { law, cutoff: Some(Quantity(0.02)), truncation: 0.05 };
             assert_eq!([near.force(&A, &B, 0.021), near.energy(&A, &B, 0.021)], [0.0, 0.0]);
             assert_eq!(near.energy(&A, &B, 0.02), 0.0);
-            let largest = near.truncation_error(&A, &B);
-            assert_above!(largest, 0.0);
-            for distance in [0.02, 0.025, 0.1, 1.0] {
-                assert_at_most!(near.law.force(&A, &B, distance).abs(), largest * (1.0 + 1e-14), "in N");
-            }
         }
-    }
-
-    /// The force of the half space beyond r_c, summed in shells: ∫ F π d² n dd; for a pure power it is the bound.
-    #[test]
-    fn clouds_beyond_the_cutoff() {
-        let power = PowerPair {
-            scaling: Scaling::Mass,
-            attraction: 2.0,
-            attraction_exponent: 6.0,
-            repulsion: 0.0,
-            repulsion_exponent: 9.0,
-        };
-        let cutoff = Some(Quantity(0.5));
-        let near = NearField { law: NearFieldLaw::PowerPair(power), cutoff, truncation: 0.05 };
-        let by_hand = std::f64::consts::PI * 100.0 * 2.0 * 10.0 / 3.0 / 0.5_f64.powi(3);
-        assert_close!(near.truncation_error_in_cloud(&A, &B, 100.0), by_hand, 1e-14);
-        let law = NearFieldLaw::Coulomb(Coulomb { relative_permittivity: 1.0 });
-        let coulomb = NearField { law, cutoff, truncation: 0.05 };
-        assert_eq!(coulomb.truncation_error_in_cloud(&A, &B, 1.0), f64::INFINITY);
-        let (hamaker, smallest_gap) = (Quantity(1e-19), Quantity(1e-7));
-        let law = NearFieldLaw::VanDerWaals(VanDerWaals { hamaker, smallest_gap });
-        let near = NearField { law, cutoff: Some(Quantity(0.006)), truncation: 0.05 };
-        let (mut sum, shells) = (0.0, 200_000);
-        for k in 0..shells {
-            let d = 0.006 + (f64::from(k) + 0.5) * 1e-6;
-            sum += near.law.force(&A, &B, d).abs() * std::f64::consts::PI * d * d * 1e-6;
-        }
-        let bound = near.truncation_error_in_cloud(&A, &B, 1.0);
-        assert!(sum < bound && sum > 0.1 * bound, "{sum} {bound}");
     }
 }

@@ -142,22 +142,6 @@ impl PowerPair {
         let attraction = self.attraction * tail(distance, self.attraction_exponent);
         self.scale(a, b) * (repulsion - attraction)
     }
-
-    /// The smaller of the powers whose terms are there.
-    pub(super) fn slowest_decay(&self) -> f64 {
-        match (self.attraction == 0.0, self.repulsion == 0.0) {
-            (true, _) => self.repulsion_exponent,
-            (_, true) => self.attraction_exponent,
-            _ => self.attraction_exponent.min(self.repulsion_exponent),
-        }
-    }
-
-    /// Sum of the sizes of both terms [N], which does not vanish where they balance.
-    pub(super) fn bound(&self, a: &Source, b: &Source, distance: f64) -> f64 {
-        let repulsion = self.repulsion.abs() * inverse_power(distance, self.repulsion_exponent);
-        let attraction = self.attraction.abs() * inverse_power(distance, self.attraction_exponent);
-        self.scale(a, b).abs() * (repulsion + attraction)
-    }
 }
 
 #[cfg(test)]
