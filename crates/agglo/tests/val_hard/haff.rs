@@ -24,8 +24,8 @@ fn cooling(gas: &Gas<'_>, restitution: f64, starts: u64) -> [Mean; 3] {
     ratios.map(|ratios| Mean::of(&ratios))
 }
 
-/// 2 %: velocities are not quite Maxwell's; in the steady state of cooling that makes it 0.2 to 0.3 % slower (van Noije
-/// and Ernst 1998), and the finite gas scatters by 1 % from start to start.
+/// 1.2 %: velocities are not quite Maxwell's, in the steady state of cooling that makes it 0.2 to 0.3 % slower (van Noije
+/// and Ernst 1998); and three standard errors, which are held to 0.9 %.
 fn compare(restitution: f64, starts: u64) {
     let gas = Gas { count: 4_000, solid_fraction: 0.05, ..Gas::default() };
     for (found, times) in cooling(&gas, restitution, starts).into_iter().zip([1, 2, 4]) {
@@ -34,8 +34,8 @@ fn compare(restitution: f64, starts: u64) {
             found.mean, found.error
         ));
         common::found(&format!("haff_{restitution}"), &[("ratio", found.mean), ("error", found.error)]);
-        assert!((found.mean - 1.0).abs() < 0.02, "{found:?}");
-        assert!(found.error < 0.01, "{found:?}");
+        assert!((found.mean - 1.0).abs() < 0.012, "{found:?}");
+        assert!(found.error < 0.003, "{found:?}");
     }
 }
 
