@@ -6,7 +6,7 @@
 # packages only where something does not work without them (then it says which).
 #
 # --long repeats the storms of kills and of two processes in one folder 500 times, not 20 times, and reads thirty times as many
-# hostile files.
+# hostile files. It runs the long cases of validation, which cargo ignores otherwise, and measures every figure of README.md again.
 # --mutants runs no such tests: it puts small mistakes into the physics for an hour and says which of them no test notices; see
 # tests/mutants/check.py. AGGLO_MUTANTS_MINUTES asks for more or less than 60.
 set -euo pipefail
@@ -76,6 +76,30 @@ prepare_browser() {
     [[ -x $CHROMIUM ]] || install_debian chromium
 }
 
+# What makes movies; without it the test of movies would only see that it is missing.
+prepare_ffmpeg() {
+    command -v ffmpeg >/dev/null || install_debian ffmpeg
+    export AGGLO_NEEDS_FFMPEG=1
+}
+
+# Each crate alone, and without what it can do without: what builds in the workspace may lean on another crate's features.
+check_features() {
+    run cargo check --locked --all-targets -p agglo-testing
+    run cargo check --locked --all-targets -p agglo-core
+    local features
+    for features in "" render report; do
+        run cargo check --locked --all-targets -p agglo --no-default-features --features "$features"
+    done
+    run cargo test --locked -p agglo-cli --no-default-features --test program
+}
+
+# What takes too long for every change.
+run_long() {
+    run cargo test --locked --release -p agglo --test val_hard val_ -- --ignored
+    run cargo build --locked --release
+    run python3 docs/measured/measure.py --check README
+}
+
 # Looks for mistakes that no test notices.
 try_mutants() {
     local version=27.1.0
@@ -100,15 +124,20 @@ if [[ ${1:-} == --mutants ]]; then
 fi
 prepare
 prepare_browser
+prepare_ffmpeg
 : >"$log"
 run cargo test --locked --workspace --lib --bins --tests --examples
 run cargo test --locked --workspace --doc
+check_features
 # Fuzzers are not run here; their targets compile.
 run cargo check --locked --manifest-path fuzz/Cargo.toml --no-default-features --bins --examples --target-dir target/fuzz
 run "$venv/bin/python" -m pytest -q tests/python
 run "$venv/bin/python" -m pytest -q tests/browser
 
 run docs/book/build.sh
+if [[ ${1:-} == --long ]]; then
+    run_long
+fi
 
 say "closing lines"
 grep -E '^(     Running|   Doc-tests|test result:)|^[0-9]+ passed' "$log"

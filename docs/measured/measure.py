@@ -4,6 +4,7 @@
     cargo build --release
     python3 docs/measured/measure.py                          # lists the measurements
     python3 docs/measured/measure.py acoustic-dispersal-published sets  # measures these again, and says what has changed
+    python3 docs/measured/measure.py --check README           # all that this page tells of; writes nothing, ends with 1 if one has changed
 
 `tests/python/test_figures.py` says then which lines of the pages are no longer right. AGGLO names another program; the
 measurements `tests`, `six-sets` and `medians` build their own. Values of `speed` are typed in by hand from what its commands print: they
@@ -283,21 +284,36 @@ def write(name, command, values):
     (HERE / f"values/{name}.toml").write_text("\n".join(lines) + "\n")
 
 
+def named_by(page):
+    """The measurements that the file of a page names; a measurement itself."""
+    if page in MEASUREMENTS:
+        return [page]
+    text = (HERE / f"pages/{page}.toml").read_text(encoding="utf-8")
+    return [name for name in MEASUREMENTS if f'measured = "{name}"' in text or f"of('{name}')" in text]
+
+
 def main():
     names = sys.argv[1:]
+    is_check = names[:1] == ["--check"]
+    if is_check:
+        names = [name for page in names[1:] for name in named_by(page)]
     unknown = [name for name in names if name not in MEASUREMENTS]
     if unknown or not names:
         for name, (command, _) in MEASUREMENTS.items():
             print(f"{name:26} {command}")
         sys.exit(f"{', '.join(unknown)}: not one of these" if unknown else 0)
+    has_changed = False
     for name in names:
         command, measure = MEASUREMENTS[name]
         before, values = stored(name)["values"], measure()
-        write(name, command, values)
+        if not is_check:
+            write(name, command, values)
         changed = [key for key in values if before.get(key) != values[key]]
-        print(f"{name}: {'as before' if not changed else ''}")
+        has_changed |= bool(changed)
+        print(f"{name}: {'as before' if not changed else ''}", flush=True)
         for key in changed:
             print(f"  {key}: {before.get(key, 'new')} -> {values[key]}")
+    sys.exit(is_check and has_changed)
 
 
 if __name__ == "__main__":
