@@ -136,7 +136,7 @@ columns! {
     temperature: f64, "K";
     /// Electric charge [n] [C].
     charge: f64, "C";
-    /// Sign c_i of the near field [n]: +1 or -1.
+    /// Sign χ_i of the near field [n]: +1 or -1.
     polarity: f64, "";
     /// Contact stiffness at the grain's temperature [n] [Pa].
     contact_stiffness: f64, "Pa";

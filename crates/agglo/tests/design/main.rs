@@ -134,3 +134,17 @@ fn the_core_is_built_with_nothing_that_reads_files_or_knows_a_terminal() {
         .collect();
     assert!(wrong.is_empty(), "crates of no use for physics that agglo-core is built with: {wrong:?}");
 }
+
+/// One table with one meaning a symbol; what a law's page takes from its source under another letter stands in a table of its own.
+#[test]
+fn a_symbol_has_one_meaning() {
+    let text = std::fs::read_to_string(root().join("NOTATION.md")).unwrap();
+    assert_eq!(text.matches("| symbol |").count(), 1, "tables of symbols in NOTATION.md");
+    let (table, _) = text.split_once("## Letters").expect("a table of letters of sources");
+    let rows = table.lines().filter_map(|line| line.strip_prefix("| ")?.split_once(" |"));
+    let symbols: Vec<&str> = rows.flat_map(|(cell, _)| cell.split(", ")).collect();
+    assert!(symbols.len() > 150, "symbols that were found: {symbols:?}");
+    let mut seen = BTreeSet::new();
+    let twice: Vec<&str> = symbols.into_iter().filter(|symbol| !seen.insert(*symbol)).collect();
+    assert_eq!(twice, Vec::<&str>::new(), "symbols of NOTATION.md that stand there twice");
+}
