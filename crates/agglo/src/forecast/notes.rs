@@ -98,7 +98,7 @@ fn motion(notes: &mut Vec<String>, scenario: &Scenario, pushes: &[Push]) {
         }
         if push.strain.is_some_and(|strain| strain > limit) {
             notes.push(format!(
-                "beam {beam} makes grains so fast that they overlap by more than limits.strain = {limit} when they meet"
+                "beam {beam} makes grains so fast that they overlap by more than limits.strain = {limit} when they collide"
             ));
         }
     }

@@ -40,13 +40,13 @@ pub(super) struct Push {
     pub mean_speed: f64,
     pub fastest: f64,
     pub common_speed: f64,
-    /// Speed at which two grains meet, root of the mean square [m/s].
+    /// Speed at which two grains collide, root of the mean square [m/s].
     pub meeting_speed: f64,
     /// Time [s] in which drag takes a grain's speed, in the mean; infinite without drag.
     pub stopping_s: f64,
     /// Reynolds number of the grain for which it is largest.
     pub reynolds: f64,
-    /// Overlap strain when two like grains meet at that speed, if a law of contact repels them.
+    /// Overlap strain when two like grains collide at that speed, if a law of contact repels them.
     pub strain: Option<f64>,
 }
 
@@ -205,7 +205,7 @@ pub(super) fn describe(plan: &mut Plan, pushes: &[Push]) {
         if let Some(strain) = push.strain {
             let value = if strain < 1.0 { digits(strain) } else { "1: through one another".to_owned() };
             let speed = readable(push.meeting_speed, "m/s");
-            row("  overlap strain".to_owned(), format!("{value} when two meet at {speed}"));
+            row("  overlap strain".to_owned(), format!("{value} when two collide at {speed}"));
         }
     }
 }
