@@ -219,15 +219,15 @@ def test_a_click_shows_the_figures_of_the_grain_that_is_there(page, folder):
 
 
 CHARTS = {
-    "stores": ("energy", {"kinetic": "kinetic_J", "elastic": "elastic_J", "bonds": "bonds_J"}),
+    "stores": ("energy", {"kinetic energy": "kinetic_J", "elastic energy": "elastic_J", "energy of bonds": "bonds_J"}),
     "flows": ("energy", {"put in by rays": "work_rays_J", "lost to drag": "lost_drag_J"}),
     "dispersion": ("clusters", {"dispersion degree": "dispersion_degree", "largest cluster": "largest_fraction"}),
     "clusters": ("clusters", {"clusters": "clusters", "bonds": "bonds"}),
-    "rays": ("rays", {"in flight": "in_flight", "reflections": "reflections"}),
-    "beam": ("rays", {"along x": "beam_x", "in all": "beam_magnitude"}),
-    "flying": ("rays", {"along x": "flying_x", "in all": "flying_magnitude"}),
-    "speed": ("moments", {"largest": "largest_speed_m_s"}),
-    "step": ("steps", {"step size": "step_size_s"}),
+    "rays": ("rays", {"rays in flight": "in_flight", "reflections": "reflections"}),
+    "beam": ("rays", {"beam power along x": "beam_x", "beam power in all": "beam_magnitude"}),
+    "flying": ("rays", {"power in flight along x": "flying_x", "power in flight": "flying_magnitude"}),
+    "speed": ("moments", {"largest speed": "largest_speed_m_s"}),
+    "step": ("steps", {"step": "step_size_s"}),
 }
 
 

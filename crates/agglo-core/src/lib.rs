@@ -7,6 +7,9 @@
 #[macro_use]
 extern crate agglo_testing;
 
+#[macro_use]
+pub mod law;
+
 pub mod constants;
 pub mod text;
 pub mod units;
@@ -27,6 +30,8 @@ pub mod acoustics;
 pub mod engine;
 
 pub mod measure;
+
+pub mod catalog;
 
 pub mod pages;
 

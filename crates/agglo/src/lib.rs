@@ -8,8 +8,8 @@ extern crate agglo_testing;
 
 #[doc(inline)]
 pub use agglo_core::{
-    acoustics, constants, contact, domain, engine, fields, impact, math, measure, neighbors, particles, text,
-    units,
+    acoustics, catalog, constants, contact, domain, engine, fields, impact, law, math, measure, neighbors,
+    particles, text, units,
 };
 
 pub mod packing;

@@ -1,7 +1,7 @@
 //! Collisions of two grains, integrated for the tests of the laws of contact.
 
-use super::friction::{Mindlin, Sliding, TangentialSpring};
-use super::{Damping, Normal, PairConstants, Touch};
+use super::friction::{FrictionLaw, Mindlin, Sliding, TangentialSpring};
+use super::{Damping, Elastic, Normal, PairConstants, Touch};
 use crate::math::Vec3;
 
 /// Two grains that meet along the line of centers.
@@ -23,11 +23,20 @@ pub struct Rebound {
     pub largest_force: f64,
 }
 
+fn elastic(law: &Normal, pair: &PairConstants, touch: &Touch) -> Elastic {
+    Elastic {
+        force: law.force(pair, touch),
+        stiffness: law.tangent_stiffness(pair, touch),
+        exponent: law.exponent(),
+    }
+}
+
 impl HeadOn<'_> {
     fn force(&self, overlap: f64, speed: f64) -> f64 {
         let touch = Touch { overlap: overlap.max(0.0), ..self.touch };
-        let dashpot = self.damping.map_or(0.0, |law| law.coefficient(&self.pair, &touch, self.normal));
-        self.normal.force(&self.pair, &touch) + dashpot * speed
+        let elastic = elastic(self.normal, &self.pair, &touch);
+        let dashpot = self.damping.map_or(0.0, |law| law.coefficient(&self.pair, &touch, &elastic));
+        elastic.force + dashpot * speed
     }
 
     /// Classical Runge-Kutta of fourth order until the overlap is back at zero.
@@ -87,6 +96,15 @@ struct Load {
 }
 
 impl Oblique<'_> {
+    /// With the constants of the pair as the laws have them.
+    pub fn settled(mut self) -> Self {
+        if let Some(law) = self.damping {
+            law.settle(&mut self.pair, None);
+        }
+        self.friction.settle(&mut self.pair, None);
+        self
+    }
+
     /// Two grains at touching along x; the second comes with `velocity` relative to the first.
     pub fn approach(&self, velocity: Vec3) -> Pair {
         let at = Vec3::new(self.radius, 0.0, 0.0);
@@ -113,18 +131,20 @@ impl Oblique<'_> {
             - state.velocities[0]
             - (state.spins[0] + state.spins[1]).cross(normal) * (0.5 * distance);
         let velocity = relative.rejected_from(normal);
-        let normal_dashpot = self.damping.map_or(0.0, |law| law.coefficient(&self.pair, &touch, self.normal));
-        let normal_force = self.normal.force(&self.pair, &touch) - normal_dashpot * relative.dot(normal);
+        let elastic = elastic(self.normal, &self.pair, &touch);
+        let normal_dashpot = self.damping.map_or(0.0, |law| law.coefficient(&self.pair, &touch, &elastic));
+        let normal_force = elastic.force - normal_dashpot * relative.dot(normal);
         let sliding = Sliding {
             normal,
             displacement: velocity * dt,
             velocity,
             spin_angle: 0.5 * dt * (state.spins[0] + state.spins[1]).dot(normal),
-            normal_stiffness: self.normal.tangent_stiffness(&self.pair, &touch),
+            elastic,
             normal_dashpot,
             normal_force,
+            dt,
         };
-        let (friction, spring) = self.friction.advance(&self.pair, &state.spring, &sliding);
+        let (friction, spring) = self.friction.force(&self.pair, &touch, &sliding, &state.spring);
         Some(Load {
             on_i: friction - normal * normal_force,
             moment: normal.cross(friction) * (0.5 * distance),

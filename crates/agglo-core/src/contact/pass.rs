@@ -7,11 +7,11 @@
 use std::ops::Range;
 
 use super::bond::{Bonds, StrainBond};
-use super::friction::{Friction, Sliding, TangentialSpring};
-use super::{ContactLaws, PairConstants, Touch, arms};
+use super::friction::{Sliding, TangentialSpring};
+use super::{ContactLaws, PairConstants, PairTable, Touch, arms};
 use crate::math::{Pace, Vec3, parallel};
 use crate::neighbors::PairList;
-use crate::particles::{Motion, PairTable, Particles};
+use crate::particles::{Motion, Particles};
 
 /// Owners per leaf of the parallel loop.
 const LEAF: usize = 1024;
@@ -126,7 +126,7 @@ impl parallel::Split for Slot<'_> {
 impl Contacts {
     /// Makes room for the pairs of a new list and puts the remembered contacts in their new places.
     pub fn relist(&mut self, list: &PairList, remembered: &[Remembered], laws: Option<&ContactLaws>) {
-        let with_springs = matches!(laws, Some(ContactLaws { friction: Some(Friction::Mindlin(_)), .. }));
+        let with_springs = laws.is_some_and(ContactLaws::has_memory);
         self.loads.clear();
         self.loads.resize(list.len(), ContactLoad::default());
         self.committed.resize(list.len(), with_springs);
@@ -296,37 +296,27 @@ impl<'a> Contact<'a> {
         let slip = velocity - *normal * separation;
         let (mut repulsion, mut tangential, mut spring) = (0.0, Vec3::ZERO, TangentialSpring::default());
         if let Some(laws) = world.laws {
+            let elastic = laws.elastic(constants, touch, laws.takes_stiffness());
             let dashpot =
-                laws.damping.as_ref().map_or(0.0, |law| law.coefficient(constants, touch, &laws.normal));
-            let elastic = laws.normal.force(constants, touch);
-            repulsion = elastic - dashpot * separation;
+                laws.damping.as_ref().map_or(0.0, |law| law.coefficient(constants, touch, &elastic));
+            repulsion = elastic.force - dashpot * separation;
             rates.damping += dashpot * separation * separation;
-            match &laws.friction {
-                None => {}
-                Some(Friction::Regularized(law)) => {
-                    let speed = slip.norm();
-                    if speed > 0.0 {
-                        let size = law.force(constants, touch.area(), speed, world.dt, elastic);
-                        tangential = slip * (size / speed);
-                    }
-                }
-                Some(Friction::Mindlin(law)) => {
-                    let slip_before = self.relative_velocity(&world.before).rejected_from(*normal);
-                    let sliding = Sliding {
-                        normal: *normal,
-                        displacement: (slip_before + slip) * (0.5 * world.elapsed),
-                        velocity: slip,
-                        spin_angle: self.spin_angle(world),
-                        normal_stiffness: laws.normal.tangent_stiffness(constants, touch),
-                        normal_dashpot: dashpot,
-                        normal_force: repulsion,
-                    };
-                    let nothing = TangentialSpring::default();
-                    (tangential, spring) = law.advance(constants, before.unwrap_or(&nothing), &sliding);
-                }
+            if let Some(law) = &laws.friction {
+                let way = if law.has_memory() { self.way(world, slip) } else { Sliding::default() };
+                let sliding = Sliding {
+                    normal: *normal,
+                    velocity: slip,
+                    elastic,
+                    normal_dashpot: dashpot,
+                    normal_force: repulsion,
+                    dt: world.dt,
+                    ..way
+                };
+                let nothing = TangentialSpring::default();
+                (tangential, spring) = law.force(constants, touch, &sliding, before.unwrap_or(&nothing));
             }
         }
-        if let Some(Bonds::StrainBond(bond)) = world.bonds {
+        if let Some(bond) = world.bonds.and_then(Bonds::in_contact) {
             repulsion -= bond.attraction(touch);
             tangential += self.strain_bond_slip(bond, slip, world.dt);
         }
@@ -342,6 +332,14 @@ impl<'a> Contact<'a> {
             arms: self.arms,
         };
         (load, spring)
+    }
+
+    /// How the surfaces have moved over the step, for laws with a memory.
+    #[inline]
+    fn way(&self, world: &ContactWorld<'_>, slip: Vec3) -> Sliding {
+        let slip_before = self.relative_velocity(&world.before).rejected_from(self.normal);
+        let displacement = (slip_before + slip) * (0.5 * world.elapsed);
+        Sliding { displacement, spin_angle: self.spin_angle(world), ..Sliding::default() }
     }
 
     #[inline]
@@ -389,10 +387,7 @@ fn over_contacts<R: Send + Sync + Copy>(
 pub fn contact_energy(world: &ContactWorld<'_>) -> ContactEnergy {
     let energy = |contact: &Contact<'_>| ContactEnergy {
         normal: world.laws.map_or(0.0, |laws| laws.normal.energy(contact.constants, &contact.touch)),
-        bond: match world.bonds {
-            Some(Bonds::StrainBond(bond)) => bond.energy(&contact.touch),
-            _ => 0.0,
-        },
+        bond: world.bonds.and_then(Bonds::in_contact).map_or(0.0, |bond| bond.energy(&contact.touch)),
     };
     let sum = |a: ContactEnergy, b: ContactEnergy| ContactEnergy {
         normal: a.normal + b.normal,
@@ -405,9 +400,9 @@ pub fn contact_energy(world: &ContactWorld<'_>) -> ContactEnergy {
 pub fn contact_pace(world: &ContactWorld<'_>) -> Pace {
     let pace = |contact: &Contact<'_>| {
         let laws = world.laws.map_or(Pace::NONE, |laws| laws.pace(contact.constants, &contact.touch));
-        match world.bonds {
-            Some(Bonds::StrainBond(bond)) => laws + bond.pace(&contact.touch),
-            _ => laws,
+        match world.bonds.and_then(Bonds::in_contact) {
+            Some(bond) => laws + bond.pace(&contact.touch),
+            None => laws,
         }
     };
     over_contacts(world, Pace::NONE, pace, Pace::max)

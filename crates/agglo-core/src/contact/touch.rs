@@ -37,90 +37,96 @@
 
 use std::f64::consts::FRAC_PI_4;
 
+use crate::math::Real;
+
 /// Terms after which the series of [`Touch::strain_integral`] is cut.
 const LONGEST_SERIES: u32 = 2000;
 
 /// The geometry and inertia of one touching pair, as the laws see it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Touch {
+pub struct Touch<F = f64> {
     /// δ = R_i + R_j - d [m], > 0.
-    pub overlap: f64,
+    pub overlap: F,
     /// R_i + R_j [m].
-    pub radius_sum: f64,
+    pub radius_sum: F,
     /// R* = R_i R_j / (R_i + R_j) [m].
-    pub effective_radius: f64,
+    pub effective_radius: F,
     /// m* = m_i m_j / (m_i + m_j) [kg].
-    pub effective_mass: f64,
+    pub effective_mass: F,
     /// Mean of the two grains' contact stiffness [Pa], softened by heat.
-    pub stiffness: f64,
+    pub stiffness: F,
 }
 
-impl Touch {
+impl<F: Real> Touch<F> {
     /// Two grains with radii [m], masses [kg] and contact stiffness [Pa], centers `distance` [m] apart.
     #[inline]
-    pub fn new(radii: [f64; 2], masses: [f64; 2], stiffness: [f64; 2], distance: f64) -> Self {
+    pub fn new(radii: [F; 2], masses: [F; 2], stiffness: [F; 2], distance: F) -> Self {
         let radius_sum = radii[0] + radii[1];
         Self {
             overlap: radius_sum - distance,
             radius_sum,
             effective_radius: radii[0] * radii[1] / radius_sum,
             effective_mass: masses[0] * masses[1] / (masses[0] + masses[1]),
-            stiffness: 0.5 * (stiffness[0] + stiffness[1]),
+            stiffness: F::of(0.5) * (stiffness[0] + stiffness[1]),
         }
     }
 
     /// d = |r_j - r_i| [m].
     #[inline]
-    pub fn distance(&self) -> f64 {
+    pub fn distance(&self) -> F {
         self.radius_sum - self.overlap
     }
 
     /// Mass [kg] that resists sliding at the contact of two solid spheres, which may roll: 1/m* + Σ R²/I = 7/(2 m*).
     #[inline]
-    pub fn sliding_mass(&self) -> f64 {
-        2.0 / 7.0 * self.effective_mass
+    pub fn sliding_mass(&self) -> F {
+        F::of(2.0 / 7.0) * self.effective_mass
     }
 
     /// Overlap over the sum of the radii [-] ([A] 14).
     #[inline]
-    pub fn strain(&self) -> f64 {
+    pub fn strain(&self) -> F {
         self.overlap / self.radius_sum
     }
 
     /// Area A [m²] of the disc in which the two spheres cut each other ([A] 64-69); 0 where there is none.
     #[inline]
-    pub fn area(&self) -> f64 {
+    pub fn area(&self) -> F {
         self.overlap * self.area_over_overlap()
     }
 
     /// A/δ [m], finite as the overlap goes to 0 (2 π R* there).
     #[inline]
-    pub fn area_over_overlap(&self) -> f64 {
+    pub fn area_over_overlap(&self) -> F {
         let strain = self.strain();
-        FRAC_PI_4 * self.radius_sum * (2.0 - strain) * self.lens(strain)
+        F::of(FRAC_PI_4) * self.radius_sum * (F::of(2.0) - strain) * self.lens(strain)
     }
 
     /// dA/dδ [m]; negative where the disc shrinks with growing overlap.
     #[inline]
-    pub fn area_slope(&self) -> f64 {
+    pub fn area_slope(&self) -> F {
+        let (zero, one, two) = (F::of(0.0), F::of(1.0), F::of(2.0));
         let strain = self.strain();
         let lens = self.lens(strain);
-        if lens == 0.0 {
-            return 0.0;
-        }
-        let rest = 1.0 - strain;
-        let unlike = 1.0 - 4.0 * self.effective_radius / self.radius_sum;
-        let lens_slope = -2.0 * unlike / (rest * rest * rest);
-        FRAC_PI_4 * self.radius_sum * (2.0 * rest * lens + strain * (2.0 - strain) * lens_slope)
+        let rest = one - strain;
+        let unlike = one - F::of(4.0) * self.effective_radius / self.radius_sum;
+        let lens_slope = -two * unlike / (rest * rest * rest);
+        let slope =
+            F::of(FRAC_PI_4) * self.radius_sum * (two * rest * lens + strain * (two - strain) * lens_slope);
+        F::select(zero.below(lens), slope, zero)
     }
 
     /// h(u), 0 where one sphere lies inside the other; 1 for equal spheres.
     #[inline]
-    fn lens(&self, strain: f64) -> f64 {
-        let above = 4.0 * self.effective_radius / self.radius_sum - strain * (2.0 - strain);
-        if above > 0.0 { above / ((1.0 - strain) * (1.0 - strain)) } else { 0.0 }
+    fn lens(&self, strain: F) -> F {
+        let (zero, one) = (F::of(0.0), F::of(1.0));
+        let above = F::of(4.0) * self.effective_radius / self.radius_sum - strain * (F::of(2.0) - strain);
+        let lens = above / ((one - strain) * (one - strain));
+        F::select(zero.below(above), lens, zero)
     }
+}
 
+impl Touch {
     /// Integral of E^p A over the overlap from 0 to δ [m³]: energy per stiffness of a strain-power law.
     ///
     /// From the power series u (2 - u) h = 2 q u - (1 + 3 w) u² - w Σ (k + 2) u^(k+1), k >= 2, w = 1 - q,

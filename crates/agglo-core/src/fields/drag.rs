@@ -62,6 +62,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{FlowAt, FlowField};
 use crate::acoustics::Medium;
+use crate::law::{Faults, Law, Surroundings};
 use crate::math::{Pace, Vec3};
 
 /// Drag on every grain; viscosity and density are the medium's.
@@ -87,6 +88,49 @@ pub enum DragLaw {
     Stokes,
     /// Schiller and Naumann's factor 1 + 0.15 Re^0.687 on Stokes' law, up to Re = 1000.
     SchillerNaumann,
+}
+
+/// How far a law of drag holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Validity {
+    /// Largest Reynolds number.
+    pub reynolds: f64,
+    /// Up to where it holds, in words.
+    pub holds: &'static str,
+    /// The warning of a run that goes beyond.
+    pub warning: &'static str,
+}
+
+impl DragLaw {
+    /// How far it holds: Stokes' law is 15 % off at a Reynolds number of 1, Schiller and Naumann's is fitted up to 1000.
+    pub fn validity(self) -> Validity {
+        match self {
+            Self::Stokes => Validity {
+                reynolds: 1.0,
+                holds: "stokes holds below 1, schiller_naumann up to 1000",
+                warning: "fields.drag: a grain's Reynolds number is above 1, where stokes is too weak; schiller_naumann \
+                          holds up to 1000",
+            },
+            Self::SchillerNaumann => Validity {
+                reynolds: 1000.0,
+                holds: "schiller_naumann holds up to 1000",
+                warning: "fields.drag: a grain's Reynolds number is above 1000, where schiller_naumann does not hold",
+            },
+        }
+    }
+}
+
+lone_law!(Drag at "fields", drag);
+
+impl Law for Drag {
+    fn faults(&self, faults: &mut Faults, around: &Surroundings<'_>) {
+        faults.zero_or_more("added_mass", self.added_mass);
+        if around.medium.viscosity.si() == 0.0 {
+            let message = "the medium has no viscosity: there would be no drag".to_owned();
+            let help = "give medium.viscosity, such as \"1 mPa s\" for water, or remove [fields.drag]";
+            faults.fail_with("law", message, help);
+        }
+    }
 }
 
 impl Drag {

@@ -39,6 +39,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::{Channel, FieldLaw, Grain};
+use crate::law::{Faults, Law, Surroundings};
 use crate::math::Vec3;
 use crate::units::{Acceleration, Triple, vector};
 
@@ -51,6 +53,24 @@ pub struct Gravity {
     /// Whether the medium carries part of the weight.
     #[serde(default)]
     pub buoyancy: bool,
+}
+
+impl Law for Gravity {
+    fn faults(&self, faults: &mut Faults, around: &Surroundings<'_>) {
+        if self.buoyancy && around.medium.density.si() == 0.0 {
+            let message = "buoyancy is on, but medium.density is 0".to_owned();
+            faults.fail_with("buoyancy", message, "give the medium a density or turn buoyancy off");
+        }
+    }
+}
+
+impl FieldLaw for Gravity {
+    const CHANNEL: Channel = Channel::Gravity;
+
+    #[inline]
+    fn force(&self, grain: &Grain) -> Vec3 {
+        self.acceleration_on(grain.density_ratio) * grain.mass
+    }
 }
 
 impl Gravity {

@@ -33,18 +33,19 @@
 //!
 //! # Example
 //! ```
-//! use agglo::{fields::{Expression, Lorentz}, math::Vec3};
+//! use agglo::{fields::{Expression, FieldLaw, Grain, Lorentz}, math::Vec3};
 //! let field = ["0 T", "0 T", "2 T"].map(|text| Expression::new(text).unwrap());
 //! let lorentz = Lorentz { electric_field: None, magnetic_flux_density: Some(field) };
-//! let force = lorentz.force(0.5, Vec3::new(3.0, 0.0, 0.0), Vec3::ZERO, 0.0);
-//! assert_eq!(force, Vec3::new(0.0, -3.0, 0.0));
+//! let grain = Grain { charge: 0.5, velocity: Vec3::new(3.0, 0.0, 0.0), ..Default::default() };
+//! assert_eq!(lorentz.force(&grain), Vec3::new(0.0, -3.0, 0.0));
 //! ```
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::FieldVector;
 use super::expression::evaluate;
+use super::{Channel, FieldLaw, FieldVector, Grain};
+use crate::law::{Faults, Law, Surroundings};
 use crate::math::{Pace, Vec3};
 
 /// q (E + v x B).
@@ -59,10 +60,21 @@ pub struct Lorentz {
     pub magnetic_flux_density: Option<FieldVector<1, 0, -2, 0, -1>>,
 }
 
-impl Lorentz {
-    /// Force [N] on a charge [C] with a velocity [m/s] at a point [m] and time [s].
+impl Law for Lorentz {
+    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+        if self.electric_field.is_none() && self.magnetic_flux_density.is_none() {
+            let message = "has neither electric_field nor magnetic_flux_density".to_owned();
+            faults.fail_with("", message, "give one of them or remove the table");
+        }
+    }
+}
+
+impl FieldLaw for Lorentz {
+    const CHANNEL: Channel = Channel::Field;
+
     #[inline]
-    pub fn force(&self, charge: f64, velocity: Vec3, position: Vec3, time: f64) -> Vec3 {
+    fn force(&self, grain: &Grain) -> Vec3 {
+        let Grain { charge, velocity, position, time, .. } = *grain;
         if charge == 0.0 {
             return Vec3::ZERO;
         }
@@ -73,19 +85,28 @@ impl Lorentz {
         field * charge
     }
 
-    /// What the force on a charge [C] turns by: q B [kg/s] at a point [m] and time [s].
+    /// q B.
     #[inline]
-    pub fn turning(&self, charge: f64, position: Vec3, time: f64) -> Vec3 {
+    fn turning(&self, grain: &Grain) -> Vec3 {
+        let Grain { charge, position, time, .. } = *grain;
         match &self.magnetic_flux_density {
             Some(flux_density) if charge != 0.0 => evaluate(flux_density, position, time) * charge,
             _ => Vec3::ZERO,
         }
     }
 
-    /// How fast a charge [C] of a grain of this mass [kg] and radius [m] moves at a point [m] and time [s]: by the
-    /// frequency q B/m of rotation, and by the gradient of E.
-    pub fn pace(&self, charge: f64, mass: f64, radius: f64, position: Vec3, time: f64) -> Pace {
-        let turning = Pace::of_dashpot(self.turning(charge, position, time).norm(), mass);
+    fn turns(&self) -> bool {
+        self.magnetic_flux_density.is_some()
+    }
+
+    fn is_by_charge(&self) -> bool {
+        true
+    }
+
+    /// By the frequency q B/m of rotation, and by the gradient of E.
+    fn pace(&self, grain: &Grain) -> Pace {
+        let Grain { charge, inertial_mass: mass, radius, position, time, .. } = *grain;
+        let turning = Pace::of_dashpot(self.turning(grain).norm(), mass);
         let Some(field) =
             self.electric_field.as_ref().filter(|field| field.iter().any(|e| e.constant().is_none()))
         else {
@@ -117,7 +138,8 @@ mod tests {
             let out = Vec3::new(angle.cos(), angle.sin(), 0.0);
             // A positive charge goes round clockwise, seen against B.
             let velocity = out.cross(Vec3::AXES[2]) * speed;
-            let force = law.force(charge, velocity, out * radius, 0.0);
+            let grain = Grain { charge, velocity, position: out * radius, ..Default::default() };
+            let force = law.force(&grain);
             let centripetal = out * (-mass * speed * speed / radius);
             assert_close_vector!(force, centripetal, 1e-14, "in N");
             assert_below!(force.dot(velocity).abs(), 1e-14 * force.norm() * speed, "in N");
@@ -128,10 +150,13 @@ mod tests {
     fn electric_force_follows_its_formula() {
         let field = ["1 kV/m", "0 V/m", "100*sin(t)*z"].map(|text| Expression::new(text).unwrap());
         let law = Lorentz { electric_field: Some(field), magnetic_flux_density: None };
-        let force = law.force(-2e-9, Vec3::AXES[0], Vec3::new(0.0, 0.0, 3.0), 0.5);
+        let position = Vec3::new(0.0, 0.0, 3.0);
+        let grain =
+            Grain { charge: -2e-9, velocity: Vec3::AXES[0], position, time: 0.5, ..Default::default() };
+        let force = law.force(&grain);
         let by_hand = Vec3::new(1000.0, 0.0, 300.0 * 0.5_f64.sin()) * -2e-9;
         assert_near_vector!(force, by_hand, 1e-20, "in N");
-        assert_eq!(law.force(0.0, Vec3::AXES[0], Vec3::ZERO, 0.0), Vec3::ZERO);
+        assert_eq!(law.force(&Grain { charge: 0.0, ..grain }), Vec3::ZERO);
     }
 
     /// The slope of E is taken over what a grain spans, however heavy it is: E = sin(k x) with k = 2 π/1 cm has the slope k at 0,
@@ -143,7 +168,8 @@ mod tests {
         let slope = std::f64::consts::TAU / 0.01;
         let within = 1.0 - (slope * 1e-5).powi(2) / 6.0;
         for mass in [1e-9, 2.0] {
-            let pace = law.pace(3e-6, mass, 1e-3, Vec3::ZERO, 0.0);
+            let grain = Grain { charge: 3e-6, inertial_mass: mass, radius: 1e-3, ..Default::default() };
+            let pace = law.pace(&grain);
             assert_close!(pace.square, 3e-6 * slope * within / mass, 1e-9, "in 1/s², a grain of {mass} kg");
         }
     }

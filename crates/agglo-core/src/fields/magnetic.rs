@@ -31,18 +31,19 @@
 //!
 //! # Example
 //! ```
-//! use agglo::{fields::{Expression, Magnetic}, math::Vec3, units::Quantity};
+//! use agglo::{fields::{Expression, FieldLaw, Grain, Magnetic}, units::Quantity};
 //! let field = ["0 T", "0 T", "0.5 + 10*z"].map(|text| Expression::new(text).unwrap());
 //! let law = Magnetic { magnetizability: Quantity(2.0), magnetic_flux_density: field, difference: None };
-//! let force = law.force(1e-3, Vec3::ZERO, 0.0);
+//! let force = law.force(&Grain { radius: 1e-3, ..Default::default() });
 //! assert!((force.z - 2.0 * 2.0 * 0.5 * 10.0).abs() < 1e-9);
 //! ```
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::FieldVector;
 use super::expression::evaluate;
+use super::{Channel, FieldLaw, FieldVector, Grain};
+use crate::law::{Faults, Law, Surroundings};
 use crate::math::{Pace, Vec3};
 use crate::units::{Length, Magnetizability};
 
@@ -59,10 +60,20 @@ pub struct Magnetic {
     pub difference: Option<Length>,
 }
 
-impl Magnetic {
-    /// Force [N] on a grain of this radius [m] at a point [m] and time [s].
+impl Law for Magnetic {
+    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+        if let Some(difference) = self.difference {
+            faults.positive("difference", difference);
+        }
+    }
+}
+
+impl FieldLaw for Magnetic {
+    const CHANNEL: Channel = Channel::Field;
+
     #[inline]
-    pub fn force(&self, radius: f64, position: Vec3, time: f64) -> Vec3 {
+    fn force(&self, grain: &Grain) -> Vec3 {
+        let Grain { radius, position, time, .. } = *grain;
         let field = &self.magnetic_flux_density;
         if field.iter().all(|component| component.constant().is_some()) {
             return Vec3::ZERO;
@@ -76,15 +87,19 @@ impl Magnetic {
         Vec3::from(gradient) * self.magnetizability.si()
     }
 
-    /// How fast a grain of this mass [kg] and radius [m] moves by the gradient of the force at a point [m] and time [s].
-    pub fn pace(&self, mass: f64, radius: f64, position: Vec3, time: f64) -> Pace {
+    /// By the gradient of the force.
+    fn pace(&self, grain: &Grain) -> Pace {
+        let Grain { inertial_mass: mass, radius, position, .. } = *grain;
+        let at = |position: Vec3| self.force(&Grain { position, ..*grain });
         let square = Vec3::AXES.map(|axis| {
             let (ahead, behind) = (position + axis * radius, position - axis * radius);
-            (self.force(radius, ahead, time) - self.force(radius, behind, time)).norm_squared()
+            (at(ahead) - at(behind)).norm_squared()
         });
         Pace::of_spring(square.iter().sum::<f64>().sqrt() / (2.0 * radius), mass)
     }
+}
 
+impl Magnetic {
     /// Potential energy -γ B·B [J] of a grain at a point [m] and time [s].
     #[inline]
     pub fn energy(&self, position: Vec3, time: f64) -> f64 {
@@ -103,17 +118,21 @@ mod tests {
         Magnetic { magnetizability: Quantity(3e-6), magnetic_flux_density, difference: None }
     }
 
+    fn grain(radius: f64, position: Vec3, time: f64) -> Grain {
+        Grain { position, radius, time, ..Default::default() }
+    }
+
     /// B = (a + g x, -g y, 0): ∇(B·B) = 2 g (a + g x, g y, 0). Round-off: 1e-16 (B/g)/h = 1e-16 * 0.1/1e-8.
     #[test]
     fn uniform_gradients_are_exact() {
-        let force = law(["0.2 + 3*x", "-3*y", "0 T"]).force(1e-4, Vec3::new(0.05, 0.02, 0.7), 0.0);
+        let force = law(["0.2 + 3*x", "-3*y", "0 T"]).force(&grain(1e-4, Vec3::new(0.05, 0.02, 0.7), 0.0));
         let by_hand = Vec3::new(2.0 * 3.0 * (0.2 + 0.15), 2.0 * 9.0 * 0.02, 0.0) * 3e-6;
         assert!((force - by_hand).norm() < 1e-8 * by_hand.norm(), "{force:?} {by_hand:?}");
     }
 
     #[test]
     fn constant_fields_do_not_pull() {
-        assert_eq!(law(["1 T", "0 T", "2 T"]).force(1e-3, Vec3::ZERO, 0.0), Vec3::ZERO);
+        assert_eq!(law(["1 T", "0 T", "2 T"]).force(&grain(1e-3, Vec3::ZERO, 0.0)), Vec3::ZERO);
     }
 
     /// Against the central difference of the energy, over a longer step: (1e-4)²/6 of the third derivative.
@@ -121,7 +140,7 @@ mod tests {
     fn force_is_minus_the_gradient_of_energy() {
         let law = law(["sin(3*x)*cos(t)", "y*z", "exp(-z)"]);
         let (at, time) = (Vec3::new(0.3, -0.2, 0.5), 0.4);
-        let force = law.force(1e-2, at, time);
+        let force = law.force(&grain(1e-2, at, time));
         for axis in Vec3::AXES {
             let h = axis * 1e-4;
             let slope = (law.energy(at + h, time) - law.energy(at - h, time)) / 2e-4;

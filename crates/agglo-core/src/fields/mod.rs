@@ -4,6 +4,7 @@ mod drag;
 mod expression;
 mod flow;
 mod gravity;
+mod law;
 mod lorentz;
 mod magnetic;
 pub mod near_field;
@@ -11,31 +12,104 @@ pub mod near_field;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use drag::{Drag, DragLaw, spin_coefficient};
+pub use drag::{Drag, DragLaw, Validity, spin_coefficient};
 pub use expression::{Expression, FieldVector, evaluate};
 pub use flow::{Flow, FlowAt, FlowField};
 pub use gravity::Gravity;
+pub use law::{Channel, FieldLaw, Grain};
 pub use lorentz::Lorentz;
 pub use magnetic::Magnetic;
 pub use near_field::NearField;
 
-/// The fields of a scenario; each is off if left out.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Fields {
-    /// Weight, with buoyancy if wanted.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub gravity: Option<Gravity>,
-    /// Drag of the medium.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub drag: Option<Drag>,
-    /// Electric and magnetic force on charges.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub lorentz: Option<Lorentz>,
-    /// Magnetic force on magnetizable grains.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub magnetic: Option<Magnetic>,
-    /// Attraction and repulsion between grains at a distance.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub near_field: Option<NearField>,
+use crate::law::Chosen;
+use crate::math::{Pace, Vec3};
+
+/// Makes the table of fields from the list of forces on single grains, and all by which the rest of the program knows
+/// them: `word: Law, "what it is";`.
+macro_rules! fields {
+    ($($word:ident: $Law:ident, $says:tt;)+) => {
+        /// The fields of a scenario; each is off if left out.
+        #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+        #[serde(deny_unknown_fields)]
+        pub struct Fields {
+            $(
+                #[doc = $says]
+                #[serde(default, skip_serializing_if = "Option::is_none")]
+                pub $word: Option<$Law>,
+            )+
+            /// Drag of the medium.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            pub drag: Option<Drag>,
+            /// Attraction and repulsion between grains at a distance.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            pub near_field: Option<NearField>,
+        }
+
+        $(lone_law!($Law at "fields", $word);)+
+
+        impl Fields {
+            /// Paths of the forces on single grains, in their order.
+            pub const SINGLE: &'static [&'static str] = &[$(concat!("fields.", stringify!($word))),+];
+
+            /// All that the scenario has chosen.
+            pub fn chosen(&self) -> impl Iterator<Item = &dyn Chosen> {
+                [
+                    $(chosen(self.$word.as_ref()),)+
+                    chosen(self.drag.as_ref()),
+                    chosen(self.near_field.as_ref()),
+                ]
+                .into_iter()
+                .flatten()
+            }
+
+            /// Looks at the force of each field on a grain [N], and where the ledger books its work.
+            #[inline]
+            pub fn each_force(&self, grain: &Grain, mut look: impl FnMut(Channel, Vec3)) {
+                $(if let Some(law) = &self.$word {
+                    look($Law::CHANNEL, FieldLaw::force(law, grain));
+                })+
+            }
+
+            /// How fast each field is, in the order of [`Self::SINGLE`].
+            pub fn paces(&self, grain: &Grain) -> [Pace; Self::SINGLE.len()] {
+                [$(self.$word.as_ref().map_or(Pace::NONE, |law| FieldLaw::pace(law, grain))),+]
+            }
+
+            /// What all fields turn the velocity of a grain by [kg/s].
+            #[inline]
+            pub fn turning(&self, grain: &Grain) -> Vec3 {
+                let mut sum = Vec3::ZERO;
+                $(if let Some(law) = self.$word.as_ref().filter(|law| law.turns()) {
+                    sum += FieldLaw::turning(law, grain);
+                })+
+                sum
+            }
+
+            /// Whether a field turns velocities.
+            pub fn turn(&self) -> bool {
+                $(self.$word.as_ref().is_some_and(FieldLaw::turns))||+
+            }
+
+            /// Whether a field acts on charges alone.
+            pub fn are_by_charge(&self) -> bool {
+                self.near_field.as_ref().is_some_and(|field| field.law.is_by_charge())
+                    $(|| self.$word.as_ref().is_some_and(FieldLaw::is_by_charge))+
+            }
+
+            /// Whether a force acts on single grains.
+            pub fn has_single(&self) -> bool {
+                self.drag.is_some() $(|| self.$word.is_some())+
+            }
+        }
+    };
+}
+
+fn chosen<L: Chosen>(law: Option<&L>) -> Option<&dyn Chosen> {
+    law.map(|law| law as &dyn Chosen)
+}
+
+fields! {
+    gravity: Gravity, "Weight, with buoyancy if wanted.";
+    lorentz: Lorentz, "Electric and magnetic force on charges.";
+    magnetic: Magnetic, "Magnetic force on magnetizable grains.";
 }

@@ -57,7 +57,10 @@ use serde::{Deserialize, Serialize};
 
 use super::decay::Decay;
 use crate::constants::STEFAN_BOLTZMANN;
+use crate::law::{Faults, Law, Surroundings};
 use crate::math::roots::root_between;
+use crate::particles::Property;
+use crate::particles::property::{EMISSIVITY, HEAT_CAPACITY, THERMAL_CONDUCTIVITY};
 use crate::units::{HeatTransfer, Quantity, Temperature};
 
 /// Convection to the gas and radiation to the surroundings, [B] 6.19-6.21.
@@ -76,6 +79,38 @@ pub struct Cooling {
     /// How it is integrated.
     #[serde(default)]
     pub integration: Integration,
+}
+
+lone_law!(Cooling at "impact", cooling);
+
+impl Law for Cooling {
+    const READS: &'static [Property] = &[HEAT_CAPACITY, EMISSIVITY, THERMAL_CONDUCTIVITY];
+
+    fn faults(&self, faults: &mut Faults, around: &Surroundings<'_>) {
+        if self.integration == Integration::Published && !around.is_stepped {
+            // It would be one step from a grain's impact to its next.
+            let message = "found \"published\", which takes the engine's steps; engine.event_driven has none"
+                .to_owned();
+            faults.fail_with("integration", message, "choose \"exact\", or [engine.time_stepped]");
+        }
+        faults.not_negative("convection", self.convection);
+        faults.positive("gas_temperature", self.gas_temperature);
+        faults.positive("surroundings", self.surroundings);
+    }
+
+    fn notes(&self, _: &Surroundings<'_>) -> Vec<String> {
+        let note = "impact.cooling.integration = published: one Euler step overshoots below zero where grains are hot and is then cut; exact does not";
+        (self.integration == Integration::Published).then(|| note.to_owned()).into_iter().collect()
+    }
+
+    fn warnings(&self) -> &'static [&'static str] {
+        match self.integration {
+            Integration::Exact => &[],
+            Integration::Published => &[
+                "impact.cooling.integration = \"published\" overshoots where grains are hot: the answer depends on the step",
+            ],
+        }
+    }
 }
 
 fn room_temperature() -> Temperature {

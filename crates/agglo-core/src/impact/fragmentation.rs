@@ -56,7 +56,10 @@ use std::f64::consts::PI;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::law::{Faults, Law, Surroundings};
 use crate::math::rng::{Purpose, Stream};
+use crate::particles::Property;
+use crate::particles::property::SURFACE_ENERGY;
 
 /// Fragmentation, [B] 5.1-5.5; materials need a `surface_energy`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -68,6 +71,33 @@ pub struct Fragmentation {
     /// Sizes of the fragments.
     #[serde(default)]
     pub fragments: Fragments,
+}
+
+lone_law!(Fragmentation at "impact", fragmentation);
+
+impl Law for Fragmentation {
+    const READS: &'static [Property] = &[SURFACE_ENERGY];
+
+    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+        if let Fragments::PowerLaw(law) = &self.fragments {
+            faults.exponent("fragments.power_law.exponent", law.exponent);
+        }
+    }
+
+    fn notes(&self, _: &Surroundings<'_>) -> Vec<String> {
+        let note = "impact.fragmentation.energy = published: what breaks depends on the observer; center_of_mass does not";
+        (self.energy == BreakingEnergy::Published).then(|| note.to_owned()).into_iter().collect()
+    }
+
+    fn warnings(&self) -> &'static [&'static str] {
+        match self.energy {
+            BreakingEnergy::CenterOfMass => &[],
+            BreakingEnergy::Published => &[
+                "impact.fragmentation.energy = \"published\": what breaks depends on the velocity of the observer, and \
+                 surfaces can take more than the impact lost",
+            ],
+        }
+    }
 }
 
 /// The energy that an agglomerate can break with.

@@ -53,6 +53,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::law::{Law, Surroundings};
+use crate::particles::Property;
+use crate::particles::property::{HEAT_CAPACITY, REACTION_HEAT};
+
 /// Heat of an impact.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -63,6 +67,27 @@ pub struct HeatBalance {
     /// How the partners share it.
     #[serde(default)]
     pub share: Share,
+}
+
+lone_law!(HeatBalance at "impact", heat);
+
+impl Law for HeatBalance {
+    const READS: &'static [Property] = &[HEAT_CAPACITY, REACTION_HEAT];
+
+    fn notes(&self, _: &Surroundings<'_>) -> Vec<String> {
+        let note = "impact.heat.balance = published: a pair gets more heat than the energy it lost, and how much depends on the observer; the run's drift does not show it, its row \"false heat\" does; energy is consistent";
+        (self.balance == Balance::Published).then(|| note.to_owned()).into_iter().collect()
+    }
+
+    fn warnings(&self) -> &'static [&'static str] {
+        match self.balance {
+            Balance::Energy => &[],
+            Balance::Published => &[
+                "impact.heat.balance = \"published\" makes heat out of nothing, and its parts depend on the velocity of the \
+                 observer",
+            ],
+        }
+    }
 }
 
 /// What the heat of a pair is.

@@ -5,15 +5,12 @@ use std::f64::consts::PI;
 
 use super::contact_area::ContactArea;
 use super::cooling::{Cooler, Integration};
-use super::fragmentation::{BreakingEnergy, Draws, Fragmentation, Fragments};
-use super::heat::{Balance, HeatBalance, warmed};
-use super::restitution::Restitution;
-use super::restitution::hardness::{ForceTime, Hardness, Solver};
-use super::solve::{Meeting, Trial};
-use super::sticking::common_velocity;
+use super::fragmentation::{Fragmentation, Fragments};
+use super::heat::HeatBalance;
+use super::restitution::{Hardness, Rebound};
 use super::tangential::SlipLimit;
-use super::{Body, Impact, ImpactEnergy, Outcome, Sticking, softening};
-use crate::math::Vec3;
+use super::{Body, Impact, Sticking, softening};
+use crate::law::Chosen;
 use crate::math::rng::Stream;
 use crate::particles::{Material, Mixture};
 use crate::units::Quantity;
@@ -47,16 +44,9 @@ pub(super) struct Matter {
 
 /// What two materials have in common.
 #[derive(Clone, Copy, Debug)]
-struct PairLaw {
-    rebound: Rebound,
-    friction: f64,
-}
-
-/// Where the restitution comes from.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Rebound {
-    Constant(f64),
-    Hardness,
+pub(super) struct PairLaw {
+    pub rebound: Rebound,
+    pub friction: f64,
 }
 
 impl ImpactLaws {
@@ -69,10 +59,7 @@ impl ImpactLaws {
                 pairs.push(pair_law(impact, Mixture::of(mixtures, a, b)));
             }
         }
-        let hardness = match &impact.restitution {
-            Restitution::Hardness(law) => Some(law.clone()),
-            Restitution::Constant(_) => None,
-        };
+        let hardness = impact.restitution.hardness().cloned();
         Self {
             materials: materials.values().map(|material| matter(impact, material)).collect(),
             pairs,
@@ -86,64 +73,20 @@ impl ImpactLaws {
         }
     }
 
+    /// What two materials have in common.
+    #[inline]
+    pub(super) fn pair(&self, bodies: [&Body; 2]) -> PairLaw {
+        self.pairs[bodies[0].material as usize * self.materials.len() + bodies[1].material as usize]
+    }
+
     #[inline]
     pub(super) fn matter(&self, body: &Body) -> &Matter {
         &self.materials[body.material as usize]
     }
 
-    /// The impact of two partners of which no fragment is drawn at random, or of which the draw does not matter.
-    pub fn impact(&self, bodies: [&Body; 2], normal: Vec3) -> Outcome {
-        self.impact_drawn(bodies, normal, &Draws::new(0, 0))
-    }
-
     /// Whether sizes of fragments are drawn at random.
     pub fn draws_fragments(&self) -> bool {
         self.fragmentation.as_ref().is_some_and(|law| matches!(law.fragments, Fragments::PowerLaw(_)))
-    }
-
-    /// The impact of two partners; `normal` is the unit vector from the first to the second, `draws` decide the sizes of
-    /// fragments.
-    ///
-    /// Swapping the partners with their draws and turning the normal round gives the same bits, swapped. Partners that do not
-    /// approach are left as they are, with restitution 1.
-    pub fn impact_drawn(&self, bodies: [&Body; 2], normal: Vec3, draws: &Draws) -> Outcome {
-        let relative = bodies[0].velocity - bodies[1].velocity;
-        let approach = relative.dot(normal);
-        if approach.is_nan() || approach <= 0.0 {
-            return untouched(bodies);
-        }
-        let across = relative - normal * approach;
-        let size = across.norm();
-        // What rounding leaves of a head-on impact is no slip.
-        let slip = if size > 8.0 * f64::EPSILON * approach { size } else { 0.0 };
-        let along = if slip > 0.0 { across * (1.0 / slip) } else { Vec3::ZERO };
-        let pair =
-            &self.pairs[bodies[0].material as usize * self.materials.len() + bodies[1].material as usize];
-        let meeting = Meeting::new(self, bodies, draws, pair.friction, [normal, along], [approach, slip]);
-        let solution = meeting.solve(pair.rebound);
-        let stuck = solution.restitution == 0.0 && self.sticking == Sticking::Merge;
-        let trial = meeting.trial(solution.restitution, stuck);
-        let mut outcome = settle(&meeting, &trial, bodies);
-        outcome.sticks = stuck && outcome.fragments == [1; 2];
-        outcome.velocities = if stuck {
-            [common_velocity(bodies); 2]
-        } else {
-            let impulse = normal * trial.normal_impulse + along * trial.tangential_impulse;
-            pushed(bodies, impulse)
-        };
-        outcome.iterations = solution.iterations;
-        outcome.converged &= solution.converged;
-        outcome
-    }
-
-    /// The same without losses: e = 1, no friction, no heat. What contacts are given that would collapse.
-    pub fn elastic(&self, bodies: [&Body; 2], normal: Vec3) -> Outcome {
-        let approach = (bodies[0].velocity - bodies[1].velocity).dot(normal);
-        if approach.is_nan() || approach <= 0.0 {
-            return untouched(bodies);
-        }
-        let reduced = bodies[0].mass * bodies[1].mass / (bodies[0].mass + bodies[1].mass);
-        Outcome { velocities: pushed(bodies, normal * (2.0 * reduced * approach)), ..untouched(bodies) }
     }
 
     /// Temperature [K] of a body after cooling alone for `duration` [s].
@@ -185,100 +128,18 @@ impl ImpactLaws {
 
     /// Words of the laws that act, for messages.
     pub fn names(&self) -> Vec<&'static str> {
-        let mut names = vec![match &self.impact.restitution {
-            Restitution::Hardness(_) => "impact.restitution.hardness",
-            Restitution::Constant(_) => "impact.restitution.constant",
-        }];
-        names.extend(self.impact.tangential.as_ref().map(|_| "impact.tangential"));
-        names.push(match self.sticking {
-            Sticking::Merge => "impact.sticking.merge",
-            Sticking::Never => "impact.sticking.never",
-        });
-        names.extend(self.fragmentation.as_ref().map(|_| "impact.fragmentation"));
-        names.extend(self.impact.cooling.as_ref().map(|_| "impact.cooling"));
-        names
+        self.impact.chosen().map(Chosen::key).collect()
     }
 
     /// What the user is told once: laws that do not converge, options that break a conservation law.
     pub fn standing_warnings(&self) -> Vec<&'static str> {
-        let mut warnings = Vec::new();
-        if let Some(law) = &self.hardness {
-            if law.force_over == ForceTime::Compression {
-                warnings.push(
-                    "impact.restitution.hardness.force_over = \"compression\" divides the impulse of the whole impact by \
-                     the time of compression alone",
-                );
-            }
-            if matches!(law.solver, Solver::FixedPoint(_)) {
-                warnings.push(
-                    "impact.restitution.hardness.solver.fixed_point need not converge: with elastic_area = 0 it flips \
-                     between two values for ever",
-                );
-            }
-        }
-        if self.limit == SlipLimit::Published {
-            warnings.push(
-                "impact.tangential.limit = \"published\": friction can reverse the slip and add energy",
-            );
-        }
-        if self.heat.balance == Balance::Published {
-            warnings.push(
-                "impact.heat.balance = \"published\" makes heat out of nothing, and its parts depend on the velocity of the \
-                 observer",
-            );
-        }
-        if self.fragmentation.as_ref().is_some_and(|law| law.energy == BreakingEnergy::Published) {
-            warnings.push(
-                "impact.fragmentation.energy = \"published\": what breaks depends on the velocity of the observer, and \
-                 surfaces can take more than the impact lost",
-            );
-        }
-        if self.impact.cooling.as_ref().is_some_and(|law| law.integration == Integration::Published) {
-            warnings.push(
-                "impact.cooling.integration = \"published\" overshoots where grains are hot: the answer depends on the step",
-            );
-        }
-        warnings
-    }
-}
-
-/// Heat, fragments and the ledger of a solved impact.
-fn settle(meeting: &Meeting<'_>, trial: &Trial, bodies: [&Body; 2]) -> Outcome {
-    let breakage = meeting.breakage(trial);
-    let heat = meeting.heat(trial, breakage.surfaces);
-    let mut booked = heat.each;
-    let mut temperatures = [0.0; 2];
-    let mut converged = true;
-    for side in [0, 1] {
-        let Body { temperature, heat_capacity, .. } = *bodies[side];
-        temperatures[side] = warmed(temperature, heat_capacity, heat.each[side]).unwrap_or_else(|| {
-            converged = false;
-            booked[side] = 0.0;
-            temperature
-        });
-    }
-    Outcome {
-        restitution: trial.restitution,
-        temperatures,
-        fragments: breakage.fragments,
-        energy: ImpactEnergy {
-            normal: trial.normal,
-            tangential: trial.tangential,
-            reaction: heat.reaction,
-            surface: breakage.surfaces[0] + breakage.surfaces[1],
-            heat: booked[0] + booked[1],
-        },
-        converged,
-        ..Outcome::default()
+        self.impact.chosen().flat_map(Chosen::warnings).copied().collect()
     }
 }
 
 fn pair_law(impact: &Impact, own: Option<&Mixture>) -> PairLaw {
-    let rebound = match (own.and_then(|mixture| mixture.restitution), &impact.restitution) {
-        (Some(restitution), _) => Rebound::Constant(restitution),
-        (None, Restitution::Constant(law)) => Rebound::Constant(law.restitution),
-        (None, Restitution::Hardness(_)) => Rebound::Hardness,
-    };
+    let own_restitution = own.and_then(|mixture| mixture.restitution);
+    let rebound = own_restitution.map_or_else(|| impact.restitution.rebound(), Rebound::Constant);
     let of_law = impact.tangential.as_ref().map_or(0.0, |law| law.friction);
     PairLaw { rebound, friction: own.and_then(|mixture| mixture.dynamic_friction).unwrap_or(of_law) }
 }
@@ -297,27 +158,3 @@ fn matter(impact: &Impact, material: &Material) -> Matter {
 fn area_over_capacity(body: &Body) -> Option<f64> {
     (body.heat_capacity > 0.0).then(|| 4.0 * PI * body.radius * body.radius / body.heat_capacity)
 }
-
-/// Velocities after an impulse [N s] of the first on the second.
-fn pushed([a, b]: [&Body; 2], impulse: Vec3) -> [Vec3; 2] {
-    [a.velocity - impulse * (1.0 / a.mass), b.velocity + impulse * (1.0 / b.mass)]
-}
-
-/// Partners that did nothing to one another.
-fn untouched(bodies: [&Body; 2]) -> Outcome {
-    Outcome {
-        restitution: 1.0,
-        velocities: bodies.map(|body| body.velocity),
-        temperatures: bodies.map(|body| body.temperature),
-        fragments: [1; 2],
-        converged: true,
-        ..Outcome::default()
-    }
-}
-
-#[cfg(test)]
-#[path = "solution_tests.rs"]
-mod solution_tests;
-#[cfg(test)]
-#[path = "laws_tests.rs"]
-mod tests;

@@ -1,3 +1,5 @@
+use std::f64::consts::PI;
+
 use proptest::prelude::*;
 
 use super::*;
@@ -285,11 +287,11 @@ fn names_and_warnings() {
                 [impact.restitution.hardness]\nforce_over = \"compression\"\nsolver.fixed_point = {}\n";
     let published = laws(rule, [REACTIVE, TOUGH]);
     assert_eq!(published.standing_warnings().len(), 6);
-    assert_eq!(published.names().len(), 5);
+    assert_eq!(published.names().len(), 6);
     let consistent = laws(HARDNESS, [REACTIVE, TOUGH]);
     assert_empty!(consistent.standing_warnings());
     assert_false!(consistent.cools(), "the laws cool");
-    assert_eq!(consistent.names(), ["impact.restitution.hardness", "impact.sticking.merge"]);
+    assert_eq!(consistent.names(), ["impact.restitution.hardness", "impact.sticking.merge", "impact.heat"]);
 }
 
 const CONSISTENT: [&str; 4] = [

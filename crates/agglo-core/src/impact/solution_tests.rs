@@ -1,5 +1,7 @@
 //! Restitution and temperatures that go with each other: the coupled solution, and the iterations as printed.
 
+use std::f64::consts::PI;
+
 use super::tests::{HARDNESS, REACTIVE, TOUGH, laws, sphere};
 use super::*;
 use crate::constants::GAS_CONSTANT;

@@ -4,9 +4,9 @@
 
 use super::fragmentation::{self, BreakingEnergy, Draws};
 use super::heat::{Balance, parts, warmed};
-use super::laws::{ImpactLaws, Matter, Rebound};
-use super::restitution::Hardness;
+use super::laws::{ImpactLaws, Matter};
 use super::restitution::hardness::{FixedPoint, Solver};
+use super::restitution::{Hardness, Rebound};
 use super::{Body, Sticking, reaction_heat, tangential, work};
 use crate::math::Vec3;
 use crate::math::roots::root_between;

@@ -50,7 +50,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Body;
+use crate::law::{Chosen, Faults, Needs, Surroundings};
 use crate::math::Vec3;
+use crate::particles::Property;
 
 /// What becomes of a pair with restitution 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -61,6 +63,33 @@ pub enum Sticking {
     Merge,
     /// It goes on as two spheres without relative velocity along the normal.
     Never,
+}
+
+impl Chosen for Sticking {
+    fn key(&self) -> &'static str {
+        match self {
+            Self::Merge => "impact.sticking.merge",
+            Self::Never => "impact.sticking.never",
+        }
+    }
+
+    fn reads(&self) -> &'static [Property] {
+        &[]
+    }
+
+    fn needs(&self) -> Needs {
+        Needs::default()
+    }
+
+    fn faults(&self, _: &mut Faults, _: &Surroundings<'_>) {}
+
+    fn notes(&self, _: &Surroundings<'_>) -> Vec<String> {
+        Vec::new()
+    }
+
+    fn warnings(&self) -> &'static [&'static str] {
+        &[]
+    }
 }
 
 /// The sphere that two become, and the place [m] of its center. Swapping the two gives the same bits.

@@ -44,6 +44,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::law::{Faults, Law, Surroundings};
+
 /// Coulomb friction of an impact, [B] 4.17.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -53,6 +55,28 @@ pub struct Tangential {
     /// What bounds the impulse.
     #[serde(default)]
     pub limit: SlipLimit,
+}
+
+lone_law!(Tangential at "impact", tangential);
+
+impl Law for Tangential {
+    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+        faults.zero_or_more("friction", self.friction);
+    }
+
+    fn notes(&self, _: &Surroundings<'_>) -> Vec<String> {
+        let note = "impact.tangential.limit = published: friction may reverse the slip and create energy; no_slip does not";
+        (self.limit == SlipLimit::Published).then(|| note.to_owned()).into_iter().collect()
+    }
+
+    fn warnings(&self) -> &'static [&'static str] {
+        match self.limit {
+            SlipLimit::NoSlip => &[],
+            SlipLimit::Published => {
+                &["impact.tangential.limit = \"published\": friction can reverse the slip and add energy"]
+            }
+        }
+    }
 }
 
 /// What bounds the tangential impulse.

@@ -4,13 +4,15 @@ pub mod formula;
 mod pace;
 pub mod parallel;
 mod prefetch;
+mod real;
 pub mod rng;
 pub mod roots;
 mod sum;
-mod vec3;
+mod vector;
 
 pub use pace::Pace;
+pub use real::Real;
 pub use sum::rounding_of_sum;
-pub use vec3::Vec3;
+pub use vector::{Vec3, Vector};
 
 pub use prefetch::prefetch;

@@ -110,11 +110,11 @@ fn is_own_label(text: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::PAGES;
     use super::*;
+    use crate::catalog::pages;
 
     fn page(word: &str) -> &'static Page {
-        PAGES.iter().find(|page| page.has(word)).unwrap()
+        pages().find(|page| page.has(word)).unwrap()
     }
 
     fn labels(word: &str) -> Vec<String> {
@@ -149,7 +149,7 @@ mod tests {
 
     #[test]
     fn every_law_has_a_label_and_a_source() {
-        for page in PAGES {
+        for page in pages() {
             assert!(!page.labels().is_empty(), "{}: no label in its equation", page.name);
             let reference = page.reference().unwrap_or_else(|| panic!("{}: no source", page.name));
             assert!(reference.len() > 20 && !reference.contains('\n'), "{}: {reference}", page.name);

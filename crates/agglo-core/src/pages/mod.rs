@@ -20,8 +20,8 @@ pub struct Page {
 
 macro_rules! pages {
     ($($name:literal $group:literal $file:literal [$($word:literal)*];)*) => {
-        /// The pages of all laws, in the order of the code.
-        pub const PAGES: &[Page] = &[$(Page::new(
+        /// Pages of files that no family lists, in the order of the code.
+        pub const OF_SINGLE_FILES: &[Page] = &[$(Page::new(
             $name,
             $group,
             &[$($word),*],
@@ -31,25 +31,11 @@ macro_rules! pages {
 }
 
 pages! {
-    "strain_power" "contact/normal" "strain_power" [];
-    "hertz" "contact/normal" "hertz" [];
-    "hooke" "contact/normal" "hooke" [];
-    "viscous_area" "contact/damping" "viscous_area" [];
-    "restitution" "contact/damping" "restitution" [];
-    "regularized" "contact/friction" "regularized" [];
-    "mindlin" "contact/friction" "mindlin" [];
-    "strain_bond" "contact/bond" "strain_bond" [];
-    "beam" "contact/bond" "beam" [];
     "near_field" "fields/near_field" "mod" [];
-    "power_pair" "fields/near_field" "power_pair" [];
-    "coulomb" "fields/near_field" "coulomb" [];
-    "van_der_waals" "fields/near_field" "van_der_waals" [];
     "lorentz" "fields" "lorentz" [];
     "magnetic" "fields" "magnetic" [];
     "gravity" "fields" "gravity" [];
     "drag" "fields" "drag" ["stokes" "schiller_naumann"];
-    "hardness" "impact/restitution" "hardness" ["bracketed" "fixed_point"];
-    "constant" "impact/restitution" "constant" [];
     "contact_area" "impact" "contact_area" [];
     "contact_time" "impact" "contact_time" [];
     "softening" "impact" "softening" [];
@@ -68,7 +54,7 @@ pages! {
     "verlet" "engine/soft/step" "verlet" [];
     "event_driven" "engine/hard/drive" "event_driven" [];
     "time_stepped" "engine/hard/drive" "time_stepped" [];
-    "ray_force" "acoustics" "ray_force" ["impulse" "published_step" "radiation_pressure"];
+    "ray_force" "acoustics/ray_force" "mod" ["impulse" "published_step" "radiation_pressure"];
 }
 
 impl Page {
@@ -89,7 +75,7 @@ impl Page {
 
     /// Whether the law's code offers the energy that it stores, whose slope its force is.
     pub fn offers_energy(&self) -> bool {
-        self.source.contains("pub fn energy(")
+        self.source.contains("fn energy(")
     }
 
     /// Whether the page is that of a word; dashes count as underscores, capitals as small letters.

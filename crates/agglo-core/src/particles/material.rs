@@ -41,12 +41,9 @@
 //! assert!((clay.stiffness_at(300.0) / (1e7 * 0.4_f64.exp()) - 1.0).abs() < 1e-14);
 //! ```
 
-use std::collections::BTreeMap;
-
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::contact::PairConstants;
 use crate::units::{Conductivity, Density, Energy, Pressure, SpecificHeat, Stiffness, Temperature, Velocity};
 
 /// What grains are made of. A property that no law of the scenario uses can be left out.
@@ -167,52 +164,6 @@ impl Mixture {
     }
 }
 
-/// The constants of every pair of materials, by their numbers.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct PairTable {
-    count: usize,
-    pairs: Vec<PairConstants>,
-}
-
-impl PairTable {
-    /// Works out the table; materials are numbered in the order of the map.
-    pub fn new(materials: &BTreeMap<String, Material>, mixtures: &[Mixture]) -> Self {
-        let names: Vec<&String> = materials.keys().collect();
-        let count = names.len();
-        let mut pairs = Vec::with_capacity(count * count);
-        for a in &names {
-            for b in &names {
-                let own = Mixture::of(mixtures, a, b);
-                pairs.push(constants_of(&materials[*a], &materials[*b], own));
-            }
-        }
-        Self { count, pairs }
-    }
-
-    /// The constants of the materials with these numbers.
-    #[inline]
-    pub fn of(&self, a: u32, b: u32) -> &PairConstants {
-        &self.pairs[a as usize * self.count + b as usize]
-    }
-}
-
-fn constants_of(a: &Material, b: &Material, own: Option<&Mixture>) -> PairConstants {
-    let mut constants = PairConstants::default();
-    if let (Some(ea), Some(eb)) = (a.youngs_modulus, b.youngs_modulus) {
-        let (va, vb) = (a.poisson_ratio.unwrap_or(0.0), b.poisson_ratio.unwrap_or(0.0));
-        let (ea, eb) = (ea.si(), eb.si());
-        constants.effective_modulus = 1.0 / ((1.0 - va * va) / ea + (1.0 - vb * vb) / eb);
-        let shear = 1.0 / (2.0 * (2.0 - va) * (1.0 + va) / ea + 2.0 * (2.0 - vb) * (1.0 + vb) / eb);
-        constants.tangential_ratio = 4.0 * shear / constants.effective_modulus;
-    }
-    if let Some(own) = own {
-        constants.restitution = own.restitution;
-        constants.static_friction = own.static_friction;
-        constants.dynamic_friction = own.dynamic_friction;
-    }
-    constants
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -246,49 +197,5 @@ mod tests {
         assert_eq!(plain.stiffness_at(4000.0), 1e7);
         let none = Material { contact_stiffness: None, softening: None, ..one };
         assert_eq!(none.stiffness_at(300.0), 0.0);
-    }
-
-    /// Equal materials: E* = E/(2 (1-ν²)), κ = 2 (1-ν)/(2-ν); against a rigid one both as 1/E -> 0.
-    #[test]
-    fn pair_constants_in_closed_form() {
-        for poisson in [0.0, 0.2, 0.3, 0.5] {
-            let equal = constants_of(&material(4e10, poisson), &material(4e10, poisson), None);
-            let modulus = 2e10 / (1.0 - poisson * poisson);
-            assert_close!(equal.effective_modulus, modulus, 1e-14);
-            let ratio = 2.0 * (1.0 - poisson) / (2.0 - poisson);
-            assert_close!(equal.tangential_ratio, ratio, 1e-14);
-            let rigid = constants_of(&material(4e10, poisson), &material(1e40, 0.1), None);
-            assert_close!(rigid.effective_modulus, 2.0 * modulus, 1e-14);
-        }
-        // By hand: 0.96/70e9 + 0.91/40e9 and 2 (1.8·1.2/70e9 + 1.7·1.3/40e9).
-        let unlike = constants_of(&material(7e10, 0.2), &material(4e10, 0.3), None);
-        let modulus = 1.0 / (0.96 / 7e10 + 0.91 / 4e10);
-        let shear = 0.5 / (2.16 / 7e10 + 2.21 / 4e10);
-        assert_close!(unlike.effective_modulus, modulus, 1e-14);
-        assert_close!(unlike.tangential_ratio, 4.0 * shear / modulus, 1e-14);
-    }
-
-    #[test]
-    fn the_table_is_symmetric_and_knows_mixtures() {
-        let names = ["clay", "sand", "steel"].map(str::to_owned);
-        let of = [material(1e9, 0.1), material(7e10, 0.2), material(2e11, 0.3)];
-        let materials: BTreeMap<String, Material> = names.iter().cloned().zip(of).collect();
-        let mixture = Mixture {
-            between: [names[2].clone(), names[0].clone()],
-            restitution: Some(0.6),
-            static_friction: None,
-            dynamic_friction: Some(0.2),
-        };
-        let table = PairTable::new(&materials, &[mixture]);
-        for a in 0..3 {
-            for b in 0..3 {
-                assert_eq!(table.of(a, b).restitution, table.of(b, a).restitution);
-                let ratio = table.of(a, b).effective_modulus / table.of(b, a).effective_modulus;
-                assert_near!(ratio, 1.0, 1e-15);
-                assert_eq!(table.of(a, b).restitution.is_some(), a + b == 2 && a != b);
-            }
-        }
-        assert_eq!(table.of(0, 2).dynamic_friction, Some(0.2));
-        assert_eq!(table.of(0, 2).static_friction, None);
     }
 }

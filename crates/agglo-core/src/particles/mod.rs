@@ -3,7 +3,9 @@
 mod columns;
 mod material;
 mod motion;
+pub mod property;
 
 pub use columns::{COLUMNS, Column, ColumnValues, Particles, Row};
-pub use material::{Material, Mixture, PairTable, Softening};
+pub use material::{Material, Mixture, Softening};
 pub use motion::Motion;
+pub use property::Property;

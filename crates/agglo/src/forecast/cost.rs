@@ -2,7 +2,6 @@
 
 use super::push::Push;
 use super::{Plan, counts};
-use crate::acoustics::RayForce;
 use crate::engine::Engine;
 use crate::run::{Rehearsal, Stretches};
 use crate::scenario::{Output, Scenario};
@@ -90,10 +89,7 @@ fn without_rays(scenario: &Scenario) -> Option<f64> {
 
 /// Steps a second that the law of the rays' force asks for, if it does.
 fn with_rays(pushes: &[Push], scenario: &Scenario) -> Option<f64> {
-    let is_stepped = matches!(
-        scenario.acoustics.as_ref().map(|acoustics| &acoustics.force),
-        Some(RayForce::PublishedStep(_))
-    );
+    let is_stepped = scenario.acoustics.as_ref().is_some_and(|acoustics| !acoustics.force.is_impulse());
     pushes.first().filter(|_| is_stepped).map(|push| 1.0 / push.duration)
 }
 

@@ -6,12 +6,9 @@ use super::{Plan, about};
 use crate::domain::Boundary;
 use crate::engine::Engine;
 use crate::engine::hard::{Distance, Pairs, TimeStepped};
-use crate::impact::cooling::Integration;
 use crate::impact::fragmentation::{BreakingEnergy, surface};
-use crate::impact::heat::Balance;
-use crate::impact::restitution::hardness::{ForceTime, Hardness, Solver};
-use crate::impact::tangential::SlipLimit;
-use crate::impact::{Impact, Restitution, Sticking, softening};
+use crate::impact::restitution::Hardness;
+use crate::impact::{Impact, Sticking, softening};
 use crate::packing::GrainGroup;
 use crate::particles::Material;
 use crate::run::{Rehearsal, Summary};
@@ -132,7 +129,7 @@ fn describe(plan: &mut Plan, scenario: &Scenario, gas: &Gas, grains: f64) {
         plan.quantities.push(("from impact to impact".to_owned(), format!("{way} at the start")));
     }
     let Some(laws) = &scenario.impact else { return };
-    if let Restitution::Hardness(law) = &laws.restitution {
+    if let Some(law) = laws.restitution.hardness() {
         let unbreakable = is_unbreakable(scenario, laws, gas);
         for (index, group) in scenario.grains.iter().enumerate() {
             let found = scenario.materials.get(&group.material).and_then(|m| threshold(law, m, group));
@@ -232,45 +229,9 @@ pub(super) fn notes(notes: &mut Vec<String>, scenario: &Scenario) {
         _ => {}
     }
     if let Some(laws) = &scenario.impact {
-        published(&mut note, laws);
         idle(&mut note, scenario, laws);
     }
     without_effect(&mut note, scenario);
-}
-
-fn published(note: &mut dyn FnMut(&str), laws: &Impact) {
-    if let Restitution::Hardness(law) = &laws.restitution {
-        if law.force_over == ForceTime::Compression {
-            note(
-                "impact.restitution.hardness.force_over = compression: the published form; restitution is lower than the mean force over the whole impact gives",
-            );
-        }
-        if let Solver::FixedPoint(_) = law.solver {
-            note(
-                "impact.restitution.hardness.solver.fixed_point may not converge: its iteration can flip between two values for ever; bracketed finds the root",
-            );
-        }
-    }
-    if laws.tangential.as_ref().is_some_and(|law| law.limit == SlipLimit::Published) {
-        note(
-            "impact.tangential.limit = published: friction may reverse the slip and create energy; no_slip does not",
-        );
-    }
-    if laws.heat.balance == Balance::Published {
-        note(
-            "impact.heat.balance = published: a pair gets more heat than the energy it lost, and how much depends on the observer; the run's drift does not show it, its row \"false heat\" does; energy is consistent",
-        );
-    }
-    if laws.fragmentation.as_ref().is_some_and(|law| law.energy == BreakingEnergy::Published) {
-        note(
-            "impact.fragmentation.energy = published: what breaks depends on the observer; center_of_mass does not",
-        );
-    }
-    if laws.cooling.as_ref().is_some_and(|law| law.integration == Integration::Published) {
-        note(
-            "impact.cooling.integration = published: one Euler step overshoots below zero where grains are hot and is then cut; exact does not",
-        );
-    }
 }
 
 /// Laws that find nothing to act on.

@@ -5,12 +5,13 @@ use std::f64::consts::TAU;
 use super::counts::{SLOW_FRACTION, asked_fraction, pulses_before};
 use super::push::Push;
 use super::{Plan, hard};
-use crate::acoustics::{Beam, RayForce};
-use crate::contact::{Bonds, Friction, Normal};
-use crate::fields::DragLaw;
-use crate::fields::near_field::{NearFieldLaw, Scaling};
+use crate::acoustics::Beam;
+use crate::catalog;
+use crate::law::Chosen;
 use crate::math::Vec3;
 use crate::packing::{GrainGroup, Placement};
+use crate::particles::Property;
+use crate::particles::property::PROPERTIES;
 use crate::scenario::Scenario;
 use crate::text::{digits, readable};
 use crate::units::vector;
@@ -24,7 +25,7 @@ const CLOSE_KA: f64 = 60.0;
 pub(super) fn collect(plan: &mut Plan, scenario: &Scenario, pushes: &[Push], smallest: f64) {
     let notes = &mut plan.notes;
     wavelengths(notes, scenario, smallest);
-    published_laws(notes, scenario);
+    of_laws(notes, scenario);
     hard::notes(notes, scenario);
     motion(notes, scenario, pushes);
     without_effect(notes, scenario);
@@ -59,53 +60,33 @@ fn wavelengths(notes: &mut Vec<String>, scenario: &Scenario, smallest: f64) {
     }
 }
 
-fn published_laws(notes: &mut Vec<String>, scenario: &Scenario) {
-    let laws = scenario.contact.as_ref();
-    if let Some(Friction::Regularized(_)) = laws.and_then(|laws| laws.friction.as_ref()) {
-        notes.push("contact.friction.regularized: its stick force is proportional to the step and does not converge; mindlin does".to_owned());
+/// What the laws say of themselves.
+fn of_laws(notes: &mut Vec<String>, scenario: &Scenario) {
+    let around = scenario.surroundings();
+    for law in scenario.laws() {
+        notes.extend(law.notes(&around));
     }
-    match &scenario.bonds {
-        Some(Bonds::StrainBond(_)) => notes.push(
-            "bonds.strain_bond acts only between overlapping grains, cannot resist tension, and its tangential part is proportional to the step; beam bonds hold grains together"
-                .to_owned(),
-        ),
-        Some(Bonds::Beam(law)) if law.gap == 0.0 => {
-            notes.push("bonds.beam.gap is 0: only grains that overlap at the start are bonded".to_owned());
-        }
-        _ => {}
-    }
-    if let Some(RayForce::PublishedStep(_)) = scenario.acoustics.as_ref().map(|acoustics| &acoustics.force) {
-        notes.push("acoustics.force.published_step: the impulse of a hit is proportional to the step and does not converge; impulse does".to_owned());
-    }
-    if laws.is_none() && !scenario.engine.is_hard() {
+    if scenario.contact.is_none() && !scenario.engine.is_hard() {
         notes.push("there is no [contact]: grains pass through one another".to_owned());
     }
 }
 
 fn motion(notes: &mut Vec<String>, scenario: &Scenario, pushes: &[Push]) {
-    let drag = scenario.fields.drag.as_ref().map(|drag| drag.law);
+    let validity = scenario.fields.drag.as_ref().map(|drag| drag.law.validity());
     let limit = scenario.limits.strain;
     for push in pushes {
         let (beam, reynolds) = (push.beam, digits(push.reynolds));
-        match drag {
-            Some(DragLaw::Stokes) if push.reynolds > 1.0 => notes.push(format!(
-                "beam {beam} makes grains so fast that the largest Reynolds number is about {reynolds}; stokes holds below 1, schiller_naumann up to 1000"
-            )),
-            Some(DragLaw::SchillerNaumann) if push.reynolds > 1000.0 => notes.push(format!(
-                "beam {beam} makes grains so fast that the largest Reynolds number is about {reynolds}; schiller_naumann holds up to 1000"
-            )),
-            _ => {}
+        if let Some(validity) = validity.filter(|validity| push.reynolds > validity.reynolds) {
+            let holds = validity.holds;
+            notes.push(format!(
+                "beam {beam} makes grains so fast that the largest Reynolds number is about {reynolds}; {holds}"
+            ));
         }
         if push.strain.is_some_and(|strain| strain > limit) {
             notes.push(format!(
                 "beam {beam} makes grains so fast that they overlap by more than limits.strain = {limit} when they collide"
             ));
         }
-    }
-    if let Some(Normal::Hooke(_)) = scenario.contact.as_ref().map(|laws| &laws.normal)
-        && scenario.grains.len() > 1
-    {
-        notes.push("contact.normal.hooke: one stiffness for all sizes of grains".to_owned());
     }
 }
 
@@ -119,16 +100,10 @@ fn without_effect(notes: &mut Vec<String>, scenario: &Scenario) {
     }
     aims(notes, scenario);
     trains(notes, scenario);
-    cutoff(notes, scenario);
-    let charged = scenario.grains.iter().any(|group| group.charge.si() != 0.0);
-    let by_charge = match scenario.fields.near_field.as_ref().map(|field| &field.law) {
-        Some(NearFieldLaw::Coulomb(_)) => true,
-        Some(NearFieldLaw::PowerPair(law)) => law.scaling == Scaling::Charge,
-        _ => false,
-    };
-    if !charged && (by_charge || scenario.fields.lorentz.is_some()) {
+    if !scenario.surroundings().is_charged && scenario.fields.are_by_charge() {
         notes.push("no grain carries a charge: fields that act on charges do nothing".to_owned());
     }
+    unread(notes, scenario);
     for name in scenario.materials.keys() {
         if !scenario.grains.iter().any(|group| group.material == *name) {
             notes.push(format!("no grain is made of {name}"));
@@ -136,27 +111,20 @@ fn without_effect(notes: &mut Vec<String>, scenario: &Scenario) {
     }
 }
 
-/// What a cut-off of the near field costs.
-fn cutoff(notes: &mut Vec<String>, scenario: &Scenario) {
-    let Some(field) = &scenario.fields.near_field else { return };
-    if field.cutoff.is_none() {
-        return;
+/// Properties of materials that no chosen law reads, and the laws that would.
+fn unread(notes: &mut Vec<String>, scenario: &Scenario) {
+    let read: Vec<&Property> = scenario.laws().flat_map(Chosen::reads).collect();
+    for property in PROPERTIES.iter().filter(|property| !read.contains(property)) {
+        let has = |name: &&String| property.is_given(&scenario.materials[*name]);
+        let Some(name) = scenario.materials.keys().find(has) else { continue };
+        let readers: Vec<&str> =
+            catalog::all().filter(|law| law.reads.contains(property)).map(|law| law.key).collect();
+        notes.push(format!(
+            "materials.{name}.{}: no law of the scenario reads it; {} would",
+            property.key,
+            readers.join(", ")
+        ));
     }
-    let limit = digits(100.0 * field.truncation);
-    let slow = match &field.law {
-        NearFieldLaw::Coulomb(_) => true,
-        NearFieldLaw::PowerPair(law) => law.attraction_exponent.min(law.repulsion_exponent) <= 3.0,
-        NearFieldLaw::VanDerWaals(_) => false,
-    };
-    let falls = if slow {
-        "the force falls off so slowly that sums over a cloud do not converge, and a cut-off can turn the sign of the energy; "
-    } else {
-        ""
-    };
-    notes.push(format!(
-        "fields.near_field.cutoff: {falls}the run measures what is left out of the forces at the start, and refuses more than \
-         truncation = {limit} %"
-    ));
 }
 
 /// Beams that miss all grains, reach them too late, or start where grains may be.
@@ -210,11 +178,10 @@ fn way_to(beam: &Beam, group: &GrainGroup) -> Option<f64> {
 /// Pulses that overlap in time, or are too short to have a frequency.
 fn trains(notes: &mut Vec<String>, scenario: &Scenario) {
     let Some(acoustics) = &scenario.acoustics else { return };
-    let duration = match &acoustics.force {
-        RayForce::Impulse(law) => law.duration.si(),
-        RayForce::RadiationPressure(law) => law.duration.si(),
-        RayForce::PublishedStep(_) => return,
-    };
+    if !acoustics.force.is_impulse() {
+        return;
+    }
+    let duration = acoustics.force.duration(0.0, &scenario.medium);
     let long = readable(duration, "s");
     for (index, beam) in acoustics.beams.iter().enumerate() {
         if let Some(period) =

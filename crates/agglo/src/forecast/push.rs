@@ -6,10 +6,10 @@ use std::time::Instant;
 
 use super::{Plan, counts};
 use crate::acoustics::{Beam, Strength};
-use crate::contact::Normal;
+use crate::contact::{Normal, PairConstants, PairTable, Touch};
 use crate::engine::soft::{FirstPulse, Settings};
 use crate::math::Vec3;
-use crate::particles::{Material, Particles};
+use crate::particles::Particles;
 use crate::scenario::Scenario;
 use crate::text::{digits, readable};
 use crate::units::Quantity;
@@ -147,40 +147,25 @@ fn stopping(scenario: &Scenario, grains: &Particles) -> f64 {
 
 /// Largest overlap strain of all materials, for grains as they are in the mean.
 fn deepest(scenario: &Scenario, grains: &Particles, speed: f64) -> Option<f64> {
-    let of = |(number, material): (usize, &Material)| {
-        let all = || (0..grains.len()).filter(|&at| grains.material[at] as usize == number);
+    let laws = scenario.contact.as_ref()?;
+    let pairs = PairTable::new(&scenario.materials, &scenario.mixtures, Some(laws));
+    let of = |material: usize| {
+        let all = || (0..grains.len()).filter(|&at| grains.material[at] as usize == material);
         let part = 1.0 / all().count() as f64;
         let mean = |column: &[f64]| all().map(|at| part * column[at]).sum::<f64>();
-        let grain = [mean(&grains.radius), mean(&grains.mass), mean(&grains.contact_stiffness)];
-        (part <= 1.0).then(|| strain_at(scenario, material, grain, speed))?
+        let (radius, mass) = (mean(&grains.radius), mean(&grains.mass));
+        let touch = Touch::new([radius; 2], [mass; 2], [mean(&grains.contact_stiffness); 2], 2.0 * radius);
+        let pair = pairs.of(material as u32, material as u32);
+        (part <= 1.0).then(|| strain_at(&laws.normal, pair, &touch, speed))
     };
-    scenario.materials.values().enumerate().filter_map(of).reduce(f64::max)
+    (0..scenario.materials.len()).filter_map(of).reduce(f64::max)
 }
 
-/// Largest overlap strain of two equal grains [radius, mass, stiffness] that meet at a relative speed, without losses.
-fn strain_at(
-    scenario: &Scenario,
-    material: &Material,
-    [radius, mass, stiffness]: [f64; 3],
-    speed: f64,
-) -> Option<f64> {
-    let reduced = 0.5 * mass;
-    let overlap = match &scenario.contact.as_ref()?.normal {
-        Normal::Hertz(_) => {
-            let poisson = material.poisson_ratio?;
-            let modulus = 0.5 * material.youngs_modulus?.si() / (1.0 - poisson * poisson);
-            (15.0 * reduced * speed * speed / (16.0 * modulus * (0.5 * radius).sqrt())).powf(0.4)
-        }
-        Normal::Hooke(law) => speed * (reduced / law.stiffness.si()).sqrt(),
-        Normal::StrainPower(law) => {
-            // Energy of F = K (δ/2r)^p π r δ, the law at small overlap.
-            let p = law.exponent;
-            let energy = 0.5 * reduced * speed * speed;
-            let product = energy * (p + 2.0) * (2.0 * radius).powf(p) / (stiffness * PI * radius);
-            product.powf(1.0 / (p + 2.0))
-        }
-    };
-    Some(overlap / (2.0 * radius))
+/// Largest overlap strain of two grains that collide at a relative speed, without losses; 1 where they pass through one
+/// another.
+fn strain_at(law: &Normal, pair: &PairConstants, touch: &Touch, speed: f64) -> f64 {
+    let energy = 0.5 * touch.effective_mass * speed * speed;
+    law.deepest_overlap(pair, touch, energy).map_or(1.0, |overlap| overlap / touch.radius_sum)
 }
 
 /// Adds the quantities of all pushes to a plan.

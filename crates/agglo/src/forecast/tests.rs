@@ -132,13 +132,16 @@ fn the_overlap_of_an_impact_of_other_laws() {
         format!("{}[contact.normal.hooke]\nstiffness = \"1e7 N/m\"\n{}", &hertz[..start], &hertz[end..]),
     ];
     let mass = 6000.0 * 4.0 / 3.0 * std::f64::consts::PI * 0.05_f64.powi(3);
-    let area = std::f64::consts::PI * 0.05 * 0.4_f64.exp() * 1e7;
+    let stiffness = 0.4_f64.exp() * 1e7;
     for (text, is_published) in [(published, true), (hooke, false)] {
         let scenario = Scenario::from_toml(&text).unwrap();
         let push = &push::all(&scenario, &crate::packing::place(&scenario, Path::new("")).unwrap())[0];
         let overlap = push.strain.unwrap() * 0.1;
         let stored = if is_published {
-            area * overlap.powi(4) / (4.0 * 0.1_f64.powi(2))
+            // (π/4) S³ K (u⁴/2 - u⁵/5) of equal spheres.
+            let (sum, strain) = (0.1_f64, overlap / 0.1);
+            let part = strain.powi(4) / 2.0 - strain.powi(5) / 5.0;
+            0.25 * std::f64::consts::PI * sum.powi(3) * stiffness * part
         } else {
             0.5e7 * overlap * overlap
         };

@@ -45,7 +45,7 @@ const OWN: [Page; 13] = [
 
 /// All pages: those of the laws in the order of the code, then those of this crate.
 pub fn all() -> impl Iterator<Item = &'static Page> {
-    agglo_core::pages::PAGES.iter().chain(&OWN)
+    agglo_core::catalog::pages().chain(&OWN)
 }
 
 /// The page of a word; dashes count as underscores, capitals as small letters.

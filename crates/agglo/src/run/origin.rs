@@ -15,7 +15,7 @@ use crate::packing::{
 };
 use crate::particles::{Material, Particles};
 use crate::record::checkpoint;
-use crate::scenario::{Scenario, fault_of_cutoff};
+use crate::scenario::Scenario;
 use crate::text::readable;
 use crate::units::Quantity;
 
@@ -207,7 +207,7 @@ fn springs_dropped(start: &Start, scenario: &Scenario) -> Option<String> {
 /// As the check does for grains that the scenario places.
 fn refuse_short_cutoff(grains: &Particles, scenario: &Scenario) -> Result<(), String> {
     let largest = grains.radius.iter().copied().fold(0.0, f64::max);
-    let fault = scenario.fields.near_field.as_ref().and_then(|law| fault_of_cutoff(law, largest));
+    let fault = scenario.fields.near_field.as_ref().and_then(|law| law.fault_of_cutoff(largest));
     fault.map_or(Ok(()), |fault| Err(format!("fields.near_field.cutoff = {fault}")))
 }
 

@@ -208,7 +208,9 @@ mod tests {
         let boundary = key("volume.boundary");
         assert_eq!(boundary.default, "`\"periodic\"`");
         assert_contains!(boundary.whole_meaning(), "`\"open\"`: The faces do nothing");
-        assert!(!boundary.is_table && key("contact.normal").is_table && key("contact.normal.hertz").is_table);
+        let are_tables =
+            [&boundary, &key("contact.normal"), &key("contact.normal.hertz")].map(|key| key.is_table);
+        assert_eq!(are_tables, [false, true, true], "keys that are tables");
         assert_empty!(key("contact.normal").words);
         // A choice of a word alone or of a table.
         let profile = key("acoustics.beams.N.profile");

@@ -9,6 +9,7 @@ mod enums;
 mod fault;
 mod key_list;
 mod keys;
+mod laws;
 mod parse;
 mod scalars;
 mod settings;
@@ -18,7 +19,6 @@ mod tree;
 mod types;
 mod walk;
 
-pub(crate) use check::fault_of_cutoff;
 pub(crate) use fault::nearest;
 pub use fault::{Fault, Faults};
 pub use key_list::{Key, keys_of};

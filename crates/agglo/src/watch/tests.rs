@@ -12,7 +12,6 @@ const SOFT: &str = r#"
     [engine.verlet]
     [materials.glass]
     density = "2500 kg/m3"
-    sound_speed = "5000 m/s"
     youngs_modulus = "1 MPa"
     poisson_ratio = 0.2
     [[grains]]

@@ -66,20 +66,31 @@ const CASES: [Case; 8] = [
 ];
 
 impl Case {
+    /// What the laws of grains that soften, break and cool read of the material.
+    fn softening(&self) -> String {
+        if !self.impact.contains("hardness") {
+            return String::new();
+        }
+        format!(
+            "hardness = \"0.26548 MPa\"\nactivation_energy = \"352.41 J/mol\"\nsurface_energy = \"{}\"\n\
+             emissivity = 0.5\n",
+            self.surface_energy
+        )
+    }
+
     fn scenario(&self) -> Scenario {
         common::scenario(&format!(
             "version = 1\nseed = 5\ntime.end = \"{end}\"\n{engine}\n[volume]\nlower = [\"-7 mm\", \"-7 mm\", \"-7 mm\"]\n\
              upper = [\"7 mm\", \"7 mm\", \"7 mm\"]\nboundary = \"{boundary}\"\n[materials.grain]\n\
-             density = \"6652.7 kg/m3\"\nhardness = \"0.26548 MPa\"\nactivation_energy = \"352.41 J/mol\"\n\
-             heat_capacity = \"1796.3 J/(kg K)\"\nreaction_heat = \"1.7765e13 J/m2\"\n\
-             surface_energy = \"{surface}\"\nemissivity = 0.5\n[[grains]]\nmaterial = \"grain\"\n\
+             density = \"6652.7 kg/m3\"\nheat_capacity = \"1796.3 J/(kg K)\"\nreaction_heat = \"1.7765e13 J/m2\"\n\
+             {softening}[[grains]]\nmaterial = \"grain\"\n\
              temperature = \"502.18 K\"\nvelocity = [\"10 m/s\", \"10 m/s\", \"30 m/s\"]\n{size}\n\
              placement.fill.count = 250\n[grains.velocity_spread.uniform]\n\
              bounds = [\"185 m/s\", \"90 m/s\", \"50 m/s\"]\n{impact}\n",
             end = self.end,
             engine = self.engine,
             boundary = self.boundary,
-            surface = self.surface_energy,
+            softening = self.softening(),
             size = self.size,
             impact = self.impact,
         ))

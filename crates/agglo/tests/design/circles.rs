@@ -8,9 +8,6 @@ use std::path::Path;
 
 use super::root;
 
-/// Folders whose files still go in circles, one a line; the list only gets shorter.
-const ALLOWED: [&str; 4] = ["contact/", "fields/near_field/", "impact/", "particles/"];
-
 type Module = Vec<String>;
 
 /// A name that a module has from elsewhere.
@@ -212,13 +209,7 @@ fn files_of_the_core_use_one_another_in_one_direction() {
     sources(&root().join("crates/agglo-core/src"), "", &mut files);
     assert!(files.len() > 150, "files that were found: {}", files.len());
     let found = circles(&files);
-    let is_in = |circle: &str, folder: &str| circle.starts_with(folder);
-    let wrong: Vec<&String> =
-        found.iter().filter(|circle| !ALLOWED.iter().any(|folder| is_in(circle, folder))).collect();
-    assert!(wrong.is_empty(), "files that use one another in a circle:\n{wrong:#?}");
-    let done: Vec<&&str> =
-        ALLOWED.iter().filter(|folder| !found.iter().any(|circle| is_in(circle, folder))).collect();
-    assert!(done.is_empty(), "without circles now, to be taken off the list: {done:?}");
+    assert!(found.is_empty(), "files that use one another in a circle:\n{found:#?}");
 }
 
 #[test]

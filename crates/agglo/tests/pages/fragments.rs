@@ -86,7 +86,7 @@ fn place(whole: &mut Table, part: Table) {
 
 fn whole_scenario(page: &Page, part: &str) -> String {
     let mut whole = tree(if page.scope() == Scope::Hard { HARD } else { SOFT });
-    if page.group == "acoustics" {
+    if page.group.starts_with("acoustics") {
         place(&mut whole, tree(ACOUSTICS));
     }
     place(&mut whole, tree(part));

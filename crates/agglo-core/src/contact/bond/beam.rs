@@ -67,6 +67,7 @@ use std::f64::consts::PI;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::law::{Faults, Law, Surroundings};
 use crate::math::{Pace, Vec3};
 use crate::units::Pressure;
 
@@ -102,6 +103,26 @@ fn default_shear_ratio() -> f64 {
 }
 fn one() -> f64 {
     1.0
+}
+
+impl Law for Beam {
+    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+        faults.positive("youngs_modulus", self.youngs_modulus);
+        faults.positive("tensile_strength", self.tensile_strength);
+        faults.positive("shear_strength", self.shear_strength);
+        faults.above_zero("shear_ratio", self.shear_ratio);
+        faults.above_zero("radius_ratio", self.radius_ratio);
+        faults.zero_or_more("gap", self.gap);
+        faults.zero_or_more("damping_ratio", self.damping_ratio);
+        if let Some(strain) = self.forming_strain {
+            faults.above_zero("forming_strain", strain);
+        }
+    }
+
+    fn notes(&self, _: &Surroundings<'_>) -> Vec<String> {
+        let note = "bonds.beam.gap is 0: only grains that overlap at the start are bonded";
+        (self.gap == 0.0).then(|| note.to_owned()).into_iter().collect()
+    }
 }
 
 /// What a bond remembers.

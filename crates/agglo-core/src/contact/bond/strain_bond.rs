@@ -52,8 +52,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::contact::normal::NormalLaw;
 use crate::contact::normal::strain_power::{StrainPower, strain_power};
 use crate::contact::{PairConstants, Touch};
+use crate::law::{Faults, Law, Surroundings};
 use crate::math::Pace;
 use crate::units::{AreaStiffness, Pressure};
 
@@ -69,6 +71,27 @@ pub struct StrainBond {
     pub tangential_stiffness: AreaStiffness,
     /// ℰ*: overlap strain from which the bond acts, from 0 to 1.
     pub threshold_strain: f64,
+}
+
+impl Law for StrainBond {
+    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+        faults.not_negative("stiffness", self.stiffness);
+        faults.not_negative("tangential_stiffness", self.tangential_stiffness);
+        faults.exponent("exponent", self.exponent);
+        faults.within("threshold_strain", self.threshold_strain, 0.0, 1.0);
+    }
+
+    fn notes(&self, _: &Surroundings<'_>) -> Vec<String> {
+        let note = "bonds.strain_bond acts only between overlapping grains, cannot resist tension, and its tangential part is proportional to the step; beam bonds hold grains together";
+        vec![note.to_owned()]
+    }
+
+    fn warnings(&self) -> &'static [&'static str] {
+        &[
+            "bonds.strain_bond acts in contact only: it cannot resist tension, and its tangential force carries \
+           the time step",
+        ]
+    }
 }
 
 impl StrainBond {

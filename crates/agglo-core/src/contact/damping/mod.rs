@@ -1,47 +1,58 @@
 //! Dissipation along the line of centers.
 
+mod law;
 mod restitution;
 mod viscous_area;
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
+pub use law::DampingLaw;
 pub use restitution::{Restitution, damping_ratio};
 pub use viscous_area::ViscousArea;
 
-use super::{Normal, PairConstants, Touch};
-use crate::math::Pace;
+use super::{Elastic, PairConstants, Touch};
+use crate::math::{Pace, Real};
+use crate::particles::Mixture;
 
-/// The closed set of normal damping laws; each is a dashpot whose coefficient depends on the contact.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Damping {
-    /// Coefficient times contact area (Zohdi 2016, eq. 19).
-    ViscousArea(ViscousArea),
-    /// Coefficient from a coefficient of restitution (Tsuji; Antypov and Elliott).
-    Restitution(Restitution),
+family! {
+    /// The closed set of normal damping laws; each is a dashpot whose coefficient depends on the contact.
+    pub enum Damping at "contact.damping", pages in "contact/damping", each by each_damping ($) {
+        ViscousArea in viscous_area: "Coefficient times contact area (Zohdi 2016, eq. 19).";
+        Restitution in restitution: "Coefficient from a coefficient of restitution (Tsuji; Antypov and Elliott).";
+    }
 }
 
 impl Damping {
+    /// Whether the coefficient takes the stiffness of the elastic law.
+    #[inline]
+    pub fn takes_stiffness(&self) -> bool {
+        fn of<L: DampingLaw>(_: &L) -> bool {
+            L::TAKES_STIFFNESS
+        }
+        each_damping!(self, law => of(law))
+    }
+
     /// Dashpot coefficient c [N s/m]; the force on the pair is -c times the speed of separation.
     #[inline]
-    pub fn coefficient(&self, pair: &PairConstants, touch: &Touch, normal: &Normal) -> f64 {
-        match self {
-            Self::ViscousArea(law) => law.coefficient(touch),
-            Self::Restitution(law) => law.coefficient(pair, touch, normal),
-        }
+    pub fn coefficient<F: Real>(&self, pair: &PairConstants<F>, touch: &Touch<F>, elastic: &Elastic<F>) -> F {
+        each_damping!(self, law => law.coefficient(pair, touch, elastic))
+    }
+
+    /// Writes down what it has for a pair of materials, or what the pair has by itself.
+    pub fn settle(&self, pair: &mut PairConstants, own: Option<&Mixture>) {
+        each_damping!(self, law => law.settle(pair, own));
+    }
+
+    /// Whether a pair of materials can have a restitution of its own.
+    pub fn reads_restitution(&self) -> bool {
+        each_damping!(self, law => law.reads_restitution())
     }
 
     /// How fast the dashpot is at this overlap.
-    pub fn pace(&self, pair: &PairConstants, touch: &Touch, normal: &Normal) -> Pace {
-        match self {
-            Self::ViscousArea(law) => law.pace(touch),
-            Self::Restitution(law) => law.pace(pair, touch, normal),
-        }
+    pub fn pace(&self, pair: &PairConstants, touch: &Touch, elastic: &Elastic) -> Pace {
+        Pace::of_dashpot(self.coefficient(pair, touch, elastic), touch.effective_mass)
     }
 
     /// Whether it can outgrow the elastic contact, so that only the overlap of the moment says how fast it is.
     pub fn outgrows_contact(&self) -> bool {
-        matches!(self, Self::ViscousArea(_))
+        each_damping!(self, law => law.outgrows_contact())
     }
 }

@@ -42,10 +42,12 @@
 //!
 //! # Example
 //! ```
-//! use agglo::contact::{Normal, PairConstants, Touch, damping::Restitution, normal::Hooke};
-//! let spring = Normal::Hooke(Hooke { stiffness: agglo::units::Quantity(400.0) });
+//! use agglo::contact::{Elastic, PairConstants, Touch, damping::{DampingLaw, Restitution}};
+//! let spring = Elastic { stiffness: 400.0, exponent: 1.0, ..Default::default() };
 //! let touch = Touch { effective_mass: 1.0, ..Default::default() };
-//! let dashpot = Restitution { restitution: 0.0 }.coefficient(&PairConstants::default(), &touch, &spring);
+//! let (law, mut pair) = (Restitution { restitution: 0.0 }, PairConstants::default());
+//! law.settle(&mut pair, None);
+//! let dashpot = law.coefficient(&pair, &touch, &spring);
 //! assert_eq!(dashpot, 2.0 * 20.0);
 //! ```
 
@@ -54,8 +56,11 @@ use std::f64::consts::PI;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::contact::{Normal, PairConstants, Touch};
-use crate::math::Pace;
+use super::DampingLaw;
+use crate::contact::{Elastic, PairConstants, Touch};
+use crate::law::{Faults, Law, Surroundings};
+use crate::math::Real;
+use crate::particles::Mixture;
 
 /// Damping from a restitution coefficient.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -65,19 +70,31 @@ pub struct Restitution {
     pub restitution: f64,
 }
 
-impl Restitution {
-    /// Dashpot coefficient [N s/m]; 0 where the elastic force does not grow with the overlap.
+impl Law for Restitution {
+    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+        faults.within("restitution", self.restitution, 0.0, 1.0);
+    }
+}
+
+impl DampingLaw for Restitution {
+    const TAKES_STIFFNESS: bool = true;
+
+    /// 0 where the elastic force does not grow with the overlap.
     #[inline]
-    pub fn coefficient(&self, pair: &PairConstants, touch: &Touch, normal: &Normal) -> f64 {
-        let ratio = damping_ratio(pair.restitution.unwrap_or(self.restitution));
-        let n = normal.exponent();
-        let stiffness = normal.tangent_stiffness(pair, touch).max(0.0);
-        2.0 * ratio * ((n + 1.0) / (2.0 * n) * stiffness * touch.effective_mass).sqrt()
+    fn coefficient<F: Real>(&self, pair: &PairConstants<F>, touch: &Touch<F>, elastic: &Elastic<F>) -> F {
+        let n = elastic.exponent;
+        let stiffness = elastic.stiffness.max(F::of(0.0));
+        let critical = (F::of((n + 1.0) / (2.0 * n)) * stiffness * touch.effective_mass).sqrt();
+        F::of(2.0) * pair.damping_ratio * critical
     }
 
-    /// How fast the dashpot is at this overlap; it grows with the elastic stiffness.
-    pub fn pace(&self, pair: &PairConstants, touch: &Touch, normal: &Normal) -> Pace {
-        Pace::of_dashpot(self.coefficient(pair, touch, normal), touch.effective_mass)
+    fn settle(&self, pair: &mut PairConstants, own: Option<&Mixture>) {
+        let own = own.and_then(|own| own.restitution);
+        pair.damping_ratio = damping_ratio(own.unwrap_or(self.restitution));
+    }
+
+    fn reads_restitution(&self) -> bool {
+        true
     }
 }
 
@@ -99,11 +116,12 @@ mod tests {
     use super::*;
     use crate::contact::Damping;
     use crate::contact::collision::HeadOn;
-    use crate::contact::normal::{Hertz, Hooke, StrainPower};
+    use crate::contact::normal::{Hertz, Hooke, Normal, StrainPower};
     use crate::units::Quantity;
 
-    fn rebound_speed(normal: &Normal, wanted: f64, pair: PairConstants, speed: f64, dt: f64) -> f64 {
+    fn rebound_speed(normal: &Normal, wanted: f64, mut pair: PairConstants, speed: f64, dt: f64) -> f64 {
         let law = Damping::Restitution(Restitution { restitution: wanted });
+        law.settle(&mut pair, None);
         let touch = Touch::new([2.5e-3, 4e-3], [2.6e-4, 1.1e-3], [1e7; 2], 6.5e-3);
         HeadOn { pair, touch, normal, damping: Some(&law), speed }.integrate(dt).restitution
     }
@@ -139,9 +157,19 @@ mod tests {
         assert_eq!([damping_ratio(1.0), damping_ratio(0.0), damping_ratio(-1.0)], [0.0, 1.0, 1.0]);
         // By hand: ln 2 / √(π² + ln² 2).
         assert_near!(damping_ratio(0.5), 0.215_453_761_966, 1e-12);
-        let hooke = Normal::Hooke(Hooke { stiffness: Quantity(1.0) });
         let touch = Touch { effective_mass: 1.0, ..Default::default() };
-        let own = PairConstants { restitution: Some(1.0), ..Default::default() };
-        assert_eq!(Restitution { restitution: 0.1 }.coefficient(&own, &touch, &hooke), 0.0);
+        let elastic = Elastic { stiffness: 1.0, exponent: 1.0, ..Default::default() };
+        let own = Mixture {
+            between: ["a".to_owned(), "b".to_owned()],
+            restitution: Some(1.0),
+            static_friction: None,
+            dynamic_friction: None,
+        };
+        let law = Restitution { restitution: 0.1 };
+        let mut pair = PairConstants::default();
+        law.settle(&mut pair, None);
+        assert_eq!(law.coefficient(&pair, &touch, &elastic), 2.0 * damping_ratio(0.1));
+        law.settle(&mut pair, Some(&own));
+        assert_eq!(law.coefficient(&pair, &touch, &elastic), 0.0);
     }
 }

@@ -29,17 +29,20 @@
 //!
 //! # Example
 //! ```
-//! use agglo::contact::{Touch, damping::ViscousArea};
+//! use agglo::contact::{Elastic, PairConstants, Touch, damping::{DampingLaw, ViscousArea}};
 //! let law = ViscousArea { coefficient: agglo::units::Quantity(1e5) };
 //! let touch = Touch::new([1.0, 1.0], [1.0, 1.0], [1e7, 1e7], 1.6);
-//! assert!((law.coefficient(&touch) / (1e5 * std::f64::consts::PI * 0.36) - 1.0).abs() < 1e-14);
+//! let dashpot = law.coefficient(&PairConstants::default(), &touch, &Elastic::default());
+//! assert!((dashpot / (1e5 * std::f64::consts::PI * 0.36) - 1.0).abs() < 1e-14);
 //! ```
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::contact::Touch;
-use crate::math::Pace;
+use super::DampingLaw;
+use crate::contact::{Elastic, PairConstants, Touch};
+use crate::law::{Faults, Law, Surroundings};
+use crate::math::Real;
 use crate::units::AreaDamping;
 
 /// F = c A times the speed of approach.
@@ -50,17 +53,23 @@ pub struct ViscousArea {
     pub coefficient: AreaDamping,
 }
 
-impl ViscousArea {
-    /// Dashpot coefficient [N s/m].
+impl Law for ViscousArea {
+    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+        faults.not_negative("coefficient", self.coefficient);
+    }
+}
+
+impl DampingLaw for ViscousArea {
+    const TAKES_STIFFNESS: bool = false;
+
     #[inline]
-    pub fn coefficient(&self, touch: &Touch) -> f64 {
-        self.coefficient.si() * touch.area()
+    fn coefficient<F: Real>(&self, _: &PairConstants<F>, touch: &Touch<F>, _: &Elastic<F>) -> F {
+        F::of(self.coefficient.si()) * touch.area()
     }
 
-    /// How fast the dashpot is at this overlap; it grows with the area, without a bound of its own.
-    #[inline]
-    pub fn pace(&self, touch: &Touch) -> Pace {
-        Pace::of_dashpot(self.coefficient(touch), touch.effective_mass)
+    /// It grows with the area, without a bound of its own.
+    fn outgrows_contact(&self) -> bool {
+        true
     }
 }
 

@@ -43,22 +43,31 @@
 //!
 //! # Example
 //! ```
-//! use agglo::contact::{PairConstants, friction::{Mindlin, Sliding, TangentialSpring}};
+//! use agglo::contact::friction::{FrictionLaw, Mindlin, Sliding, TangentialSpring};
+//! use agglo::contact::{Elastic, PairConstants, Touch};
 //! use agglo::math::Vec3;
 //! let law = Mindlin { static_friction: 0.5, dynamic_friction: None, stiffness_ratio: Some(0.8), dashpot: 0.0 };
+//! let mut pair = PairConstants::default();
+//! law.settle(&mut pair, None);
 //! let sliding = Sliding {
-//!     normal: Vec3::AXES[0], displacement: Vec3::new(0.0, 1e-6, 0.0), normal_stiffness: 1e5,
-//!     normal_force: 1.0, ..Default::default()
+//!     normal: Vec3::AXES[0], displacement: Vec3::new(0.0, 1e-6, 0.0), normal_force: 1.0,
+//!     elastic: Elastic { stiffness: 1e5, ..Default::default() }, ..Default::default()
 //! };
-//! let (force, _) = law.advance(&PairConstants::default(), &TangentialSpring::default(), &sliding);
+//! let (force, _) = law.force(&pair, &Touch::default(), &sliding, &TangentialSpring::default());
 //! assert!((force.y - 0.8 * 1e5 * 1e-6).abs() < 1e-15);
 //! ```
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::contact::{PairConstants, Touch};
-use crate::math::{Pace, Vec3};
+use super::law::check_coefficients;
+use super::spring::shortened;
+use super::{FrictionLaw, Sliding, TangentialSpring};
+use crate::contact::{Elastic, PairConstants, Touch};
+use crate::law::{Faults, Law, Needs, Surroundings};
+use crate::math::{Pace, Real, Vector};
+use crate::particles::property::{POISSON_RATIO, YOUNGS_MODULUS};
+use crate::particles::{Mixture, Property};
 
 /// A tangential spring with Coulomb's limit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -77,115 +86,78 @@ pub struct Mindlin {
     pub dashpot: f64,
 }
 
-/// What a contact remembers: the force of its tangential spring and the stiffness it was loaded with.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct TangentialSpring {
-    /// Force on i [N].
-    pub force: Vec3,
-    /// Stiffness [N/m] at that moment.
-    pub stiffness: f64,
-    /// Whether the contact slips, so that dynamic friction is its limit.
-    pub sliding: bool,
-}
+impl Law for Mindlin {
+    const READS: &'static [Property] = &[YOUNGS_MODULUS, POISSON_RATIO];
 
-impl TangentialSpring {
-    /// Energy stored [J].
-    #[inline]
-    pub fn energy(&self) -> f64 {
-        if self.stiffness > 0.0 { 0.5 * self.force.norm_squared() / self.stiffness } else { 0.0 }
+    fn reads(&self) -> &'static [Property] {
+        if self.stiffness_ratio.is_some() { &[] } else { Self::READS }
     }
 
-    /// The force [N] after the contact has turned to `normal` and by `spin_angle` [rad] about it, relaxed
-    /// where the stiffness [N/m] has fallen.
-    #[inline]
-    fn carried(&self, normal: Vec3, spin_angle: f64, stiffness: f64) -> Vec3 {
-        let before = self.force.norm_squared();
-        if before == 0.0 {
-            return Vec3::ZERO;
+    fn needs(&self) -> Needs {
+        Needs { properties: self.reads(), because: "without stiffness_ratio" }
+    }
+
+    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+        check_coefficients(faults, self.static_friction, self.dynamic_friction);
+        faults.zero_or_more("dashpot", self.dashpot);
+        if let Some(ratio) = self.stiffness_ratio {
+            faults.above_zero("stiffness_ratio", ratio);
         }
-        let turned = self.force.rejected_from(normal) + normal.cross(self.force) * spin_angle;
-        let after = turned.norm_squared();
-        if after == 0.0 {
-            return Vec3::ZERO;
-        }
-        let relaxed = if stiffness < self.stiffness { stiffness / self.stiffness } else { 1.0 };
-        turned * ((before / after).sqrt() * relaxed)
     }
 }
 
-/// What the law needs to know of the contact over one step.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Sliding {
-    /// Unit normal from i to j at the end of the step.
-    pub normal: Vec3,
-    /// Displacement of j's surface relative to i's over the step, tangential [m].
-    pub displacement: Vec3,
-    /// Velocity of j's surface relative to i's at the end of the step, tangential [m/s].
-    pub velocity: Vec3,
-    /// Angle [rad] by which the pair turned about its normal over the step: dt (w_i + w_j) . n / 2.
-    pub spin_angle: f64,
-    /// Slope of the normal force over the overlap [N/m].
-    pub normal_stiffness: f64,
-    /// Normal dashpot [N s/m].
-    pub normal_dashpot: f64,
-    /// Normal force [N] with its dashpot, repulsion > 0.
-    pub normal_force: f64,
-}
+impl FrictionLaw for Mindlin {
+    type Memory<F: Real> = TangentialSpring<F>;
 
-impl Mindlin {
-    /// The force on i [N] and the spring to remember.
-    ///
-    /// Over the step friction takes `force . displacement` less the growth of the spring's energy.
     #[inline]
-    pub fn advance(
+    fn force<F: Real>(
         &self,
-        pair: &PairConstants,
-        before: &TangentialSpring,
-        sliding: &Sliding,
-    ) -> (Vec3, TangentialSpring) {
-        let ratio = self.stiffness_ratio.unwrap_or(pair.tangential_ratio);
-        let stiffness = ratio * sliding.normal_stiffness.max(0.0);
+        pair: &PairConstants<F>,
+        _: &Touch<F>,
+        sliding: &Sliding<F>,
+        before: &TangentialSpring<F>,
+    ) -> (Vector<F>, TangentialSpring<F>) {
+        let zero = F::of(0.0);
+        let stiffness = pair.tangential_ratio * sliding.elastic.stiffness.max(zero);
         let carried = before.carried(sliding.normal, sliding.spin_angle, stiffness);
         // The mean over a step in which the stiffness rises: second order. A falling one is exact with its end.
-        let rising = before.stiffness > 0.0 && before.stiffness < stiffness;
-        let loading = if rising { 0.5 * (before.stiffness + stiffness) } else { stiffness };
+        let rising = F::both(zero.below(before.stiffness), before.stiffness.below(stiffness));
+        let loading = F::select(rising, F::of(0.5) * (before.stiffness + stiffness), stiffness);
         let spring = carried + sliding.displacement * loading;
-        let trial = spring + sliding.velocity * (self.dashpot * sliding.normal_dashpot);
-        let (at_rest, in_motion) = self.coefficients(pair);
-        let load = sliding.normal_force.max(0.0);
-        let limit = load * if before.sliding { in_motion } else { at_rest };
+        let trial = spring + sliding.velocity * (F::of(self.dashpot) * sliding.normal_dashpot);
+        let load = sliding.normal_force.max(zero);
+        let limit = load * F::select(before.sliding, pair.dynamic_friction, pair.static_friction);
         let size = trial.norm_squared();
-        if size <= limit * limit {
-            return (trial, TangentialSpring { force: spring, stiffness, sliding: false });
+        let sticks = size.at_most(limit * limit);
+        if F::all(sticks) {
+            return (trial, TangentialSpring { force: spring, stiffness, sliding: F::Mask::default() });
         }
-        let cap = in_motion * load;
-        let force = trial * (cap / size.sqrt());
-        (force, TangentialSpring { force: shortened(spring, cap), stiffness, sliding: true })
+        let cap = pair.dynamic_friction * load;
+        let force = Vector::select(sticks, trial, trial * (cap / size.sqrt()));
+        let spring = Vector::select(sticks, spring, shortened(spring, cap));
+        (force, TangentialSpring { force: spring, stiffness, sliding: F::not(sticks) })
     }
 
-    /// How fast the tangential spring and its dashpot are, from the normal stiffness [N/m] and dashpot [N s/m].
-    pub fn pace(&self, pair: &PairConstants, touch: &Touch, stiffness: f64, dashpot: f64) -> Pace {
-        let (ratio, mass) = (self.stiffness_ratio.unwrap_or(pair.tangential_ratio), touch.sliding_mass());
-        Pace::of_spring(ratio * stiffness, mass) + Pace::of_dashpot(self.dashpot * dashpot, mass)
+    /// That of the tangential spring and its dashpot.
+    fn pace(&self, pair: &PairConstants, touch: &Touch, elastic: &Elastic, dashpot: f64) -> Pace {
+        let mass = touch.sliding_mass();
+        Pace::of_spring(pair.tangential_ratio * elastic.stiffness, mass)
+            + Pace::of_dashpot(self.dashpot * dashpot, mass)
     }
 
-    /// Static and dynamic friction coefficient of a pair of materials; the second never above the first.
-    #[inline]
-    fn coefficients(&self, pair: &PairConstants) -> (f64, f64) {
-        let at_rest = pair.static_friction.unwrap_or(self.static_friction);
-        let in_motion = pair.dynamic_friction.or(self.dynamic_friction).unwrap_or(at_rest);
-        (at_rest, in_motion.min(at_rest))
+    /// Dynamic friction is never above static friction.
+    fn settle(&self, pair: &mut PairConstants, own: Option<&Mixture>) {
+        let own_at_rest = own.and_then(|own| own.static_friction);
+        let own_in_motion = own.and_then(|own| own.dynamic_friction);
+        let at_rest = own_at_rest.unwrap_or(self.static_friction);
+        pair.static_friction = at_rest;
+        pair.dynamic_friction = own_in_motion.or(self.dynamic_friction).unwrap_or(at_rest).min(at_rest);
+        pair.tangential_ratio = self.stiffness_ratio.unwrap_or(pair.tangential_ratio);
     }
-}
 
-/// The vector, cut to this length if it is longer.
-///
-/// The spring itself is cut, not set to the whole force: a spring set to the force would store what the dashpot
-/// gave, and hand it back as motion.
-#[inline]
-fn shortened(vector: Vec3, length: f64) -> Vec3 {
-    let size = vector.norm_squared();
-    if size > length * length { vector * (length / size.sqrt()) } else { vector }
+    fn coefficients(&self) -> (f64, Option<f64>) {
+        (self.static_friction, self.dynamic_friction)
+    }
 }
 
 #[cfg(test)]
@@ -194,23 +166,24 @@ mod tests {
     use crate::contact::collision::Oblique;
     use crate::contact::damping::{Damping, Restitution};
     use crate::contact::normal::{Hertz, Hooke, Normal, StrainPower};
+    use crate::math::Vec3;
     use crate::units::Quantity;
 
     const LAW: Mindlin =
         Mindlin { static_friction: 0.5, dynamic_friction: None, stiffness_ratio: Some(0.8), dashpot: 0.0 };
-    const NO_PAIR: PairConstants = PairConstants {
-        effective_modulus: 0.0,
-        tangential_ratio: 0.0,
-        restitution: None,
-        static_friction: None,
-        dynamic_friction: None,
-    };
+
+    /// What the law makes of a contact with a memory, in a pair of materials without constants of its own.
+    fn advance(law: &Mindlin, before: &TangentialSpring, sliding: &Sliding) -> (Vec3, TangentialSpring) {
+        let mut pair = PairConstants::default();
+        law.settle(&mut pair, None);
+        law.force(&pair, &Touch::default(), sliding, before)
+    }
 
     fn slide(by: Vec3, normal_stiffness: f64, normal_force: f64) -> Sliding {
         Sliding {
             normal: Vec3::AXES[2],
             displacement: by,
-            normal_stiffness,
+            elastic: Elastic { stiffness: normal_stiffness, ..Default::default() },
             normal_force,
             ..Default::default()
         }
@@ -225,7 +198,7 @@ mod tests {
             for _ in 0..100 {
                 let by = Vec3::new(x, y, 0.0) * 0.01;
                 let before = spring.force;
-                let (force, after) = LAW.advance(&NO_PAIR, &spring, &slide(by, 100.0, 1e3));
+                let (force, after) = advance(&LAW, &spring, &slide(by, 100.0, 1e3));
                 work += 0.5 * (before + force).dot(by);
                 spring = after;
                 assert_near!(spring.energy(), work, 1e-15, "in J");
@@ -233,7 +206,7 @@ mod tests {
         }
         assert_below!(spring.force.norm(), 1e-15, "in N");
         assert_false!(spring.sliding, "the pair slides");
-        let (force, _) = LAW.advance(&NO_PAIR, &spring, &slide(Vec3::new(1e-3, 0.0, 0.0), 100.0, 1e3));
+        let (force, _) = advance(&LAW, &spring, &slide(Vec3::new(1e-3, 0.0, 0.0), 100.0, 1e3));
         assert_near_vector!(force, Vec3::new(0.08, 0.0, 0.0), 1e-15, "in N");
     }
 
@@ -244,7 +217,7 @@ mod tests {
         let mut highest: f64 = 0.0;
         for k in 0..200 {
             let step = slide(Vec3::new(1e-3, 0.0, 0.0), 1000.0, 100.0);
-            let (force, after) = law.advance(&NO_PAIR, &spring, &step);
+            let (force, after) = advance(&law, &spring, &step);
             spring = after;
             highest = highest.max(force.x);
             // 0.8 N a step: the static limit of 50 N is reached in step 62, from then on 30 N.
@@ -253,7 +226,7 @@ mod tests {
         }
         assert_near!(highest, 49.6, 1e-9);
         let back = slide(Vec3::new(-1e-3, 0.0, 0.0), 1000.0, 100.0);
-        let (force, after) = law.advance(&NO_PAIR, &spring, &back);
+        let (force, after) = advance(&law, &spring, &back);
         assert_near!(force.x, 29.2, 1e-9, "in N");
         assert_false!(after.sliding, "the pair slides");
     }
@@ -261,7 +234,7 @@ mod tests {
     #[test]
     fn a_pulling_normal_force_carries_no_friction() {
         let loaded = TangentialSpring { force: Vec3::AXES[0], stiffness: 1.0, sliding: false };
-        let (force, spring) = LAW.advance(&NO_PAIR, &loaded, &slide(Vec3::ZERO, 1.0, -1.0));
+        let (force, spring) = advance(&LAW, &loaded, &slide(Vec3::ZERO, 1.0, -1.0));
         assert_eq!((force, spring.energy()), (Vec3::ZERO, 0.0));
     }
 
@@ -276,7 +249,7 @@ mod tests {
             let load = 0.2 * stiffness * stream.uniform();
             let before = spring.energy();
             let carried = spring.carried(Vec3::AXES[2], 0.0, 0.8 * stiffness);
-            let (force, after) = LAW.advance(&NO_PAIR, &spring, &slide(by, stiffness, load));
+            let (force, after) = advance(&LAW, &spring, &slide(by, stiffness, load));
             // Work over the step by the trapezoidal rule between the relaxed force and the new one.
             let step = 0.5 * (shortened(carried, 0.5 * load) + force).dot(by);
             spring = after;
@@ -299,14 +272,14 @@ mod tests {
         let angle = std::f64::consts::FRAC_PI_2 / f64::from(steps);
         for k in 1..=steps {
             let normal = Vec3::AXES[2].rotated_about(Vec3::AXES[1], angle * f64::from(k));
-            let step = Sliding { normal, normal_stiffness: 1.25, normal_force: 10.0, ..Default::default() };
-            spring = LAW.advance(&NO_PAIR, &spring, &step).1;
+            let step = Sliding { normal, ..slide(Vec3::ZERO, 1.25, 10.0) };
+            spring = advance(&LAW, &spring, &step).1;
         }
         assert!((spring.force + Vec3::AXES[2]).norm() < 1e-9, "{:?}", spring.force);
         spring.force = Vec3::AXES[0];
         for _ in 0..steps {
             let step = Sliding { spin_angle: angle, ..slide(Vec3::ZERO, 1.25, 10.0) };
-            spring = LAW.advance(&NO_PAIR, &spring, &step).1;
+            spring = advance(&LAW, &spring, &step).1;
         }
         // The tangent of each small angle stands for the angle: error angle²/3 per step's angle.
         assert!((spring.force - Vec3::AXES[1]).norm() < 1e-7, "{:?}", spring.force);
@@ -329,7 +302,8 @@ mod tests {
             normal: &normal,
             damping: None,
             friction: &friction,
-        };
+        }
+        .settled();
         let (v_n, v_t) = (0.01, 0.02);
         let start = oblique.approach(Vec3::new(-v_n, v_t, 0.0));
         let end = oblique.integrate(start, 5e-9, |_, _| {});
@@ -362,7 +336,8 @@ mod tests {
             ] {
                 let friction = Mindlin { dashpot, ..LAW };
                 let (radius, mass) = (2.5e-3, 2.6e-4);
-                let oblique = Oblique { pair: glass(), radius, mass, normal, damping, friction: &friction };
+                let oblique =
+                    Oblique { pair: glass(), radius, mass, normal, damping, friction: &friction }.settled();
                 let angle = f64::to_radians(degrees);
                 let start = oblique.approach(Vec3::new(-angle.cos(), angle.sin(), 0.0));
                 let first = oblique.kinetic(&start);

@@ -37,21 +37,33 @@
 //!
 //! # Example
 //! ```
-//! use agglo::contact::{PairConstants, friction::Regularized};
+//! use agglo::contact::friction::{FrictionLaw, Regularized, Sliding};
+//! use agglo::contact::{Elastic, PairConstants, Touch};
+//! use agglo::math::Vec3;
 //! let law = Regularized {
 //!     stiffness: agglo::units::Quantity(1e7), static_friction: 0.4, dynamic_friction: 0.3,
 //! };
-//! let (area, speed, dt) = (1e-3, 1e-2, 1e-4);
-//! let force = |load| law.force(&PairConstants::default(), area, speed, dt, load);
-//! assert_eq!(force(1.0), 1e7 * 1e-2 * 1e-3 * 1e-4);
-//! assert_eq!(force(0.01), 0.3 * 0.01);
+//! let mut pair = PairConstants::default();
+//! law.settle(&mut pair, None);
+//! let touch = Touch { overlap: 1e-4, ..Touch::new([1.0; 2], [1.0; 2], [1e7; 2], 2.0) };
+//! let (velocity, dt) = (Vec3::new(0.0, 1e-2, 0.0), 1e-4);
+//! let force = |load| {
+//!     let elastic = Elastic { force: load, ..Default::default() };
+//!     law.force(&pair, &touch, &Sliding { velocity, elastic, dt, ..Default::default() }, &()).0
+//! };
+//! assert!((force(1e3).y / (1e7 * 1e-2 * touch.area() * 1e-4) - 1.0).abs() < 1e-14);
+//! assert!((force(1e-3).y / (0.3 * 1e-3) - 1.0).abs() < 1e-14);
 //! ```
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::contact::{PairConstants, Touch};
-use crate::math::Pace;
+use super::law::check_coefficients;
+use super::{FrictionLaw, Sliding};
+use crate::contact::{Elastic, PairConstants, Touch};
+use crate::law::{Faults, Law, Surroundings};
+use crate::math::{Pace, Real, Vector};
+use crate::particles::Mixture;
 use crate::units::AreaStiffness;
 
 /// Stick force K v A dt up to static friction, then dynamic friction.
@@ -70,27 +82,76 @@ impl Regularized {
     /// Size of the friction force [N] along the relative tangential velocity, from the contact's `area`
     /// [m²], the slip speed [m/s], the step [s] and the normal force [N]. All of its work is lost.
     #[inline]
-    pub fn force(&self, pair: &PairConstants, area: f64, slip_speed: f64, dt: f64, normal_force: f64) -> f64 {
-        let stick = self.stiffness.si() * slip_speed * area * dt;
+    fn size<F: Real>(&self, pair: &PairConstants<F>, area: F, slip_speed: F, dt: F, normal_force: F) -> F {
+        let stick = F::of(self.stiffness.si()) * slip_speed * area * dt;
         let load = normal_force.abs();
-        let at_rest = pair.static_friction.unwrap_or(self.static_friction);
-        if stick < at_rest * load {
-            return stick;
-        }
-        pair.dynamic_friction.unwrap_or_else(|| self.dynamic_friction.min(at_rest)) * load
+        F::select(stick.below(pair.static_friction * load), stick, pair.dynamic_friction * load)
+    }
+}
+
+impl Law for Regularized {
+    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+        faults.not_negative("stiffness", self.stiffness);
+        check_coefficients(faults, self.static_friction, Some(self.dynamic_friction));
     }
 
-    /// How fast the stick force is at this overlap. Its dashpot K A Δt becomes critical at the step Δt = 1/√(K A/m_t):
-    /// that of a spring of 4 K A.
+    fn notes(&self, _: &Surroundings<'_>) -> Vec<String> {
+        let note = "contact.friction.regularized: its stick force is proportional to the step and does not converge; mindlin does";
+        vec![note.to_owned()]
+    }
+
+    fn warnings(&self) -> &'static [&'static str] {
+        &[
+            "contact.friction.regularized: the stick force carries the time step (halving the step halves it), so \
+           the answer does not converge",
+        ]
+    }
+}
+
+impl FrictionLaw for Regularized {
+    type Memory<F: Real> = ();
+
     #[inline]
-    pub fn pace(&self, touch: &Touch) -> Pace {
+    fn force<F: Real>(
+        &self,
+        pair: &PairConstants<F>,
+        touch: &Touch<F>,
+        sliding: &Sliding<F>,
+        (): &(),
+    ) -> (Vector<F>, ()) {
+        let speed = sliding.velocity.norm();
+        let size = self.size(pair, touch.area(), speed, sliding.dt, sliding.elastic.force);
+        let slips = F::of(0.0).below(speed);
+        (Vector::select(slips, sliding.velocity * (size / speed), Vector::default()), ())
+    }
+
+    /// That of the stick force. Its dashpot K A Δt becomes critical at the step Δt = 1/√(K A/m_t): that of a spring of
+    /// 4 K A.
+    fn pace(&self, _: &PairConstants, touch: &Touch, _: &Elastic, _: f64) -> Pace {
         Pace::of_spring(4.0 * self.stiffness.si() * touch.area(), touch.sliding_mass())
+    }
+
+    fn settle(&self, pair: &mut PairConstants, own: Option<&Mixture>) {
+        let at_rest = own.and_then(|own| own.static_friction).unwrap_or(self.static_friction);
+        pair.static_friction = at_rest;
+        let own_in_motion = own.and_then(|own| own.dynamic_friction);
+        pair.dynamic_friction = own_in_motion.unwrap_or_else(|| self.dynamic_friction.min(at_rest));
+    }
+
+    fn coefficients(&self) -> (f64, Option<f64>) {
+        (self.static_friction, Some(self.dynamic_friction))
+    }
+
+    /// It grows with the area, without a bound of its own.
+    fn outgrows_contact(&self) -> bool {
+        true
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::Vec3;
     use crate::units::Quantity;
 
     const LAW: Regularized =
@@ -99,20 +160,54 @@ mod tests {
     /// The limit lies at μ_s, and what follows at μ_d; the step stands in the stick force.
     #[test]
     fn stick_and_slip() {
-        let pair = PairConstants::default();
-        let stick = |speed: f64, dt: f64| LAW.force(&pair, 2e-3, speed, dt, 10.0);
+        let mut pair = PairConstants::default();
+        LAW.settle(&mut pair, None);
+        let stick = |speed: f64, dt: f64| LAW.size(&pair, 2e-3, speed, dt, 10.0);
         assert_near!(stick(1e-3, 1e-2), 0.2, 1e-15);
         assert_eq!(stick(1e-3, 1e-2), 2.0 * stick(1e-3, 5e-3));
         assert_near!(stick(0.999 * 0.02, 1e-2), 0.999 * 4.0, 1e-12);
         assert_eq!(stick(1.001 * 0.02, 1e-2), 0.3 * 10.0);
-        assert_eq!(LAW.force(&pair, 2e-3, 0.0, 1e-2, 0.0), 0.0);
+        assert_eq!(LAW.size(&pair, 2e-3, 0.0, 1e-2, 0.0), 0.0);
+    }
+
+    /// Along the slip, whose speed counts and not its parts; nothing where nothing slips.
+    #[test]
+    fn it_points_along_the_slip() {
+        let mut pair = PairConstants::default();
+        LAW.settle(&mut pair, None);
+        let touch = Touch { overlap: 0.1, ..Touch::new([1.0; 2], [1.0; 2], [1e7; 2], 2.0) };
+        let elastic = Elastic { force: 1e9, ..Default::default() };
+        let sliding =
+            Sliding { velocity: Vec3::new(0.0, 3e-3, -4e-3), elastic, dt: 1e-2, ..Default::default() };
+        let (force, ()) = LAW.force(&pair, &touch, &sliding, &());
+        assert_near_vector!(
+            force,
+            sliding.velocity * (1e7 * 1e-2 * touch.area()),
+            1e-14 * force.norm(),
+            "in N"
+        );
+        let (none, ()) = LAW.force(&pair, &touch, &Sliding { velocity: Vec3::ZERO, ..sliding }, &());
+        assert_eq!(none, Vec3::ZERO);
     }
 
     #[test]
     fn pairs_have_their_own_coefficients() {
-        let own = PairConstants { static_friction: Some(0.1), ..Default::default() };
-        assert_eq!(LAW.force(&own, 1.0, 1.0, 1.0, 2.0), 0.1 * 2.0);
-        let own = PairConstants { dynamic_friction: Some(0.2), ..own };
-        assert_eq!(LAW.force(&own, 1.0, 1.0, 1.0, 2.0), 0.2 * 2.0);
+        let own = |at_rest, in_motion| Mixture {
+            between: ["a".to_owned(), "b".to_owned()],
+            restitution: None,
+            static_friction: at_rest,
+            dynamic_friction: in_motion,
+        };
+        let cases = [
+            (own(None, None), [0.4, 0.3]),
+            (own(Some(0.1), None), [0.1, 0.1]),
+            (own(Some(0.1), Some(0.05)), [0.1, 0.05]),
+            (own(None, Some(0.2)), [0.4, 0.2]),
+        ];
+        for (own, wanted) in cases {
+            let mut pair = PairConstants::default();
+            LAW.settle(&mut pair, Some(&own));
+            assert_eq!([pair.static_friction, pair.dynamic_friction], wanted, "{own:?}");
+        }
     }
 }

@@ -35,7 +35,7 @@
 //!
 //! # Example
 //! ```
-//! use agglo::contact::{PairConstants, Touch, normal::Hertz};
+//! use agglo::contact::{PairConstants, Touch, normal::{Hertz, NormalLaw}};
 //! let pair = PairConstants { effective_modulus: 1e9, ..Default::default() };
 //! let touch = Touch { overlap: 1e-6, effective_radius: 1e-3, ..Default::default() };
 //! let by_hand = 4.0 / 3.0 * 1e9 * (1e-3_f64).sqrt() * (1e-6_f64).powf(1.5);
@@ -45,55 +45,55 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::NormalLaw;
 use crate::contact::{PairConstants, Touch};
-use crate::math::Pace;
-use crate::particles::Material;
+use crate::law::{Law, Needs};
+use crate::math::{Pace, Real};
+use crate::particles::property::{POISSON_RATIO, YOUNGS_MODULUS};
+use crate::particles::{Material, Property};
 
 /// Hertz contact; its only constants are the materials' Young's moduli and Poisson's ratios.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Hertz {}
 
-impl Hertz {
-    /// Repulsion [N].
+impl Law for Hertz {
+    const READS: &'static [Property] = &[YOUNGS_MODULUS, POISSON_RATIO];
+
+    fn needs(&self) -> Needs {
+        Needs::always(Self::READS)
+    }
+}
+
+impl NormalLaw for Hertz {
     #[inline]
-    pub fn force(&self, pair: &PairConstants, touch: &Touch) -> f64 {
-        2.0 / 3.0 * touch.overlap * self.tangent_stiffness(pair, touch)
+    fn force<F: Real>(&self, pair: &PairConstants<F>, touch: &Touch<F>) -> F {
+        F::of(2.0 / 3.0) * touch.overlap * self.tangent_stiffness(pair, touch)
     }
 
-    /// Energy stored [J].
-    pub fn energy(&self, pair: &PairConstants, touch: &Touch) -> f64 {
+    fn energy(&self, pair: &PairConstants, touch: &Touch) -> f64 {
         0.4 * touch.overlap * self.force(pair, touch)
     }
 
-    /// Slope of the force over the overlap [N/m].
     #[inline]
-    pub fn tangent_stiffness(&self, pair: &PairConstants, touch: &Touch) -> f64 {
-        2.0 * pair.effective_modulus * (touch.effective_radius * touch.overlap).sqrt()
+    fn tangent_stiffness<F: Real>(&self, pair: &PairConstants<F>, touch: &Touch<F>) -> F {
+        F::of(2.0) * pair.effective_modulus * (touch.effective_radius * touch.overlap).sqrt()
     }
 
-    /// How fast the contact is at this overlap; it grows with it.
     #[inline]
-    pub fn pace(&self, pair: &PairConstants, touch: &Touch) -> Pace {
-        Pace::of_spring(self.tangent_stiffness(pair, touch), touch.effective_mass)
+    fn exponent(&self) -> f64 {
+        1.5
     }
 
-    /// How fast Rayleigh's wave crosses a grain of this radius [m], which a step must not outrun either: the time
-    /// π R √(ρ/G)/(0.1631 ν + 0.8766) of Y. Li, Y. Xu and C. Thornton, Powder Technol. 160, 219 (2005), as a critical
-    /// step. Nothing for a material without a Young's modulus.
-    pub fn wave_pace(material: &Material, radius: f64) -> Pace {
+    /// Rayleigh's wave: the time π R √(ρ/G)/(0.1631 ν + 0.8766) of Y. Li, Y. Xu and C. Thornton, Powder Technol. 160, 219
+    /// (2005), as a critical step. Nothing for a material without a Young's modulus.
+    fn wave_pace(&self, material: &Material, radius: f64) -> Pace {
         let Some(modulus) = material.youngs_modulus else { return Pace::NONE };
         let poisson = material.poisson_ratio.unwrap_or(0.0);
         let shear = modulus.si() / (2.0 * (1.0 + poisson));
         let time = std::f64::consts::PI * radius * (material.density.si() / shear).sqrt()
             / (0.1631 * poisson + 0.8766);
         Pace { square: 4.0 / (time * time), rate: 0.0 }
-    }
-
-    /// The force grows like overlap^1.5.
-    #[inline]
-    pub fn exponent(&self) -> f64 {
-        1.5
     }
 }
 

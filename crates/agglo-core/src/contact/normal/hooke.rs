@@ -28,7 +28,7 @@
 //!
 //! # Example
 //! ```
-//! use agglo::contact::{PairConstants, Touch, normal::Hooke};
+//! use agglo::contact::{PairConstants, Touch, normal::{Hooke, NormalLaw}};
 //! let law = Hooke { stiffness: agglo::units::Quantity(1e3) };
 //! let touch = Touch { overlap: 1e-6, ..Default::default() };
 //! assert_eq!(law.force(&PairConstants::default(), &touch), 1e3 * 1e-6);
@@ -37,8 +37,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::NormalLaw;
 use crate::contact::{PairConstants, Touch};
-use crate::math::Pace;
+use crate::law::{Faults, Law, Surroundings};
+use crate::math::Real;
 use crate::units::Stiffness;
 
 /// A linear spring.
@@ -49,33 +51,34 @@ pub struct Hooke {
     pub stiffness: Stiffness,
 }
 
-impl Hooke {
-    /// Repulsion [N].
-    #[inline]
-    pub fn force(&self, _: &PairConstants, touch: &Touch) -> f64 {
-        self.stiffness.si() * touch.overlap
+impl Law for Hooke {
+    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+        faults.positive("stiffness", self.stiffness);
     }
 
-    /// Energy stored [J].
-    pub fn energy(&self, _: &PairConstants, touch: &Touch) -> f64 {
+    fn notes(&self, around: &Surroundings<'_>) -> Vec<String> {
+        let note = "contact.normal.hooke: one stiffness for all sizes of grains";
+        (around.groups > 1).then(|| note.to_owned()).into_iter().collect()
+    }
+}
+
+impl NormalLaw for Hooke {
+    #[inline]
+    fn force<F: Real>(&self, _: &PairConstants<F>, touch: &Touch<F>) -> F {
+        F::of(self.stiffness.si()) * touch.overlap
+    }
+
+    fn energy(&self, _: &PairConstants, touch: &Touch) -> f64 {
         0.5 * self.stiffness.si() * touch.overlap * touch.overlap
     }
 
-    /// Slope of the force over the overlap [N/m].
     #[inline]
-    pub fn tangent_stiffness(&self, _: &PairConstants, _: &Touch) -> f64 {
-        self.stiffness.si()
+    fn tangent_stiffness<F: Real>(&self, _: &PairConstants<F>, _: &Touch<F>) -> F {
+        F::of(self.stiffness.si())
     }
 
-    /// How fast the contact is, at any overlap.
     #[inline]
-    pub fn pace(&self, _: &PairConstants, touch: &Touch) -> Pace {
-        Pace::of_spring(self.stiffness.si(), touch.effective_mass)
-    }
-
-    /// The force grows like overlap.
-    #[inline]
-    pub fn exponent(&self) -> f64 {
+    fn exponent(&self) -> f64 {
         1.0
     }
 }

@@ -2,67 +2,69 @@
 
 mod hertz;
 mod hooke;
+mod law;
 pub(in crate::contact) mod strain_power;
-
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 pub use hertz::Hertz;
 pub use hooke::Hooke;
+pub use law::NormalLaw;
 pub use strain_power::StrainPower;
 
 use super::{PairConstants, Touch};
-use crate::math::Pace;
+use crate::math::roots::root_between;
+use crate::math::{Pace, Real};
+use crate::particles::Material;
 
-/// The closed set of elastic normal laws.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Normal {
-    /// Force from the power of a strain over the contact area (Zohdi 2016, eqs 11-15).
-    StrainPower(StrainPower),
-    /// Hertz.
-    Hertz(Hertz),
-    /// Linear spring.
-    Hooke(Hooke),
-}
-
-macro_rules! dispatch {
-    ($self:ident, $law:ident => $call:expr) => {
-        match $self {
-            Normal::StrainPower($law) => $call,
-            Normal::Hertz($law) => $call,
-            Normal::Hooke($law) => $call,
-        }
-    };
+family! {
+    /// The closed set of elastic normal laws.
+    pub enum Normal at "contact.normal", pages in "contact/normal", each by each_normal ($) {
+        StrainPower in strain_power: "Force from the power of a strain over the contact area (Zohdi 2016, eqs 11-15).";
+        Hertz in hertz: "Hertz.";
+        Hooke in hooke: "Linear spring.";
+    }
 }
 
 impl Normal {
     /// Repulsion [N].
     #[inline]
-    pub fn force(&self, pair: &PairConstants, touch: &Touch) -> f64 {
-        dispatch!(self, law => law.force(pair, touch))
+    pub fn force<F: Real>(&self, pair: &PairConstants<F>, touch: &Touch<F>) -> F {
+        each_normal!(self, law => law.force(pair, touch))
     }
 
     /// Energy stored [J]; the force is its slope over the overlap.
     pub fn energy(&self, pair: &PairConstants, touch: &Touch) -> f64 {
-        dispatch!(self, law => law.energy(pair, touch))
+        each_normal!(self, law => law.energy(pair, touch))
     }
 
     /// Slope of the force over the overlap [N/m].
     #[inline]
-    pub fn tangent_stiffness(&self, pair: &PairConstants, touch: &Touch) -> f64 {
-        dispatch!(self, law => law.tangent_stiffness(pair, touch))
+    pub fn tangent_stiffness<F: Real>(&self, pair: &PairConstants<F>, touch: &Touch<F>) -> F {
+        each_normal!(self, law => law.tangent_stiffness(pair, touch))
     }
 
     /// How fast a contact is that reaches this overlap.
     pub fn pace(&self, pair: &PairConstants, touch: &Touch) -> Pace {
-        dispatch!(self, law => law.pace(pair, touch))
+        each_normal!(self, law => law.pace(pair, touch))
+    }
+
+    /// How fast a wave crosses a grain of this radius [m], where a step must not outrun it either.
+    pub fn wave_pace(&self, material: &Material, radius: f64) -> Pace {
+        each_normal!(self, law => law.wave_pace(material, radius))
     }
 
     /// n where the force grows like overlap^n at small overlap.
     #[inline]
     pub fn exponent(&self) -> f64 {
-        dispatch!(self, law => law.exponent())
+        each_normal!(self, law => law.exponent())
+    }
+
+    /// Overlap [m] at which two grains have given all of an energy [J] to the contact; nothing if they have not where
+    /// the center of one lies at that of the other.
+    pub fn deepest_overlap(&self, pair: &PairConstants, touch: &Touch, energy: f64) -> Option<f64> {
+        let left = |overlap: f64| self.energy(pair, &Touch { overlap, ..*touch }) - energy;
+        let most = touch.radius_sum;
+        let at_most = left(most);
+        (at_most >= 0.0).then(|| root_between(left, [0.0, most], [-energy, at_most], 1e-12 * most).at)
     }
 }
 
@@ -110,5 +112,26 @@ mod tests {
             let ratio = law.force(&pair, &touch(2e-9)) / law.force(&pair, &touch(1e-9));
             assert_near!(ratio.log2(), law.exponent(), 1e-6);
         }
+    }
+
+    /// Hertz: δ = (15 m* v²/(16 E* √R*))^(2/5); Hooke: v √(m*/k); both by hand, and nothing where grains pass through.
+    #[test]
+    fn deepest_overlaps_are_those_of_the_closed_forms() {
+        let pair = PairConstants { effective_modulus: 3e9, ..Default::default() };
+        let touch = Touch::new([1e-3, 4e-3], [1e-6, 2e-6], [0.0; 2], 5e-3);
+        let (mass, speed) = (touch.effective_mass, 0.7);
+        let energy = 0.5 * mass * speed * speed;
+        let by_hand = (15.0 * mass * speed * speed / (16.0 * 3e9 * touch.effective_radius.sqrt())).powf(0.4);
+        let hertz = Normal::Hertz(Hertz {}).deepest_overlap(&pair, &touch, energy);
+        assert_close!(hertz.unwrap(), by_hand, 1e-8, "in m");
+        let hooke = Normal::Hooke(Hooke { stiffness: Quantity(2e4) });
+        assert_close!(
+            hooke.deepest_overlap(&pair, &touch, energy).unwrap(),
+            speed * (mass / 2e4).sqrt(),
+            1e-8,
+            "in m"
+        );
+        let all = 0.5 * 2e4 * touch.radius_sum * touch.radius_sum;
+        assert_eq!(hooke.deepest_overlap(&pair, &touch, 1.001 * all), None);
     }
 }

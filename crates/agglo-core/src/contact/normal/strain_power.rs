@@ -37,7 +37,7 @@
 //!
 //! # Example
 //! ```
-//! use agglo::contact::{PairConstants, Touch, normal::StrainPower};
+//! use agglo::contact::{PairConstants, Touch, normal::{NormalLaw, StrainPower}};
 //! let touch = Touch::new([1.0, 1.0], [1.0, 1.0], [1e7, 1e7], 1.8);
 //! let by_hand = 1e7 * 0.1 * 0.1 * std::f64::consts::PI * (1.0 - 0.81);
 //! let force = StrainPower { exponent: 2.0 }.force(&PairConstants::default(), &touch);
@@ -47,8 +47,12 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::NormalLaw;
 use crate::contact::{PairConstants, Touch};
-use crate::math::Pace;
+use crate::law::{Faults, Law, Needs, Surroundings};
+use crate::math::{Pace, Real};
+use crate::particles::Property;
+use crate::particles::property::{CONTACT_STIFFNESS, SOFTENING};
 
 /// F = K E^p A; K is the materials' `contact_stiffness`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -65,32 +69,42 @@ fn two() -> f64 {
 
 /// strain^exponent, with the usual square worked out directly.
 #[inline]
-pub(in crate::contact) fn strain_power(strain: f64, exponent: f64) -> f64 {
+pub(in crate::contact) fn strain_power<F: Real>(strain: F, exponent: f64) -> F {
     if exponent == 2.0 { strain * strain } else { strain.powf(exponent) }
 }
 
-impl StrainPower {
-    /// Repulsion [N].
+impl Law for StrainPower {
+    const READS: &'static [Property] = &[CONTACT_STIFFNESS, SOFTENING];
+
+    fn needs(&self) -> Needs {
+        Needs::always(&[CONTACT_STIFFNESS])
+    }
+
+    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+        faults.exponent("exponent", self.exponent);
+    }
+}
+
+impl NormalLaw for StrainPower {
     #[inline]
-    pub fn force(&self, _: &PairConstants, touch: &Touch) -> f64 {
+    fn force<F: Real>(&self, _: &PairConstants<F>, touch: &Touch<F>) -> F {
         touch.stiffness * strain_power(touch.strain(), self.exponent) * touch.area()
     }
 
-    /// Energy stored [J].
-    pub fn energy(&self, _: &PairConstants, touch: &Touch) -> f64 {
+    fn energy(&self, _: &PairConstants, touch: &Touch) -> f64 {
         touch.stiffness * touch.strain_integral(self.exponent)
     }
 
-    /// Slope of the force over the overlap [N/m]; negative where a much smaller grain is nearly swallowed.
+    /// Negative where a much smaller grain is nearly swallowed.
     #[inline]
-    pub fn tangent_stiffness(&self, _: &PairConstants, touch: &Touch) -> f64 {
-        let growth = self.exponent * touch.area_over_overlap() + touch.area_slope();
+    fn tangent_stiffness<F: Real>(&self, _: &PairConstants<F>, touch: &Touch<F>) -> F {
+        let growth = F::of(self.exponent) * touch.area_over_overlap() + touch.area_slope();
         touch.stiffness * strain_power(touch.strain(), self.exponent) * growth
     }
 
     /// How fast the contact is at this overlap or on the way to it: that of unequal grains is stiffest before the
     /// smaller one is swallowed.
-    pub fn pace(&self, pair: &PairConstants, touch: &Touch) -> Pace {
+    fn pace(&self, pair: &PairConstants, touch: &Touch) -> Pace {
         let at = |part: f64| self.tangent_stiffness(pair, &Touch { overlap: part * touch.overlap, ..*touch });
         let stiffest = [1.0, 0.75, 0.5, 0.25].map(at).into_iter().fold(0.0, f64::max);
         Pace::of_spring(stiffest, touch.effective_mass)
@@ -98,7 +112,7 @@ impl StrainPower {
 
     /// The force grows like overlap^(p+1), since the area grows like the overlap.
     #[inline]
-    pub fn exponent(&self) -> f64 {
+    fn exponent(&self) -> f64 {
         self.exponent + 1.0
     }
 }

@@ -50,10 +50,7 @@ pub struct Settings {
 impl Settings {
     /// The law of bonds between grains, where that is the one that bonds them.
     pub(super) fn beam(&self) -> Option<&Beam> {
-        match &self.bonds {
-            Some(Bonds::Beam(law)) => Some(law),
-            _ => None,
-        }
+        self.bonds.as_ref().and_then(Bonds::lasting)
     }
 
     /// Longest automatic step [s]: a hundredth of the run.

@@ -100,8 +100,18 @@ impl System {
 
     /// The fastest of all grains, at what `pace` gives for each.
     pub(super) fn over_grains(&self, pace: impl Fn(usize) -> Pace + Sync) -> Pace {
-        let leaf = |range: Range<usize>, ()| range.map(&pace).fold(Pace::NONE, Pace::max);
-        parallel::over(0..self.grains.len(), LEAF, (), &leaf, &Pace::max)
+        let [fastest] = self.over_grains_each(|at| [pace(at)]);
+        fastest
+    }
+
+    /// The fastest of all grains in each of several respects.
+    pub(super) fn over_grains_each<const N: usize>(
+        &self,
+        paces: impl Fn(usize) -> [Pace; N] + Sync,
+    ) -> [Pace; N] {
+        let faster = |a: [Pace; N], b: [Pace; N]| std::array::from_fn(|each| a[each].max(b[each]));
+        let leaf = |range: Range<usize>, ()| range.map(&paces).fold([Pace::NONE; N], faster);
+        parallel::over(0..self.grains.len(), LEAF, (), &leaf, &faster)
     }
 
     /// The committed motion.

@@ -36,7 +36,7 @@
 //!
 //! # Example
 //! ```
-//! use agglo::fields::near_field::{Coulomb, Source};
+//! use agglo::fields::near_field::{Coulomb, NearLaw, Source};
 //! let a = Source { charge: 1e-9, ..Default::default() };
 //! let force = Coulomb { relative_permittivity: 1.0 }.force(&a, &a, 0.01);
 //! assert!((force / 8.987_551_79e-5 - 1.0).abs() < 1e-8);
@@ -47,8 +47,9 @@ use std::f64::consts::PI;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Source;
+use super::{NearLaw, Source};
 use crate::constants::VACUUM_PERMITTIVITY;
+use crate::law::{Faults, Law, Surroundings};
 
 /// Coulomb's law.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -63,23 +64,36 @@ fn one() -> f64 {
     1.0
 }
 
-impl Coulomb {
-    /// Repulsion [N] at a distance [m].
+impl Law for Coulomb {
+    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+        faults.above_zero("relative_permittivity", self.relative_permittivity);
+    }
+}
+
+impl NearLaw for Coulomb {
     #[inline]
-    pub fn force(&self, a: &Source, b: &Source, distance: f64) -> f64 {
+    fn force(&self, a: &Source, b: &Source, distance: f64) -> f64 {
         self.energy(a, b, distance) / distance
     }
 
-    /// Size of the gradient of the force [N/m] at a distance [m]: along the line of centers, where it is largest.
+    /// Along the line of centers, where it is largest.
     #[inline]
-    pub fn gradient(&self, a: &Source, b: &Source, distance: f64) -> f64 {
+    fn gradient(&self, a: &Source, b: &Source, distance: f64) -> f64 {
         2.0 * self.force(a, b, distance).abs() / distance
     }
 
-    /// Energy [J], zero at infinity.
+    /// Zero at infinity.
     #[inline]
-    pub fn energy(&self, a: &Source, b: &Source, distance: f64) -> f64 {
+    fn energy(&self, a: &Source, b: &Source, distance: f64) -> f64 {
         a.charge * b.charge / (4.0 * PI * VACUUM_PERMITTIVITY * self.relative_permittivity * distance)
+    }
+
+    fn slowest_decay(&self) -> f64 {
+        2.0
+    }
+
+    fn is_by_charge(&self) -> bool {
+        true
     }
 }
 

@@ -37,17 +37,24 @@
 //! ```
 
 mod coulomb;
+mod law;
 mod power_pair;
+mod source;
 mod van_der_waals;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use coulomb::Coulomb;
+pub use law::NearLaw;
 pub use power_pair::{PowerPair, Scaling};
+pub use source::Source;
 pub use van_der_waals::VanDerWaals;
 
+use crate::law::{Chosen, Faults, Needs, Surroundings};
 use crate::math::Pace;
+use crate::particles::Property;
+use crate::text::{digits, told_apart};
 use crate::units::Length;
 
 /// The near field: a law, and how far it is followed.
@@ -69,63 +76,79 @@ fn default_truncation() -> f64 {
     0.05
 }
 
-/// The closed set of near-field laws.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum NearFieldLaw {
-    /// a1 d^-b1 - a2 d^-b2.
-    PowerPair(PowerPair),
-    /// Electrostatic force between the grains' charges.
-    Coulomb(Coulomb),
-    /// Hamaker's force between spheres.
-    VanDerWaals(VanDerWaals),
-}
-
-/// What a grain is to the near field.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Source {
-    /// Mass [kg].
-    pub mass: f64,
-    /// Radius [m].
-    pub radius: f64,
-    /// Charge [C].
-    pub charge: f64,
-    /// Sign c of [A] 28: 1 or -1.
-    pub polarity: f64,
+family! {
+    /// The closed set of near-field laws.
+    pub enum NearFieldLaw at "fields.near_field.law", pages in "fields/near_field", each by each_law ($) {
+        PowerPair in power_pair: "a1 d^-b1 - a2 d^-b2.";
+        Coulomb in coulomb: "Electrostatic force between the grains' charges.";
+        VanDerWaals in van_der_waals: "Hamaker's force between spheres.";
+    }
 }
 
 impl NearFieldLaw {
     /// Repulsion [N] of two grains at a distance of centers [m].
     #[inline]
     pub fn force(&self, a: &Source, b: &Source, distance: f64) -> f64 {
-        match self {
-            Self::PowerPair(law) => law.force(a, b, distance),
-            Self::Coulomb(law) => law.force(a, b, distance),
-            Self::VanDerWaals(law) => law.force(a, b, distance),
-        }
+        each_law!(self, law => law.force(a, b, distance))
     }
 
     /// Energy [J]; minus its slope over the distance is the force.
     pub fn energy(&self, a: &Source, b: &Source, distance: f64) -> f64 {
-        match self {
-            Self::PowerPair(law) => law.energy(a, b, distance),
-            Self::Coulomb(law) => law.energy(a, b, distance),
-            Self::VanDerWaals(law) => law.energy(a, b, distance),
-        }
+        each_law!(self, law => law.energy(a, b, distance))
     }
 
     /// Size of the gradient of the force [N/m], or a bound on it, at a distance of centers [m].
     pub fn gradient(&self, a: &Source, b: &Source, distance: f64) -> f64 {
-        match self {
-            Self::PowerPair(law) => law.gradient(a, b, distance),
-            Self::Coulomb(law) => law.gradient(a, b, distance),
-            Self::VanDerWaals(law) => law.gradient(a, b, distance),
-        }
+        each_law!(self, law => law.gradient(a, b, distance))
+    }
+
+    /// The power b with which the force falls off at least as fast as d^-b beyond any distance.
+    pub fn slowest_decay(&self) -> f64 {
+        each_law!(self, law => law.slowest_decay())
     }
 
     /// Whether the gradient has a bound however close grains come.
     pub fn is_capped(&self) -> bool {
-        matches!(self, Self::VanDerWaals(_))
+        each_law!(self, law => law.is_capped())
+    }
+
+    /// Whether it acts on charges alone.
+    pub fn is_by_charge(&self) -> bool {
+        each_law!(self, law => law.is_by_charge())
+    }
+}
+
+impl Chosen for NearField {
+    fn key(&self) -> &'static str {
+        self.law.key()
+    }
+
+    fn reads(&self) -> &'static [Property] {
+        self.law.reads()
+    }
+
+    fn needs(&self) -> Needs {
+        self.law.needs()
+    }
+
+    fn faults(&self, faults: &mut Faults, around: &Surroundings<'_>) {
+        faults.under("fields.near_field", |faults| {
+            if let Some(message) = self.fault_of_cutoff(around.largest_radius) {
+                faults.fail_with("cutoff", message, "it counts from center to center");
+            }
+            faults.above_zero("truncation", self.truncation);
+        });
+        self.law.faults(faults, around);
+    }
+
+    fn notes(&self, around: &Surroundings<'_>) -> Vec<String> {
+        let mut notes = self.law.notes(around);
+        notes.extend(self.note_of_cutoff());
+        notes
+    }
+
+    fn warnings(&self) -> &'static [&'static str] {
+        self.law.warnings()
     }
 }
 
@@ -152,6 +175,31 @@ impl NearField {
             Some(cutoff) => self.law.energy(a, b, distance) - self.law.energy(a, b, cutoff.si()),
             None => self.law.energy(a, b, distance),
         }
+    }
+
+    /// What is wrong with the cut-off where the largest grain has this radius [m].
+    pub fn fault_of_cutoff(&self, largest: f64) -> Option<String> {
+        let cutoff = self.cutoff?.si();
+        let [found, least] = told_apart([cutoff, 2.0 * largest], "m");
+        (cutoff <= 2.0 * largest).then(|| {
+            format!("{found} is not above the largest diameter {least}: touching grains are left out")
+        })
+    }
+
+    /// What a cut-off costs.
+    fn note_of_cutoff(&self) -> Option<String> {
+        self.cutoff?;
+        let limit = digits(100.0 * self.truncation);
+        // In a cloud, sums over forces that fall off like d^-3 or more slowly grow with its size.
+        let falls = if self.law.slowest_decay() <= 3.0 {
+            "the force falls off so slowly that sums over a cloud do not converge, and a cut-off can turn the sign of the energy; "
+        } else {
+            ""
+        };
+        Some(format!(
+            "fields.near_field.cutoff: {falls}the run measures what is left out of the forces at the start, and refuses more \
+             than truncation = {limit} %"
+        ))
     }
 
     #[inline]
@@ -243,6 +291,15 @@ mod tests {
             let near = NearField { law, cutoff: Some(Quantity(0.02)), truncation: 0.05 };
             assert_eq!([near.force(&A, &B, 0.021), near.energy(&A, &B, 0.021)], [0.0, 0.0]);
             assert_eq!(near.energy(&A, &B, 0.02), 0.0);
+        }
+    }
+
+    /// Far away the force falls by 10^b over a decade; what is left of the nearer terms is of order 1e-3 there.
+    #[test]
+    fn forces_fall_off_as_they_say() {
+        for law in every_law() {
+            let decades = (law.force(&A, &B, 1e3) / law.force(&A, &B, 1e4)).log10();
+            assert_near!(decades, law.slowest_decay(), 2e-3, "{law:?}");
         }
     }
 }

@@ -38,7 +38,7 @@
 //!
 //! # Example
 //! ```
-//! use agglo::fields::near_field::{PowerPair, Scaling, Source};
+//! use agglo::fields::near_field::{NearLaw, PowerPair, Scaling, Source};
 //! let newton = PowerPair {
 //!     scaling: Scaling::Mass, attraction: 6.6743e-11, attraction_exponent: 2.0,
 //!     repulsion: 0.0, repulsion_exponent: 2.0,
@@ -53,7 +53,8 @@ use std::f64::consts::PI;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Source;
+use super::{NearLaw, Source};
+use crate::law::{Faults, HIGHEST_EXPONENT, Law, Surroundings};
 
 /// Two power laws; the coefficients are in SI units of whatever makes the force a force.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -117,17 +118,29 @@ impl PowerPair {
     fn scale(&self, a: &Source, b: &Source) -> f64 {
         a.polarity * b.polarity * self.scaling.of(a) * self.scaling.of(b)
     }
+}
 
-    /// Repulsion [N] at a distance [m].
+impl Law for PowerPair {
+    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+        for (key, exponent) in [
+            ("attraction_exponent", self.attraction_exponent),
+            ("repulsion_exponent", self.repulsion_exponent),
+        ] {
+            faults.within(key, exponent, -HIGHEST_EXPONENT, HIGHEST_EXPONENT);
+        }
+    }
+}
+
+impl NearLaw for PowerPair {
     #[inline]
-    pub fn force(&self, a: &Source, b: &Source, distance: f64) -> f64 {
+    fn force(&self, a: &Source, b: &Source, distance: f64) -> f64 {
         let repulsion = self.repulsion * inverse_power(distance, self.repulsion_exponent);
         let attraction = self.attraction * inverse_power(distance, self.attraction_exponent);
         self.scale(a, b) * (repulsion - attraction)
     }
 
-    /// Bound on the gradient of the force [N/m] at a distance [m], along the line of centers and across it.
-    pub fn gradient(&self, a: &Source, b: &Source, distance: f64) -> f64 {
+    /// A bound along the line of centers and across it.
+    fn gradient(&self, a: &Source, b: &Source, distance: f64) -> f64 {
         let term = |size: f64, exponent: f64| {
             size.abs() * exponent.abs().max(1.0) * inverse_power(distance, exponent + 1.0)
         };
@@ -136,11 +149,24 @@ impl PowerPair {
                 + term(self.attraction, self.attraction_exponent))
     }
 
-    /// Energy [J], zero at infinity where both powers are above 1.
-    pub fn energy(&self, a: &Source, b: &Source, distance: f64) -> f64 {
+    /// Zero at infinity where both powers are above 1.
+    fn energy(&self, a: &Source, b: &Source, distance: f64) -> f64 {
         let repulsion = self.repulsion * tail(distance, self.repulsion_exponent);
         let attraction = self.attraction * tail(distance, self.attraction_exponent);
         self.scale(a, b) * (repulsion - attraction)
+    }
+
+    /// The smaller of the powers whose terms are there.
+    fn slowest_decay(&self) -> f64 {
+        match (self.attraction == 0.0, self.repulsion == 0.0) {
+            (true, _) => self.repulsion_exponent,
+            (_, true) => self.attraction_exponent,
+            _ => self.attraction_exponent.min(self.repulsion_exponent),
+        }
+    }
+
+    fn is_by_charge(&self) -> bool {
+        self.scaling == Scaling::Charge
     }
 }
 

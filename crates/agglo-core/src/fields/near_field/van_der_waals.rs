@@ -34,7 +34,7 @@
 //!
 //! # Example
 //! ```
-//! use agglo::fields::near_field::{Source, VanDerWaals};
+//! use agglo::fields::near_field::{NearLaw, Source, VanDerWaals};
 //! use agglo::units::Quantity;
 //! let law = VanDerWaals { hamaker: Quantity(1e-19), smallest_gap: Quantity(4e-10) };
 //! let grain = Source { radius: 1e-6, ..Default::default() };
@@ -45,7 +45,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Source;
+use super::{NearLaw, Source};
+use crate::law::{Faults, Law, Surroundings};
 use crate::units::{Energy, Length};
 
 /// Hamaker's law.
@@ -66,10 +67,17 @@ fn products(a: &Source, b: &Source, gap: f64) -> (f64, f64, f64) {
     (product, outer, outer + 4.0 * product)
 }
 
-impl VanDerWaals {
-    /// Repulsion [N] at a distance [m]: negative, since it attracts.
+impl Law for VanDerWaals {
+    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+        faults.not_negative("hamaker", self.hamaker);
+        faults.positive("smallest_gap", self.smallest_gap);
+    }
+}
+
+impl NearLaw for VanDerWaals {
+    /// Negative, since it attracts.
     #[inline]
-    pub fn force(&self, a: &Source, b: &Source, distance: f64) -> f64 {
+    fn force(&self, a: &Source, b: &Source, distance: f64) -> f64 {
         let radii = a.radius + b.radius;
         let gap = (distance - radii).max(self.smallest_gap.si());
         let (product, outer, inner) = products(a, b, gap);
@@ -77,8 +85,8 @@ impl VanDerWaals {
         -32.0 / 3.0 * self.hamaker.si() * product * (radii + gap) * ratio * ratio
     }
 
-    /// Size of the gradient of the force [N/m] at a distance [m]; at the smallest gap for all that are closer.
-    pub fn gradient(&self, a: &Source, b: &Source, distance: f64) -> f64 {
+    /// That at the smallest gap for all that are closer.
+    fn gradient(&self, a: &Source, b: &Source, distance: f64) -> f64 {
         let radii = a.radius + b.radius;
         let gap = (distance - radii).max(self.smallest_gap.si());
         let (_, outer, inner) = products(a, b, gap);
@@ -86,8 +94,17 @@ impl VanDerWaals {
         self.force(a, b, reach).abs() * (4.0 * reach * (1.0 / outer + 1.0 / inner) - 1.0 / reach)
     }
 
-    /// Energy [J], zero at infinity; smooth at the cap.
-    pub fn energy(&self, a: &Source, b: &Source, distance: f64) -> f64 {
+    /// Nearer than infinity Hamaker's force is steeper than its limit d^-7.
+    fn slowest_decay(&self) -> f64 {
+        7.0
+    }
+
+    fn is_capped(&self) -> bool {
+        true
+    }
+
+    /// Zero at infinity; smooth at the cap.
+    fn energy(&self, a: &Source, b: &Source, distance: f64) -> f64 {
         let gap = distance - a.radius - b.radius;
         let capped = gap.max(self.smallest_gap.si());
         let (product, outer, inner) = products(a, b, capped);

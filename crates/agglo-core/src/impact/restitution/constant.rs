@@ -39,10 +39,30 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::{Rebound, RestitutionLaw};
+use crate::law::{Faults, Law, Surroundings};
+
 /// One restitution for all impacts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Constant {
     /// e of all impacts, from 0 to 1; at 0 pairs stick.
     pub restitution: f64,
+}
+
+impl Law for Constant {
+    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+        if self.restitution > 1.0 {
+            let message = format!("found {}; a number from 0 to 1 is wanted", self.restitution);
+            faults.fail_with("restitution", message, "an impact with more than 1 would create energy");
+        } else {
+            faults.within("restitution", self.restitution, 0.0, 1.0);
+        }
+    }
+}
+
+impl RestitutionLaw for Constant {
+    fn rebound(&self) -> Rebound {
+        Rebound::Constant(self.restitution)
+    }
 }

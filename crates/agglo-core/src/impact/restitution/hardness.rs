@@ -72,7 +72,11 @@ use std::f64::consts::PI;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::{Rebound, RestitutionLaw};
 use crate::impact::contact_area::ContactArea;
+use crate::law::{Faults, Law, Needs, Surroundings};
+use crate::particles::Property;
+use crate::particles::property::{ACTIVATION_ENERGY, HARDNESS, HEAT_CAPACITY};
 
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
@@ -109,6 +113,76 @@ impl Default for Hardness {
             sticking_area: one(),
             force_over: ForceTime::default(),
             solver: Solver::default(),
+        }
+    }
+}
+
+/// An impact that takes longer than this never ends.
+const MOST_ITERATIONS: u32 = 10_000;
+
+impl Law for Hardness {
+    const WORDS: &'static [&'static str] = &["bracketed", "fixed_point"];
+
+    const READS: &'static [Property] = &[HARDNESS, ACTIVATION_ENERGY, HEAT_CAPACITY];
+
+    fn needs(&self) -> Needs {
+        Needs::always(&[HARDNESS])
+    }
+
+    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+        faults.above_zero("deformation", self.deformation);
+        faults.zero_or_more("elastic_area", self.elastic_area);
+        faults.above_zero("sticking_area", self.sticking_area);
+        if self.elastic_area > self.sticking_area && self.sticking_area > 0.0 {
+            let message = format!("{} is above sticking_area = {}", self.elastic_area, self.sticking_area);
+            faults.fail_with("elastic_area", message, "contacts grow as restitution falls");
+        }
+        if let Solver::FixedPoint(law) = &self.solver {
+            faults.under("solver.fixed_point", |faults| law.faults(faults));
+        }
+    }
+
+    fn notes(&self, _: &Surroundings<'_>) -> Vec<String> {
+        let mut notes = Vec::new();
+        if self.force_over == ForceTime::Compression {
+            notes.push("impact.restitution.hardness.force_over = compression: the published form; restitution is lower than the mean force over the whole impact gives".to_owned());
+        }
+        if let Solver::FixedPoint(_) = self.solver {
+            notes.push("impact.restitution.hardness.solver.fixed_point may not converge: its iteration can flip between two values for ever; bracketed finds the root".to_owned());
+        }
+        notes
+    }
+
+    fn warnings(&self) -> &'static [&'static str] {
+        const COMPRESSION: &str = "impact.restitution.hardness.force_over = \"compression\" divides the impulse of the whole impact by \
+             the time of compression alone";
+        const FIXED_POINT: &str = "impact.restitution.hardness.solver.fixed_point need not converge: with elastic_area = 0 it flips \
+             between two values for ever";
+        match (self.force_over, &self.solver) {
+            (ForceTime::Impact, Solver::Bracketed) => &[],
+            (ForceTime::Compression, Solver::Bracketed) => &[COMPRESSION],
+            (ForceTime::Impact, Solver::FixedPoint(_)) => &[FIXED_POINT],
+            (ForceTime::Compression, Solver::FixedPoint(_)) => &[COMPRESSION, FIXED_POINT],
+        }
+    }
+}
+
+impl RestitutionLaw for Hardness {
+    fn rebound(&self) -> Rebound {
+        Rebound::Hardness
+    }
+}
+
+impl FixedPoint {
+    fn faults(&self, faults: &mut Faults) {
+        faults.at_least_one("most_iterations", self.most_iterations);
+        if self.most_iterations > MOST_ITERATIONS {
+            let message = format!("found {}; at most {MOST_ITERATIONS} are allowed", self.most_iterations);
+            faults.fail("most_iterations", message);
+        }
+        if self.tolerance <= 0.0 || self.tolerance >= 1.0 {
+            let message = format!("found {}; a number above 0 and below 1 is wanted", self.tolerance);
+            faults.fail("tolerance", message);
         }
     }
 }

@@ -1,25 +1,25 @@
 //! Rules of beams, rays and what they press with.
 
-use super::Check;
-use super::contact::needs;
-use crate::acoustics::{Acoustics, Beam, Profile, RayForce, Strength};
+use super::laws::needed;
+use super::{Check, region};
+use crate::acoustics::{Acoustics, Beam, Profile, Strength};
 use crate::math::Vec3;
 use crate::packing::{Placement, Size};
+use crate::particles::property::SOUND_SPEED;
 use crate::scenario::types::Scenario;
 use crate::text::told_apart;
 use crate::units::vector;
 
 pub(super) fn check(check: &mut Check, scenario: &Scenario) {
     let Some(acoustics) = &scenario.acoustics else { return };
-    needs(check, scenario, "acoustics", ("sound_speed", "\"4500 m/s\""), |m| m.sound_speed.is_some());
-    force(check, &acoustics.force);
+    needed(check, scenario, "acoustics", &SOUND_SPEED);
     if !(0.0..1.0).contains(&acoustics.truncation) {
         let message = format!("found {}; a number from 0 and below 1 is wanted", acoustics.truncation);
         check.fail("acoustics.truncation", message);
     }
     check.at_least_one("acoustics.bounces", acoustics.bounces);
     let region_holds =
-        acoustics.region.as_ref().is_some_and(|region| check.region("acoustics.region", region));
+        acoustics.region.as_ref().is_some_and(|region| self::region(check, "acoustics.region", region));
     if acoustics.beams.is_empty() {
         check.fail_with("acoustics.beams", "is empty".to_owned(), "add a [[acoustics.beams]] table");
     }
@@ -34,23 +34,8 @@ pub(super) fn check(check: &mut Check, scenario: &Scenario) {
     }
 }
 
-fn force(check: &mut Check, law: &RayForce) {
-    match law {
-        RayForce::Impulse(law) => check.positive("acoustics.force.impulse.duration", law.duration),
-        RayForce::RadiationPressure(law) => {
-            check.positive("acoustics.force.radiation_pressure.duration", law.duration);
-        }
-        RayForce::PublishedStep(law) => {
-            if law.step_fraction <= 0.0 || law.step_fraction > 1.0 {
-                let message = format!("found {}; a number above 0 and up to 1 is wanted", law.step_fraction);
-                check.fail("acoustics.force.published_step.step_fraction", message);
-            }
-        }
-    }
-}
-
 fn one(check: &mut Check, key: &str, beam: &Beam, scenario: &Scenario) -> bool {
-    let before = check.faults.len();
+    let before = check.found().len();
     check.at_least_one(&format!("{key}.rays"), beam.rays);
     check.positive(&format!("{key}.radius"), beam.radius);
     if Vec3::from(beam.direction).norm() == 0.0 {
@@ -67,7 +52,7 @@ fn one(check: &mut Check, key: &str, beam: &Beam, scenario: &Scenario) -> bool {
     if let Some(frequency) = beam.frequency {
         check.positive(&format!("{key}.frequency"), frequency);
     }
-    let geometry_holds = check.faults.len() == before;
+    let geometry_holds = check.found().len() == before;
     pulses(check, &format!("{key}.pulses"), beam, scenario);
     geometry_holds
 }

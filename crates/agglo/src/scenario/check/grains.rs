@@ -82,7 +82,7 @@ pub(super) fn tables(check: &mut Check, scenario: &Scenario, base: &Path) {
 }
 
 fn size(check: &mut Check, key: &str, size: &Size) -> bool {
-    let before = check.faults.len();
+    let before = check.found().len();
     match size {
         Size::Constant(law) => check.positive(&format!("{key}.constant.radius"), law.radius),
         Size::Uniform(law) => {
@@ -124,7 +124,7 @@ fn size(check: &mut Check, key: &str, size: &Size) -> bool {
             }
         }
     }
-    check.faults.len() == before
+    check.found().len() == before
 }
 
 /// [B]'s ratio says a radius through the number of grains and half the edge of their box: they must be the true ones.

@@ -129,7 +129,7 @@ fn pair(check: &mut Check, scenario: &Scenario, index: usize, mixture: &Mixture)
 /// Impacts of hard spheres have a restitution whatever their law; the mixture's takes its place.
 fn uses_restitution(scenario: &Scenario) -> bool {
     let law = scenario.contact.as_ref().and_then(|laws| laws.damping.as_ref());
-    scenario.engine.is_hard() || matches!(law, Some(Damping::Restitution(_)))
+    scenario.engine.is_hard() || law.is_some_and(Damping::reads_restitution)
 }
 
 fn friction(check: &mut Check, scenario: &Scenario, key: &str, mixture: &Mixture) {
@@ -147,11 +147,7 @@ fn friction(check: &mut Check, scenario: &Scenario, key: &str, mixture: &Mixture
         };
         check.fail_with(&format!("{key}.{name}"), "no law of the scenario uses it".to_owned(), help);
     }
-    let of_law = match law {
-        Some(Friction::Mindlin(law)) => (law.static_friction, law.dynamic_friction),
-        Some(Friction::Regularized(law)) => (law.static_friction, Some(law.dynamic_friction)),
-        None => return,
-    };
+    let Some(of_law) = law.map(Friction::coefficients) else { return };
     let at_rest = mixture.static_friction.unwrap_or(of_law.0);
     let in_motion = mixture.dynamic_friction.or(of_law.1).unwrap_or(at_rest);
     if given.iter().any(|(_, value)| value.is_some()) && in_motion > at_rest {

@@ -1,6 +1,6 @@
 //! Rules of placements.
 
-use super::{Check, shown};
+use super::{Check, region, shown};
 use crate::domain::{Region, Volume};
 use crate::packing::{Fill, GrainGroup, Lattice, Placement, RandomAddition, SATURATION, Size};
 use crate::scenario::types::Scenario;
@@ -21,7 +21,7 @@ pub(super) fn check(check: &mut Check, key: &str, group: &GrainGroup, scenario: 
 
 fn random(check: &mut Check, key: &str, law: &RandomAddition, size: &Size) {
     check.not_negative(&format!("{key}.gap"), law.gap);
-    let fits = check.region(&format!("{key}.region"), &law.region) && holds(check, key, &law.region, size);
+    let fits = region(check, &format!("{key}.region"), &law.region) && holds(check, key, &law.region, size);
     let volume = fits.then(|| law.region.volume());
     let way_out = "take fewer grains or a larger region, or place them with `lattice` (relax afterwards)";
     let wanted =
@@ -72,7 +72,7 @@ struct Amount {
 
 /// Whether the amount is valid.
 fn amount(check: &mut Check, key: &str, wanted: &Amount, size: &Size) -> bool {
-    let before = check.faults.len();
+    let before = check.found().len();
     match (wanted.count, wanted.solid_fraction) {
         (None, None) => check.fail(key, "needs count or solid_fraction; neither is given".to_owned()),
         (Some(_), Some(_)) => {
@@ -96,7 +96,7 @@ fn amount(check: &mut Check, key: &str, wanted: &Amount, size: &Size) -> bool {
             saturation(check, &format!("{key}.solid_fraction"), fraction, wanted, size);
         }
     }
-    check.faults.len() == before
+    check.found().len() == before
 }
 
 /// Random addition jams: a denser packing must be refused, not waited for.
@@ -139,7 +139,7 @@ fn holds(check: &mut Check, key: &str, region: &Region, size: &Size) -> bool {
 }
 
 fn lattice(check: &mut Check, key: &str, law: &Lattice, size: &Size) {
-    if check.region(&format!("{key}.region"), &law.region) {
+    if region(check, &format!("{key}.region"), &law.region) {
         holds(check, key, &law.region, size);
     }
     let diameter = 2.0 * size.largest();

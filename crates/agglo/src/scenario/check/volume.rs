@@ -1,6 +1,6 @@
 //! Rules of the control volume and of what lies in it.
 
-use super::{Check, shown};
+use super::{Check, corners, shown};
 use crate::domain::{Boundary, Region, Volume, resolution};
 use crate::math::Vec3;
 use crate::packing::{GrainGroup, GrainList, Placement};
@@ -13,7 +13,7 @@ const MOST_PAIRED: usize = 4000;
 
 pub(super) fn check(check: &mut Check, scenario: &Scenario) {
     let Some(volume) = &scenario.volume else { return };
-    if !check.corners("volume", volume.lower, volume.upper) || !scenario.engine.is_hard() {
+    if !corners(check, "volume", volume.lower, volume.upper) || !scenario.engine.is_hard() {
         return;
     }
     for (index, group) in scenario.grains.iter().enumerate() {

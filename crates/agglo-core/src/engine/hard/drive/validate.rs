@@ -51,7 +51,7 @@ impl EventsState<'_> {
             let bulk = &spheres.bulk[at];
             if !bulk.lives() {
                 let same = NextEvent { flat: NONE, bin: NONE, ..*next_event } == NextEvent::EMPTY;
-                ensure(same, || format!("slot {at} is empty and has an next_event"))?;
+                ensure(same, || format!("slot {at} is empty and has a next event"))?;
                 continue;
             }
             let cells = levels.get(next_event.level as usize).map(|level| level.counts);
@@ -59,13 +59,15 @@ impl EventsState<'_> {
                 system.volume.boundary == Boundary::Open
                     || next_event.cell.iter().zip(cells).all(|(cell, count)| (0..count).contains(cell))
             });
+            let of_partner = self.next_events.get(next_event.partner as usize);
             let partner = next_event.partner == NONE
-                || spheres.bulk.get(next_event.partner as usize).is_some_and(Bulk::lives);
+                || spheres.bulk.get(next_event.partner as usize).is_some_and(Bulk::lives)
+                    && of_partner.is_some_and(|other| other.partner as usize == at);
             let images = next_event.image.iter().all(|image| (-2..=2).contains(image));
             let exit = next_event.exit.axis < 3 && (-1..=1).contains(&next_event.exit.side);
             let times = next_event.collision >= self.filed.moment && next_event.crossing >= self.filed.moment;
             ensure(inside && partner && images && exit && times && next_event.id == bulk.id, || {
-                format!("the next_event of grain {} is none", bulk.id)
+                format!("the next event of grain {} is none", bulk.id)
             })?;
         }
         Ok(())

@@ -1,11 +1,12 @@
 //! The laws of a scenario, ready for use: what every evaluation of forces reads and none changes.
 
 use crate::acoustics::Medium;
-use crate::contact::{Bonds, ContactLaws, Damping, Friction, Normal};
+use crate::contact::{Bonds, ContactLaws, PairTable};
 use crate::fields::near_field::{NearField, Source};
-use crate::fields::{Drag, Fields, Flow, FlowAt, Lorentz, spin_coefficient};
+use crate::fields::{Channel, Drag, Fields, Flow, FlowAt, Grain, spin_coefficient};
+use crate::law::Chosen;
 use crate::math::Vec3;
-use crate::particles::{Material, Motion, PairTable, Particles};
+use crate::particles::{Material, Motion, Particles};
 
 use super::loads::{Supplies, Supply};
 use super::response::Response;
@@ -47,7 +48,7 @@ impl Laws {
             bonds: settings.bonds.clone(),
             fields: settings.fields.clone(),
             medium: settings.medium.clone(),
-            pairs: PairTable::new(&settings.materials, &settings.mixtures),
+            pairs: PairTable::new(&settings.materials, &settings.mixtures, settings.contact.as_ref()),
             materials: settings.materials.values().cloned().collect(),
             flow: flow_of(settings, grains),
         }
@@ -67,14 +68,14 @@ impl Laws {
             let slip = self.flow_velocity_at(position, time) - velocity;
             (law.coefficient(&self.medium, radius, slip), spin_coefficient(&self.medium, radius))
         });
-        let turning = |law: &Lorentz| law.turning(grains.charge[at], position, time);
-        Response { drag, spin, turning: fields.lorentz.as_ref().map_or(Vec3::ZERO, turning) }
+        let turning =
+            if fields.turn() { fields.turning(&self.grain(grains, at, motion, time)) } else { Vec3::ZERO };
+        Response { drag, turning, spin }
     }
 
     /// Whether forces on single grains answer to their velocities.
     pub fn has_response(&self) -> bool {
-        let turns = |law: &Lorentz| law.magnetic_flux_density.is_some();
-        self.fields.drag.is_some() || self.fields.lorentz.as_ref().is_some_and(turns)
+        self.fields.drag.is_some() || self.fields.turn()
     }
 
     /// How much the medium's velocity [m/s] changes from one place [m] and time [s] to another.
@@ -87,6 +88,28 @@ impl Laws {
     #[inline]
     fn flow_velocity_at(&self, position: Vec3, time: f64) -> Vec3 {
         self.flow.as_ref().map_or(Vec3::ZERO, |flow| flow.velocity_at(position, time))
+    }
+
+    /// A grain at a point [m] with a velocity [m/s] and at a time [s], as the fields see it.
+    #[inline]
+    pub fn grain(
+        &self,
+        grains: &Particles,
+        at: usize,
+        (position, velocity): (Vec3, Vec3),
+        time: f64,
+    ) -> Grain {
+        let density = self.materials[grains.material[at] as usize].density.si();
+        Grain {
+            position,
+            velocity,
+            mass: grains.mass[at],
+            inertial_mass: self.inertial_mass(grains, at),
+            radius: grains.radius[at],
+            charge: grains.charge[at],
+            density_ratio: self.medium.density.si() / density,
+            time,
+        }
     }
 
     /// Mass that resists acceleration [kg]: the grain's and, if wanted, that of the fluid it moves.
@@ -112,16 +135,11 @@ impl Laws {
             *channel = *channel + Supply::of(force, position, velocity);
             total.force += force;
         };
-        if let Some(gravity) = &self.fields.gravity {
-            let ratio = self.medium.density.si() / self.materials[grains.material[at] as usize].density.si();
-            book(&mut supplies.gravity, gravity.acceleration_on(ratio) * grains.mass[at]);
-        }
-        if let Some(lorentz) = &self.fields.lorentz {
-            book(&mut supplies.field, lorentz.force(grains.charge[at], velocity, position, time));
-        }
-        if let Some(magnetic) = &self.fields.magnetic {
-            book(&mut supplies.field, magnetic.force(radius, position, time));
-        }
+        let grain = self.grain(grains, at, (position, velocity), time);
+        self.fields.each_force(&grain, |channel, force| match channel {
+            Channel::Gravity => book(&mut supplies.gravity, force),
+            Channel::Field => book(&mut supplies.field, force),
+        });
         if let Some(drag) = &self.fields.drag {
             let (flow, spin) = (self.flow_at(position, time), motion.spin[at]);
             book(&mut supplies.drag, drag.force(&self.medium, radius, velocity, &flow));
@@ -134,60 +152,24 @@ impl Laws {
 
     /// Whether any force acts on single grains.
     pub fn has_single(&self) -> bool {
-        let fields = &self.fields;
-        fields.gravity.is_some()
-            || fields.drag.is_some()
-            || fields.lorentz.is_some()
-            || fields.magnetic.is_some()
+        self.fields.has_single()
+    }
+
+    /// The laws that act.
+    pub fn chosen(&self) -> impl Iterator<Item = &dyn Chosen> {
+        let contact = self.contact.iter().flat_map(ContactLaws::chosen);
+        let bonds = self.bonds.iter().map(|law| law as &dyn Chosen);
+        contact.chain(bonds).chain(self.fields.chosen())
     }
 
     /// The scenario's words for the laws that act.
     pub fn names(&self) -> Vec<&'static str> {
-        let mut names = Vec::new();
-        if let Some(laws) = &self.contact {
-            names.push(match laws.normal {
-                Normal::StrainPower(_) => "contact.normal.strain_power",
-                Normal::Hertz(_) => "contact.normal.hertz",
-                Normal::Hooke(_) => "contact.normal.hooke",
-            });
-            names.extend(laws.damping.as_ref().map(|law| match law {
-                Damping::ViscousArea(_) => "contact.damping.viscous_area",
-                Damping::Restitution(_) => "contact.damping.restitution",
-            }));
-            names.extend(laws.friction.as_ref().map(|law| match law {
-                Friction::Regularized(_) => "contact.friction.regularized",
-                Friction::Mindlin(_) => "contact.friction.mindlin",
-            }));
-        }
-        names.extend(self.bonds.as_ref().map(|law| match law {
-            Bonds::StrainBond(_) => "bonds.strain_bond",
-            Bonds::Beam(_) => "bonds.beam",
-        }));
-        let fields = &self.fields;
-        names.extend(fields.gravity.as_ref().map(|_| "fields.gravity"));
-        names.extend(fields.drag.as_ref().map(|_| "fields.drag"));
-        names.extend(fields.lorentz.as_ref().map(|_| "fields.lorentz"));
-        names.extend(fields.magnetic.as_ref().map(|_| "fields.magnetic"));
-        names.extend(fields.near_field.as_ref().map(|_| "fields.near_field"));
-        names
+        self.chosen().map(Chosen::key).collect()
     }
 
     /// Warnings that hold for the whole run: published laws that do not do what their names say.
     pub fn standing_warnings(&self) -> Vec<&'static str> {
-        let mut warnings = Vec::new();
-        if let Some(ContactLaws { friction: Some(Friction::Regularized(_)), .. }) = &self.contact {
-            warnings.push(
-                "contact.friction.regularized: the stick force carries the time step (halving the step halves it), so \
-                 the answer does not converge",
-            );
-        }
-        if let Some(Bonds::StrainBond(_)) = &self.bonds {
-            warnings.push(
-                "bonds.strain_bond acts in contact only: it cannot resist tension, and its tangential force carries \
-                 the time step",
-            );
-        }
-        warnings
+        self.chosen().flat_map(Chosen::warnings).copied().collect()
     }
 }
 

@@ -3,48 +3,32 @@
 use crate::acoustics::{Beam, Medium};
 use crate::contact::Bonds;
 use crate::contact::network::Network;
-use crate::fields::{Drag, DragLaw};
+use crate::fields::Drag;
 use crate::particles::Particles;
 
 use crate::engine::soft::forces::laws::Laws;
 
 /// Below this wave number times radius sound goes around a grain.
 const SMALLEST_KA: f64 = 10.0;
-/// Above this Reynolds number Stokes' law is more than 15 % off.
-const STOKES: f64 = 1.0;
-/// Above this Reynolds number Schiller and Naumann's law is not fitted.
-const SCHILLER_NAUMANN: f64 = 1000.0;
 
 /// A warning where a grain is too fast for the law of drag at `time` [s].
 pub fn of_drag(laws: &Laws, grains: &Particles, time: f64) -> Option<&'static str> {
     let drag = laws.fields.drag.as_ref()?;
-    let (limit, warning) = match drag.law {
-        DragLaw::Stokes => (
-            STOKES,
-            "fields.drag: a grain's Reynolds number is above 1, where stokes is too weak; schiller_naumann holds up \
-             to 1000",
-        ),
-        DragLaw::SchillerNaumann => (
-            SCHILLER_NAUMANN,
-            "fields.drag: a grain's Reynolds number is above 1000, where schiller_naumann does not hold",
-        ),
-    };
+    let validity = drag.law.validity();
     let is_above = |at: usize| {
         let flow = laws.flow_at(grains.position[at], time);
-        Drag::reynolds(&laws.medium, grains.radius[at], grains.velocity[at], &flow) > limit
+        Drag::reynolds(&laws.medium, grains.radius[at], grains.velocity[at], &flow) > validity.reynolds
     };
-    (0..grains.len()).any(is_above).then_some(warning)
+    (0..grains.len()).any(is_above).then_some(validity.warning)
 }
 
 /// A warning where no grains are bonded by a law that bonds neighbors at the start.
 pub fn of_bonds(law: Option<&Bonds>, network: &Network) -> Option<&'static str> {
-    match law {
-        Some(Bonds::Beam(law)) if network.made_at_start() == 0 && law.forming_strain.is_none() => Some(
-            "bonds.beam: no bond was made, since no two grains are closer than bonds.beam.gap, or none was left in the run \
-             of start.from; nothing holds the grains together",
-        ),
-        _ => None,
-    }
+    let law = law?.lasting()?;
+    (network.made_at_start() == 0 && law.forming_strain.is_none()).then_some(
+        "bonds.beam: no bond was made, since no two grains are closer than bonds.beam.gap, or none was left in the run \
+         of start.from; nothing holds the grains together",
+    )
 }
 
 /// A warning for each beam whose frequency is too low for rays at the smallest grain.

@@ -6,11 +6,10 @@
 use serde::{Deserialize, Serialize};
 
 use crate::acoustics::fresnel::Interface;
-use crate::acoustics::{
-    ALLOWANCE, Acoustics, Beam, Flight, Impedance, Medium, PulseCount, RayForce, Targets, Tracer,
-};
+use crate::acoustics::{ALLOWANCE, Acoustics, Beam, Flight, Impedance, Medium, PulseCount, Targets, Tracer};
 use crate::engine::validate::{Fault, ensure, length};
 use crate::engine::{Moment, SimError, Warnings};
+use crate::law::Chosen;
 use crate::math::Vec3;
 use crate::particles::Particles;
 use crate::units::Velocity;
@@ -153,10 +152,7 @@ impl Pulses {
 
     /// Whether hits give impulses; otherwise forces for one step.
     pub fn are_impulses(&self) -> bool {
-        !matches!(
-            &self.setup,
-            Some(Setup { acoustics: Acoustics { force: RayForce::PublishedStep(_), .. }, .. })
-        )
+        self.setup.as_ref().is_none_or(|setup| setup.acoustics.force.is_impulse())
     }
 
     /// Time [s] of the next launch after `now`.
@@ -321,14 +317,8 @@ impl Pulses {
     }
 
     /// Warnings that hold for the whole run.
-    pub fn standing_warnings(&self) -> Vec<&'static str> {
-        if self.are_impulses() {
-            return Vec::new();
-        }
-        vec![
-            "acoustics.force.published_step gives a force for one step: halving the step halves the impulse, so the \
-             answer does not converge",
-        ]
+    pub fn standing_warnings(&self) -> &'static [&'static str] {
+        self.setup.as_ref().map_or(&[], |setup| setup.acoustics.force.warnings())
     }
 }
 

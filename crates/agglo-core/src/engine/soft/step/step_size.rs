@@ -3,7 +3,7 @@
 //! # Equation
 //! $$ \Delta t = s \, \Delta t_c, \qquad \Delta t_c = \frac{2}{\Gamma + \sqrt{\Gamma^2 + \omega^2}} $$          (S1)
 //! with the sums of Γ and ω² over the laws. A law gives what it can reach: a contact at the largest overlap that the
-//! limits allow (and Rayleigh's wave for Hertz), all bonds of a grain together, the near field at the closest
+//! limits allow (and a wave through a grain, where the law has one), all bonds of a grain together, the near field at the closest
 //! approach, drag and fields where the grains are. Laws without such a bound (dashpots and friction by contact area,
 //! a near field without contact) are looked at in every step.
 //!
@@ -19,7 +19,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::contact::pass::contact_pace;
-use crate::contact::{Bonds, ContactLaws, Damping, Friction, Normal, Touch, normal::Hertz};
+use crate::contact::{Bonds, ContactLaws, Touch};
+use crate::fields::Fields;
 use crate::math::Pace;
 
 use crate::engine::soft::forces::laws::source;
@@ -56,10 +57,8 @@ pub struct Paces {
     pub bonds: Pace,
     /// Drag and the flow of the medium.
     pub drag: Pace,
-    /// Electric and magnetic force on charges.
-    pub lorentz: Pace,
-    /// Magnetic force.
-    pub magnetic: Pace,
+    /// Each of the fields, in the order of `Fields::SINGLE`.
+    pub fields: [Pace; Fields::SINGLE.len()],
     /// The near field.
     pub near_field: Pace,
 }
@@ -88,25 +87,20 @@ impl Paces {
 
     /// All together.
     pub fn total(&self) -> Pace {
-        self.named().into_iter().fold(Pace::NONE, |sum, (_, pace)| sum + pace)
+        self.named().fold(Pace::NONE, |sum, (_, pace)| sum + pace)
     }
 
     /// The scenario's word for the law that is fastest.
     pub fn fastest(&self) -> &'static str {
         let critical = |pace: &Pace| pace.critical_step();
-        let fastest = self.named().into_iter().min_by(|a, b| critical(&a.1).total_cmp(&critical(&b.1)));
+        let fastest = self.named().min_by(|a, b| critical(&a.1).total_cmp(&critical(&b.1)));
         fastest.map_or("", |(name, _)| name)
     }
 
-    fn named(&self) -> [(&'static str, Pace); 6] {
-        [
-            ("contact", self.contact),
-            ("bonds", self.bonds),
-            ("fields.drag", self.drag),
-            ("fields.lorentz", self.lorentz),
-            ("fields.magnetic", self.magnetic),
-            ("fields.near_field", self.near_field),
-        ]
+    fn named(&self) -> impl Iterator<Item = (&'static str, Pace)> {
+        let fields = Fields::SINGLE.iter().copied().zip(self.fields);
+        let before = [("contact", self.contact), ("bonds", self.bonds), ("fields.drag", self.drag)];
+        before.into_iter().chain(fields).chain([("fields.near_field", self.near_field)])
     }
 }
 
@@ -121,20 +115,14 @@ impl Fast {
     /// At the trial motion; the strain is what the limits allow.
     pub fn at_trial(system: &System, strain: f64) -> Self {
         let laws = &system.laws;
-        let by_area = laws.contact.as_ref().is_some_and(is_by_area)
-            || matches!(laws.bonds, Some(Bonds::StrainBond(_)))
+        let by_area = laws.contact.as_ref().is_some_and(ContactLaws::outgrow_contact)
+            || laws.bonds.as_ref().and_then(Bonds::in_contact).is_some()
             || system.trial.contact.worst_strain > strain;
         Self {
             contact: if by_area { system.with_trial_contacts(contact_pace) } else { Pace::NONE },
             near_field: system.near_pace_at_trial(),
         }
     }
-}
-
-/// Whether a law of contact grows with the area of contact, without a bound of its own.
-fn is_by_area(laws: &ContactLaws) -> bool {
-    matches!(laws.damping, Some(Damping::ViscousArea(_)))
-        || matches!(laws.friction, Some(Friction::Regularized(_)))
 }
 
 /// Places of the grains that make a partner's contact fastest: the smallest and largest of each material, and the
@@ -156,12 +144,10 @@ fn extremes(system: &System) -> Vec<usize> {
 /// Contacts at a strain, of each grain with each of `partners`.
 fn contact(system: &System, partners: &[usize], strain: f64, with_waves: bool) -> Pace {
     let Some(laws) = system.laws.contact.as_ref().map(ContactLaws::bounded) else { return Pace::NONE };
-    let has_waves = with_waves && matches!(laws.normal, Normal::Hertz(_));
     let grains = &system.grains;
     system.over_grains(|at| {
-        let wave =
-            || Hertz::wave_pace(&system.laws.materials[grains.material[at] as usize], grains.radius[at]);
-        let alone = if has_waves { wave() } else { Pace::NONE };
+        let material = &system.laws.materials[grains.material[at] as usize];
+        let alone = if with_waves { laws.normal.wave_pace(material, grains.radius[at]) } else { Pace::NONE };
         let with = |&partner: &usize| {
             let ends = [at, partner];
             let radii = ends.map(|k| grains.radius[k]);
@@ -205,21 +191,9 @@ fn singles(system: &System, time: f64) -> Paces {
             law.pace(&laws.medium, grains.radius[at], [mass(at), grains.inertia(at)], slip, &flow)
         })
     };
-    let lorentz = |at: usize| {
-        let place = grains.position[at];
-        fields
-            .lorentz
-            .as_ref()
-            .map_or(Pace::NONE, |law| law.pace(grains.charge[at], mass(at), grains.radius[at], place, time))
+    let of_fields = |at: usize| {
+        let motion = (grains.position[at], grains.velocity[at]);
+        fields.paces(&laws.grain(grains, at, motion, time))
     };
-    let magnetic = |at: usize| {
-        let place = grains.position[at];
-        fields.magnetic.as_ref().map_or(Pace::NONE, |law| law.pace(mass(at), grains.radius[at], place, time))
-    };
-    Paces {
-        drag: system.over_grains(drag),
-        lorentz: system.over_grains(lorentz),
-        magnetic: system.over_grains(magnetic),
-        ..Paces::default()
-    }
+    Paces { drag: system.over_grains(drag), fields: system.over_grains_each(of_fields), ..Paces::default() }
 }

@@ -1,5 +1,6 @@
 //! The pace of each law against numbers worked out by hand: two grains that touch, R = 10 um, 2500 kg/m3.
 
+use crate::fields::Fields;
 use std::f64::consts::PI;
 
 use super::step_size::{Paces, first};
@@ -82,21 +83,27 @@ fn contacts_by_area() {
     assert_pace(with(bond), normal + across, 0.0, "strain_bond");
 }
 
+/// How fast one of the fields is.
+fn field(word: &str, text: &str) -> Pace {
+    let at = Fields::SINGLE.iter().position(|single| *single == word).unwrap();
+    paces(text).fields[at]
+}
+
 /// Drag by its solved rate of spin; q B/m and the gradient of E over all axes; 2 γ (∂B/∂z)².
 #[test]
 fn forces_on_single_grains() {
     let drag = paces("[fields.drag]\nlaw = \"stokes\"\n").drag;
     assert_pace(drag, 0.0, 15.0 / 6.0 * 1e-3 / (2500.0 * RADIUS * RADIUS), "drag");
     let flux = "[fields.lorentz]\nmagnetic_flux_density = [\"0 T\", \"6 T\", \"8 T\"]\n";
-    assert_pace(paces(flux).lorentz, 0.0, 1e-11 / MASS, "rotation");
+    assert_pace(field("fields.lorentz", flux), 0.0, 1e-11 / MASS, "rotation");
     let trap = "[fields.lorentz]\nelectric_field = [\"-2e11*x\", \"-2e11*y\", \"-2e11*z\"]\n";
-    let found = paces(trap).lorentz;
+    let found = field("fields.lorentz", trap);
     // A difference over a hundredth of the radius, rounded.
     assert_close!(found.square, 3.0_f64.sqrt() * 0.2 / MASS, 1e-9);
     assert_eq!(found.rate, 0.0);
-    let field = "[fields.magnetic]\nmagnetizability = \"1e-9 J/T2\"\n\
+    let magnet = "[fields.magnetic]\nmagnetizability = \"1e-9 J/T2\"\n\
                  magnetic_flux_density = [\"1 T\", \"0 T\", \"1e4*z\"]\n";
-    let found = paces(field).magnetic;
+    let found = field("fields.magnetic", magnet);
     assert!((found.square / (0.2 / MASS) - 1.0).abs() < 1e-4 && found.rate == 0.0, "{found:?}");
 }
 

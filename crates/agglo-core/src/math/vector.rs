@@ -1,37 +1,38 @@
-//! A vector in space: three `f64`, nothing hidden.
+//! A vector in space: three numbers, nothing hidden.
 
 use std::ops::{Add, AddAssign, Div, Index, Mul, MulAssign, Neg, Sub, SubAssign};
 
 use serde::{Deserialize, Serialize};
 
+use super::Real;
+
 /// A vector or point in three dimensions; its unit is that of its components.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[repr(C)]
-pub struct Vec3 {
+pub struct Vector<F> {
     /// First component.
-    pub x: f64,
+    pub x: F,
     /// Second component.
-    pub y: f64,
+    pub y: F,
     /// Third component.
-    pub z: f64,
+    pub z: F,
 }
 
-impl Vec3 {
-    /// The vector of length zero.
-    pub const ZERO: Self = Self::new(0.0, 0.0, 0.0);
-    /// The unit vectors of the three axes.
-    pub const AXES: [Self; 3] =
-        [Self::new(1.0, 0.0, 0.0), Self::new(0.0, 1.0, 0.0), Self::new(0.0, 0.0, 1.0)];
+/// A vector of `f64`.
+pub type Vec3 = Vector<f64>;
 
+impl<F> Vector<F> {
     /// Puts three components together.
     #[inline]
-    pub const fn new(x: f64, y: f64, z: f64) -> Self {
+    pub const fn new(x: F, y: F, z: F) -> Self {
         Self { x, y, z }
     }
+}
 
+impl<F: Real> Vector<F> {
     /// Scalar product.
     #[inline]
-    pub fn dot(self, other: Self) -> f64 {
+    pub fn dot(self, other: Self) -> F {
         self.x * other.x + self.y * other.y + self.z * other.z
     }
 
@@ -48,15 +49,37 @@ impl Vec3 {
 
     /// Length.
     #[inline]
-    pub fn norm(self) -> f64 {
+    pub fn norm(self) -> F {
         self.norm_squared().sqrt()
     }
 
     /// Square of the length.
     #[inline]
-    pub fn norm_squared(self) -> f64 {
+    pub fn norm_squared(self) -> F {
         self.dot(self)
     }
+
+    /// The part at right angles to the unit vector `axis`.
+    #[inline]
+    #[must_use]
+    pub fn rejected_from(self, axis: Self) -> Self {
+        self - axis * self.dot(axis)
+    }
+
+    /// `yes` where the mask holds, `no` elsewhere.
+    #[inline]
+    #[must_use]
+    pub fn select(mask: F::Mask, yes: Self, no: Self) -> Self {
+        Self::new(F::select(mask, yes.x, no.x), F::select(mask, yes.y, no.y), F::select(mask, yes.z, no.z))
+    }
+}
+
+impl Vec3 {
+    /// The vector of length zero.
+    pub const ZERO: Self = Self::new(0.0, 0.0, 0.0);
+    /// The unit vectors of the three axes.
+    pub const AXES: [Self; 3] =
+        [Self::new(1.0, 0.0, 0.0), Self::new(0.0, 1.0, 0.0), Self::new(0.0, 0.0, 1.0)];
 
     /// The order of points by x, then y, then z; a total order of all bits.
     #[inline]
@@ -78,13 +101,6 @@ impl Vec3 {
     #[inline]
     pub fn is_finite(self) -> bool {
         self.x.is_finite() && self.y.is_finite() && self.z.is_finite()
-    }
-
-    /// The part at right angles to the unit vector `axis`.
-    #[inline]
-    #[must_use]
-    pub fn rejected_from(self, axis: Self) -> Self {
-        self - axis * self.dot(axis)
     }
 
     /// Component-wise smaller value.
@@ -154,7 +170,7 @@ impl Index<usize> for Vec3 {
     }
 }
 
-impl Add for Vec3 {
+impl<F: Real> Add for Vector<F> {
     type Output = Self;
     #[inline]
     fn add(self, other: Self) -> Self {
@@ -162,7 +178,7 @@ impl Add for Vec3 {
     }
 }
 
-impl Sub for Vec3 {
+impl<F: Real> Sub for Vector<F> {
     type Output = Self;
     #[inline]
     fn sub(self, other: Self) -> Self {
@@ -170,7 +186,7 @@ impl Sub for Vec3 {
     }
 }
 
-impl Neg for Vec3 {
+impl<F: Real> Neg for Vector<F> {
     type Output = Self;
     #[inline]
     fn neg(self) -> Self {
@@ -178,10 +194,10 @@ impl Neg for Vec3 {
     }
 }
 
-impl Mul<f64> for Vec3 {
+impl<F: Real> Mul<F> for Vector<F> {
     type Output = Self;
     #[inline]
-    fn mul(self, factor: f64) -> Self {
+    fn mul(self, factor: F) -> Self {
         Self::new(self.x * factor, self.y * factor, self.z * factor)
     }
 }
@@ -194,31 +210,31 @@ impl Mul<Vec3> for f64 {
     }
 }
 
-impl Div<f64> for Vec3 {
+impl<F: Real> Div<F> for Vector<F> {
     type Output = Self;
     #[inline]
-    fn div(self, divisor: f64) -> Self {
-        self * (1.0 / divisor)
+    fn div(self, divisor: F) -> Self {
+        self * (F::of(1.0) / divisor)
     }
 }
 
-impl AddAssign for Vec3 {
+impl<F: Real> AddAssign for Vector<F> {
     #[inline]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
-impl SubAssign for Vec3 {
+impl<F: Real> SubAssign for Vector<F> {
     #[inline]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;
     }
 }
 
-impl MulAssign<f64> for Vec3 {
+impl<F: Real> MulAssign<F> for Vector<F> {
     #[inline]
-    fn mul_assign(&mut self, factor: f64) {
+    fn mul_assign(&mut self, factor: F) {
         *self = *self * factor;
     }
 }

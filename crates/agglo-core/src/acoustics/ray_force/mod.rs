@@ -61,88 +61,42 @@
 //! assert!((force - down * by_hand).norm() < 1e-12);
 //! ```
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+mod impulse;
+mod law;
+mod published_step;
+mod radiation_pressure;
+
+pub use impulse::Impulse;
+pub use law::{Impedance, RayLaw};
+pub use published_step::PublishedStep;
+pub use radiation_pressure::RadiationPressure;
 
 use super::{Hit, Medium};
 use crate::math::Vec3;
-use crate::units::Time;
 
-/// The closed set of ray-force laws.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum RayForce {
-    /// [A] 7 for the duration of the pulse: the impulse of a hit does not depend on the step.
-    Impulse(Impulse),
-    /// [A] 7 for the one step in which the ray lands; does not converge.
-    PublishedStep(PublishedStep),
-    /// Momentum balance of the ray, for the duration of the pulse.
-    RadiationPressure(RadiationPressure),
-}
-
-/// |F| = sqrt(I (1-R) rho_t c_t a_r) for the duration of the pulse.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Impulse {
-    /// How long the pulse presses.
-    pub duration: Time,
-}
-
-/// |F| = sqrt(I (1-R) rho_t c_t a_r) for one step of xi R / c.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct PublishedStep {
-    /// ξ: part of a mean grain radius that a ray travels in one step; up to 1.
-    #[serde(default = "default_xi")]
-    pub step_fraction: f64,
-}
-
-fn default_xi() -> f64 {
-    0.1
-}
-
-/// F = (I/c)(d_in - R d_out) for the duration of the pulse.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct RadiationPressure {
-    /// How long the pulse presses.
-    pub duration: Time,
-}
-
-/// Impedances of a grain [Pa s/m]: its density times the speed of a wave in it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Impedance {
-    /// Of sound.
-    pub sound: f64,
-    /// Of shear waves; 0 in a fluid.
-    pub shear: f64,
+family! {
+    /// The closed set of ray-force laws.
+    pub enum RayForce at "acoustics.force", each by each_ray_force ($) {
+        Impulse in impulse: "[A] 7 for the duration of the pulse: the impulse of a hit does not depend on the step.";
+        PublishedStep in published_step: "[A] 7 for the one step in which the ray lands; does not converge.";
+        RadiationPressure in radiation_pressure: "Momentum balance of the ray, for the duration of the pulse.";
+    }
 }
 
 impl RayForce {
     /// Force [N] on the grain that is hit, whose `impedance` it is.
     pub fn force(&self, hit: &Hit, impedance: Impedance, medium: &Medium) -> Vec3 {
-        match self {
-            Self::Impulse(_) | Self::PublishedStep(_) => {
-                // Rounding may leave less than nothing where only a shear wave enters.
-                let entering = (hit.power_in * (1.0 - hit.reflectance - hit.sheared)).max(0.0);
-                let sound = hit.refracted * (entering * impedance.sound * hit.ray_area).sqrt();
-                let shearing = hit.power_in * hit.sheared;
-                sound + hit.refracted_shear * (shearing * impedance.shear * hit.ray_area).sqrt()
-            }
-            Self::RadiationPressure(_) => {
-                let lost = hit.direction_in - hit.direction_out * hit.reflectance;
-                lost * (hit.power_in / medium.sound_speed.si())
-            }
-        }
+        each_ray_force!(self, law => law.force(hit, impedance, medium))
     }
 
     /// How long a hit presses [s]; `radius` [m] is the mean radius of the grains.
     pub fn duration(&self, radius: f64, medium: &Medium) -> f64 {
-        match self {
-            Self::Impulse(law) => law.duration.si(),
-            Self::PublishedStep(law) => law.step_fraction * radius / medium.sound_speed.si(),
-            Self::RadiationPressure(law) => law.duration.si(),
-        }
+        each_ray_force!(self, law => law.duration(radius, medium))
+    }
+
+    /// Whether a hit is an impulse, whatever the step; otherwise a force for one step.
+    pub fn is_impulse(&self) -> bool {
+        each_ray_force!(self, law => law.is_impulse())
     }
 }
 

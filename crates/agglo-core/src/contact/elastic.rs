@@ -1,0 +1,12 @@
+//! What the elastic law makes of a contact.
+
+/// What the elastic law makes of a contact, as damping and friction take it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Elastic<F = f64> {
+    /// Repulsion [N].
+    pub force: F,
+    /// Slope of the repulsion over the overlap [N/m]; 0 where no law takes it.
+    pub stiffness: F,
+    /// n where the repulsion grows like overlap^n at small overlap.
+    pub exponent: f64,
+}

@@ -1,0 +1,63 @@
+//! What a force on single grains can do.
+
+use crate::law::Law;
+use crate::math::{Pace, Vec3};
+
+/// A grain as a force on single grains sees it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Grain {
+    /// Place of the center [m].
+    pub position: Vec3,
+    /// Velocity [m/s].
+    pub velocity: Vec3,
+    /// Its own mass [kg].
+    pub mass: f64,
+    /// Mass that resists acceleration [kg]: its own, and that of the fluid that it moves.
+    pub inertial_mass: f64,
+    /// Radius [m].
+    pub radius: f64,
+    /// Charge [C].
+    pub charge: f64,
+    /// Density of the medium over its own.
+    pub density_ratio: f64,
+    /// Time [s].
+    pub time: f64,
+}
+
+/// Where the ledger books the work of a field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Channel {
+    /// Weight and buoyancy.
+    Gravity,
+    /// Electric and magnetic fields, and whatever acts from outside.
+    Field,
+}
+
+/// What a force on single grains can do.
+pub trait FieldLaw: Law {
+    /// Where the ledger books its work.
+    const CHANNEL: Channel;
+
+    /// Force [N].
+    fn force(&self, grain: &Grain) -> Vec3;
+
+    /// How fast it is by the change of the force along the way, and by rotation.
+    fn pace(&self, _: &Grain) -> Pace {
+        Pace::NONE
+    }
+
+    /// What the force turns the velocity by [kg/s]: its part v x turning.
+    fn turning(&self, _: &Grain) -> Vec3 {
+        Vec3::ZERO
+    }
+
+    /// Whether it turns velocities at all.
+    fn turns(&self) -> bool {
+        false
+    }
+
+    /// Whether it acts on charges alone.
+    fn is_by_charge(&self) -> bool {
+        false
+    }
+}

@@ -1,0 +1,132 @@
+//! A family of laws as one list: one line for each law.
+
+/// Makes the enum that a scenario fills, and all by which the rest of the program knows the family's laws.
+///
+/// `Law in file: "what it is";` stands for the law `file::Law` whose word is `file` and whose page is at the head of that file, in
+/// the folder after `pages in`. The list also makes a macro with the name after `each by`, which does the same with whichever
+/// law there is.
+macro_rules! family {
+    (@pages $($Law:ident in $file:ident)+) => {};
+    (@pages $group:literal $($Law:ident in $file:ident)+) => {
+        /// The pages of all laws of the family.
+        pub const PAGES: &'static [$crate::pages::Page] = &[$($crate::pages::Page::new(
+            stringify!($file),
+            $group,
+            <$file::$Law as $crate::law::Law>::WORDS,
+            include_str!(concat!(stringify!($file), ".rs")),
+        ),)+];
+    };
+    (
+        $(#[$meta:meta])*
+        pub enum $Family:ident at $key:literal, $(pages in $group:literal,)? each by $each:ident ($d:tt) {
+            $($Law:ident in $file:ident: $says:tt;)+
+        }
+    ) => {
+        $(#[$meta])*
+        #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+        #[serde(rename_all = "snake_case")]
+        pub enum $Family {
+            $(
+                #[doc = $says]
+                $Law($file::$Law),
+            )+
+        }
+
+        #[allow(unused_macros, reason = "bonds have nothing that all of them do alike")]
+        macro_rules! $each {
+            ($d chosen:expr, $d law:ident => $d call:expr) => {
+                match $d chosen {
+                    $($Family::$Law($d law) => $d call,)+
+                }
+            };
+        }
+
+        impl $Family {
+            /// All laws of the family.
+            pub const LAWS: &'static [$crate::law::Entry] = &[$($crate::law::Entry {
+                key: concat!($key, ".", stringify!($file)),
+                reads: <$file::$Law as $crate::law::Law>::READS,
+            },)+];
+
+            family!(@pages $($group)? $($Law in $file)+);
+        }
+
+        impl $crate::law::Chosen for $Family {
+            fn key(&self) -> &'static str {
+                match self {
+                    $(Self::$Law(_) => concat!($key, ".", stringify!($file)),)+
+                }
+            }
+
+            fn reads(&self) -> &'static [$crate::particles::Property] {
+                match self {
+                    $(Self::$Law(law) => $crate::law::Law::reads(law),)+
+                }
+            }
+
+            fn needs(&self) -> $crate::law::Needs {
+                match self {
+                    $(Self::$Law(law) => $crate::law::Law::needs(law),)+
+                }
+            }
+
+            fn faults(&self, faults: &mut $crate::law::Faults, around: &$crate::law::Surroundings<'_>) {
+                faults.under(self.key(), |faults| match self {
+                    $(Self::$Law(law) => $crate::law::Law::faults(law, faults, around),)+
+                });
+            }
+
+            fn notes(&self, around: &$crate::law::Surroundings<'_>) -> Vec<String> {
+                match self {
+                    $(Self::$Law(law) => $crate::law::Law::notes(law, around),)+
+                }
+            }
+
+            fn warnings(&self) -> &'static [&'static str] {
+                match self {
+                    $(Self::$Law(law) => $crate::law::Law::warnings(law),)+
+                }
+            }
+        }
+    };
+}
+
+/// Says where a law stands that is the only one of its table.
+macro_rules! lone_law {
+    ($Law:ident at $table:literal, $word:ident) => {
+        lone_law!(@ $Law, concat!($table, ".", stringify!($word)));
+    };
+    (@ $Law:ident, $key:expr) => {
+        impl $Law {
+            /// The law as it is listed among all.
+            pub const ENTRY: $crate::law::Entry =
+                $crate::law::Entry { key: $key, reads: <Self as $crate::law::Law>::READS };
+        }
+
+        impl $crate::law::Chosen for $Law {
+            fn key(&self) -> &'static str {
+                $key
+            }
+
+            fn reads(&self) -> &'static [$crate::particles::Property] {
+                $crate::law::Law::reads(self)
+            }
+
+            fn needs(&self) -> $crate::law::Needs {
+                $crate::law::Law::needs(self)
+            }
+
+            fn faults(&self, faults: &mut $crate::law::Faults, around: &$crate::law::Surroundings<'_>) {
+                faults.under($key, |faults| $crate::law::Law::faults(self, faults, around));
+            }
+
+            fn notes(&self, around: &$crate::law::Surroundings<'_>) -> Vec<String> {
+                $crate::law::Law::notes(self, around)
+            }
+
+            fn warnings(&self) -> &'static [&'static str] {
+                $crate::law::Law::warnings(self)
+            }
+        }
+    };
+}

@@ -1,0 +1,127 @@
+//! The numbers that laws of contact are written for: one `f64`, or several side by side.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A real number, or as many as a machine works on at once.
+///
+/// Every operation here is exact to the last bit in each lane (IEEE 754), so a law gives the same bits however many
+/// contacts are worked out side by side. A choice between two values is a selection, not a branch.
+pub trait Real:
+    Copy
+    + Default
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// What a comparison gives: whether it holds, lane by lane.
+    type Mask: Copy + Default;
+
+    /// The same number in every lane.
+    fn of(value: f64) -> Self;
+
+    /// Square root.
+    #[must_use]
+    fn sqrt(self) -> Self;
+
+    /// A power with the same exponent in every lane.
+    #[must_use]
+    fn powf(self, exponent: f64) -> Self;
+
+    /// Size without sign.
+    #[must_use]
+    fn abs(self) -> Self;
+
+    /// The smaller of two.
+    #[must_use]
+    fn min(self, other: Self) -> Self;
+
+    /// The larger of two.
+    #[must_use]
+    fn max(self, other: Self) -> Self;
+
+    /// Where this is below another.
+    fn below(self, other: Self) -> Self::Mask;
+
+    /// Where this is another or below.
+    fn at_most(self, other: Self) -> Self::Mask;
+
+    /// `yes` where the mask holds, `no` elsewhere.
+    #[must_use]
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+
+    /// Where both hold.
+    fn both(a: Self::Mask, b: Self::Mask) -> Self::Mask;
+
+    /// Where it does not hold.
+    #[must_use]
+    fn not(mask: Self::Mask) -> Self::Mask;
+
+    /// Whether a mask holds in every lane, so that work which no lane wants can be spared.
+    fn all(mask: Self::Mask) -> bool;
+}
+
+impl Real for f64 {
+    type Mask = bool;
+
+    #[inline]
+    fn of(value: f64) -> Self {
+        value
+    }
+
+    #[inline]
+    fn sqrt(self) -> Self {
+        self.sqrt()
+    }
+
+    #[inline]
+    fn powf(self, exponent: f64) -> Self {
+        self.powf(exponent)
+    }
+
+    #[inline]
+    fn abs(self) -> Self {
+        self.abs()
+    }
+
+    #[inline]
+    fn min(self, other: Self) -> Self {
+        self.min(other)
+    }
+
+    #[inline]
+    fn max(self, other: Self) -> Self {
+        self.max(other)
+    }
+
+    #[inline]
+    fn below(self, other: Self) -> bool {
+        self < other
+    }
+
+    #[inline]
+    fn at_most(self, other: Self) -> bool {
+        self <= other
+    }
+
+    #[inline]
+    fn select(mask: bool, yes: Self, no: Self) -> Self {
+        if mask { yes } else { no }
+    }
+
+    #[inline]
+    fn both(a: bool, b: bool) -> bool {
+        a && b
+    }
+
+    #[inline]
+    fn not(mask: bool) -> bool {
+        !mask
+    }
+
+    #[inline]
+    fn all(mask: bool) -> bool {
+        mask
+    }
+}
