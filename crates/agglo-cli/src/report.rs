@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use agglo::folder::RunFolder;
+use agglo::folder::names::REPORT;
 use agglo::report::{self, ReportError};
 use agglo::scenario::Scenario;
 
@@ -14,13 +16,13 @@ use crate::{Failure, print, tell};
 /// Nothing else is left to be saved: a signal ends the program at once, and one that came before leaves the page out.
 pub(crate) fn at_the_end(folder: &Path, ear: &Ear) -> String {
     let shown = folder.display();
-    let advice = format!("`agglo report {shown}` writes report.html");
+    let advice = format!("`agglo report {shown}` writes {REPORT}");
     if ear.is_asked() {
         return format!("; stopped before its page: {advice}");
     }
     ear.ends_at_once(format!("stopped while the page was written; all results are in {shown}, and {advice}"));
     match report::write(folder) {
-        Ok(_) => "; report.html shows it".to_owned(),
+        Ok(_) => format!("; {REPORT} shows it"),
         Err(error) => {
             tell(&format!("warning: there is no report: {error}"));
             String::new()
@@ -37,7 +39,7 @@ pub(crate) fn report(folder: &Path) -> Result<(), Failure> {
 
 /// Prints what to cite for a run's folder.
 pub(crate) fn cite(folder: &Path) -> Result<(), Failure> {
-    let file = folder.join("scenario.toml");
+    let file = RunFolder::at(folder).scenario();
     let scenario = Scenario::load(&file).map_err(|error| Failure::bad_input(format!("error: {error}")))?;
     let laws = report::citations(&scenario);
     let lines =

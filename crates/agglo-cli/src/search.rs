@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 use std::path::Path;
 
+use agglo::folder::names::CAMPAIGN;
 use agglo::forecast::Plan;
 use agglo::search::campaign::{self, CampaignEnding, CampaignError, CampaignObserver, CampaignSummary};
 use agglo::search::{Axis, Campaign, CampaignForecast, Ensemble, Problem, Scale, Until};
@@ -30,7 +31,7 @@ pub(crate) fn resume(options: &ResumeOptions) -> Result<(), Failure> {
     let folder = options.folder.as_path();
     if options.until.is_some() {
         let shown = folder.display();
-        let help = "a budget of time, and how many candidates there are, stand in its search.toml";
+        let help = format!("a budget of time, and how many candidates there are, stand in its {CAMPAIGN}");
         let message = format!("error: {shown} holds a search or study; --until is for runs\nhelp: {help}");
         return Err(Failure::bad_input(message));
     }

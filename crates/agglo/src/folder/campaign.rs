@@ -132,7 +132,7 @@ impl CampaignFolder {
     }
     /// The run of the best candidate.
     pub fn best(&self) -> PathBuf {
-        self.root.join(names::BEST)
+        self.root.join(names::BEST_RUN)
     }
     /// The folder of the best candidate's run, by its names.
     pub fn best_run(&self) -> RunFolder {

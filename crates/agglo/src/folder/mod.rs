@@ -9,7 +9,7 @@ mod error;
 pub(crate) mod files;
 mod lock;
 mod mark;
-pub(crate) mod names;
+pub mod names;
 mod run;
 mod tables;
 mod traces;

@@ -170,7 +170,7 @@ impl RunFolder {
     }
     /// The list of frames of a kind: grains, bonds, rays.
     pub fn frame_list(&self, kind: &str) -> PathBuf {
-        self.frames().join(format!("{kind}.pvd"))
+        self.frames().join(names::frame_list(kind))
     }
     /// Checkpoints.
     pub fn checkpoints(&self) -> PathBuf {

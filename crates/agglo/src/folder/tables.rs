@@ -61,7 +61,7 @@ impl<'a> Tables<'a> {
         }
         let dir = self.root.join(names::TABLES);
         std::fs::create_dir_all(&dir).map_err(RecordError::file("make the folder", &dir))?;
-        let name = from.file_name().map_or_else(|| OsString::from("grains.csv"), OsString::from);
+        let name = from.file_name().map_or_else(|| OsString::from(names::PLACED), OsString::from);
         let mut place = Path::new(names::TABLES).join(&name);
         // Tables of one name may come from several folders.
         for number in 2.. {

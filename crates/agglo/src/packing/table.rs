@@ -62,7 +62,8 @@ pub fn read(file: &Path) -> Result<Vec<TableGrain>, TableError> {
 
 /// Reads a table; `file` is for messages.
 ///
-/// Numbers need none of the finer points of CSV, and messages need exact lines, so lines are split here.
+/// Numbers need none of the finer points of CSV, and messages need exact lines, which readers of CSV that pass over empty lines
+/// do not have; so lines are split here.
 fn parse(text: &str, file: &Path) -> Result<Vec<TableGrain>, TableError> {
     let fault =
         |line, column: String, reason| Err(TableError::Table { file: file.to_owned(), line, column, reason });

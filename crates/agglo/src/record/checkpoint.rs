@@ -26,14 +26,12 @@ use serde::de::DeserializeOwned;
 
 use super::atomic::{self, Durability};
 use super::{RecordError, door};
-use crate::folder::files;
+use crate::folder::{files, names};
 use crate::text::cell;
 
 const MAGIC: &[u8; 8] = b"AGGLO\r\n\x8a";
 const FORMAT: u32 = 3;
 const VERSION: &str = env!("CARGO_PKG_VERSION");
-const PREFIX: &str = "checkpoint-";
-const SUFFIX: &str = ".agglo";
 /// Checkpoints that are kept.
 const KEPT: usize = 2;
 
@@ -59,7 +57,7 @@ impl fmt::Display for Refused {
 /// # Errors
 /// [`RecordError::File`] or [`RecordError::Encode`]; earlier checkpoints are then still there.
 pub fn save<T: Serialize>(dir: &Path, step: u64, state: &T) -> Result<PathBuf, RecordError> {
-    let path = dir.join(format!("{PREFIX}{step:012}{SUFFIX}"));
+    let path = dir.join(names::checkpoint(step));
     let bytes = encode(step, state)
         .map_err(|error| RecordError::Encode { path: path.clone(), reason: error.to_string() })?;
     atomic::remove_leftovers(dir)?;
@@ -129,7 +127,9 @@ fn list(dir: &Path) -> Result<Vec<(u64, PathBuf)>, RecordError> {
     for entry in std::fs::read_dir(dir).map_err(RecordError::file("read", dir))? {
         let path = entry.map_err(RecordError::file("read", dir))?.path();
         let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-        let step = name.strip_prefix(PREFIX).and_then(|rest| rest.strip_suffix(SUFFIX));
+        let step = name
+            .strip_prefix(names::CHECKPOINT_BEGIN)
+            .and_then(|rest| rest.strip_suffix(names::CHECKPOINT_ENDING));
         if let Some(step) = step.and_then(|digits| digits.parse().ok()) {
             found.push((step, path));
         }

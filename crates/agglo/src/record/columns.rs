@@ -3,6 +3,8 @@
 
 use std::fmt;
 
+use crate::folder::names;
+
 /// An entry of a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cell<'a> {
@@ -194,7 +196,7 @@ pub trait Declared: Sync {
 
     /// Its name, where it is one of those over time.
     fn series(&self) -> Option<&'static str> {
-        self.file().strip_prefix("series/")?.strip_suffix(".csv")
+        names::of_series(self.file())
     }
 
     /// Names of its columns.

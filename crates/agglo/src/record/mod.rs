@@ -11,9 +11,11 @@ pub mod frames;
 mod json;
 mod rows;
 mod series;
+pub(crate) mod sheet;
 
 pub use columns::{About, Cell, Column, Declared, Panel, Table};
 pub use error::RecordError;
 pub use json::json;
 pub use rows::{Rows, Unknown};
 pub use series::{Opened, Series};
+pub use sheet::Sheet;

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::table::Table;
+use crate::folder::names;
 use crate::record::{About, Panel};
 use crate::text::readable;
 
@@ -158,7 +159,7 @@ impl Lines {
         Some(Chart {
             id: (*id).to_owned(),
             title: (*title).to_owned(),
-            caption: format!("{about} From series/{}.csv.{left_out}", self.table),
+            caption: format!("{about} From {}.{left_out}", names::series(self.table)),
             words: series.iter().map(|series| series.in_words(unit)).collect(),
             kind: Kind::Lines,
             x: Axis::new("time", "s"),

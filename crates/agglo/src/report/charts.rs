@@ -4,6 +4,7 @@ use super::chart::{Axis, Chart, Kind, Lines, Series, kept};
 use super::folder::Folder;
 use super::pulses;
 use super::table::Table;
+use crate::folder::names::SIZES;
 use crate::impact::heat::Balance;
 use crate::record::Panel;
 use crate::run;
@@ -81,7 +82,7 @@ fn sizes(table: &Table) -> Option<Chart> {
     Some(Chart {
         id: "sizes".to_owned(),
         title: "Sizes over time".to_owned(),
-        caption: "How much of the mass is in grains of each class of size. From series/sizes.csv.".to_owned(),
+        caption: format!("How much of the mass is in grains of each class of size. From {SIZES}."),
         words,
         kind: Kind::Map,
         x: Axis::new("time", "s"),

@@ -3,11 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use super::folder::{Folder, files};
-use super::sheet::Sheet;
 use crate::contact::Bonds;
 use crate::folder::names;
 use crate::record::frames::Collection;
-use crate::record::{About, Declared};
+use crate::record::{About, Declared, Sheet};
 use crate::run::{tables, tables_at_the_end};
 
 /// Names of frames in one note at the most.
@@ -19,7 +18,7 @@ pub fn notes(folder: &Folder) -> Vec<String> {
     if let Some(scenario) = &folder.scenario {
         let is_hard = scenario.engine.is_hard();
         for due in tables(is_hard) {
-            if due.file() != "series/rays.csv" || scenario.acoustics.is_some() {
+            if due.file() != names::RAYS || scenario.acoustics.is_some() {
                 notes.extend(table(folder, *due));
             }
         }
@@ -38,11 +37,10 @@ fn table(folder: &Folder, due: &dyn Declared) -> Option<String> {
     let place = due.file();
     let path = folder.root.join(place);
     if !path.exists() {
-        let charts = if place.starts_with("series/") { ": its charts are left out" } else { "" };
+        let charts = if due.series().is_some() { ": its charts are left out" } else { "" };
         return Some(format!("{place} is missing{charts}"));
     }
-    let of_series = place.strip_prefix("series/").and_then(|name| name.strip_suffix(".csv"));
-    let (names, dropped) = match of_series {
+    let (names, dropped) = match due.series() {
         // Its rows are counted where it is read; one that cannot be read is named there.
         Some(name) => (folder.table(name)?.names.clone(), 0),
         None => match Sheet::read_with(&path, false) {
@@ -74,8 +72,8 @@ fn frames(folder: &Folder) -> Vec<String> {
     let mut notes = Vec::new();
     let mut due = Vec::new();
     for kind in ["grains", "bonds", "rays"] {
-        let list = place.join(format!("{kind}.pvd"));
-        let there = numbers(&files(&place, &format!("{kind}_"), ".vtp"));
+        let list = place.join(names::frame_list(kind));
+        let there = numbers(&files(&place, &format!("{kind}_"), names::FRAME_ENDING));
         let listed = Collection::read(&list)
             .map(|listed| numbers(&listed.frames().map(|(_, file)| PathBuf::from(file)).collect::<Vec<_>>()));
         // Frames of all kinds are written together, numbered from 0 without gaps.
@@ -83,8 +81,11 @@ fn frames(folder: &Folder) -> Vec<String> {
         due.extend(last.map(|last| (kind, there.clone(), last + 1)));
         match listed {
             Ok(listed) if there.iter().all(|number| listed.contains(number)) => {}
-            Ok(_) => notes
-                .push(format!("frames/{kind}.pvd does not list all frames; those in the folder are shown")),
+            Ok(_) => notes.push(format!(
+                "{}/{} does not list all frames; those in the folder are shown",
+                names::FRAMES,
+                names::frame_list(kind)
+            )),
             Err(_) if there.is_empty() => {}
             Err(error) => notes.push(format!("{error}: the frames in the folder are shown instead")),
         }
@@ -113,7 +114,7 @@ fn is_due(folder: &Folder, kind: &str) -> bool {
 fn missing(kind: &str, there: &[usize], count: usize) -> Option<String> {
     let lost: Vec<String> = (0..count)
         .filter(|number| !there.contains(number))
-        .map(|number| format!("{kind}_{number:06}.vtp"))
+        .map(|number| names::frame(kind, number))
         .collect();
     if lost.is_empty() {
         return None;

@@ -3,7 +3,7 @@
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use crate::folder::names;
+use crate::folder::names::{self, SCENARIO, SUMMARY};
 use crate::record::{About, door};
 use crate::run::{Summary, tables};
 use crate::scenario::Scenario;
@@ -70,11 +70,11 @@ impl Folder {
     }
 
     fn read_scenario(&mut self) {
-        let text = match door::read_text(&self.root.join(names::SCENARIO), door::MOST_OF_A_TEXT) {
+        let text = match door::read_text(&self.root.join(SCENARIO), door::MOST_OF_A_TEXT) {
             Ok(text) => text,
             Err(error) => {
                 let reason = why(&error);
-                return self.notes.push(format!("scenario.toml {reason}: what was run is not known"));
+                return self.notes.push(format!("{SCENARIO} {reason}: what was run is not known"));
             }
         };
         match Scenario::from_toml(&text) {
@@ -82,7 +82,7 @@ impl Folder {
             Err(faults) => {
                 let first = faults.iter().next().map(ToString::to_string).unwrap_or_default();
                 self.notes.push(format!(
-                    "scenario.toml is damaged or of another version ({first}): it is shown as it is, without marks of \
+                    "{SCENARIO} is damaged or of another version ({first}): it is shown as it is, without marks of \
                      defaults, and what to cite is not known"
                 ));
             }
@@ -91,14 +91,14 @@ impl Folder {
     }
 
     fn read_summary(&mut self) {
-        let text = match door::read_text(&self.root.join(names::SUMMARY), door::MOST_OF_A_TEXT) {
+        let text = match door::read_text(&self.root.join(SUMMARY), door::MOST_OF_A_TEXT) {
             Ok(text) => text,
             Err(error) if error.kind() == ErrorKind::NotFound => {
-                return self.notes.push("summary.json is missing: the run has not finished".to_owned());
+                return self.notes.push(format!("{SUMMARY} is missing: the run has not finished"));
             }
             Err(error) => {
                 let reason = why(&error);
-                return self.notes.push(format!("summary.json {reason}: closing figures are left out"));
+                return self.notes.push(format!("{SUMMARY} {reason}: closing figures are left out"));
             }
         };
         match serde_json::from_str(&text) {
@@ -108,9 +108,10 @@ impl Folder {
     }
 
     fn read_tables(&mut self) {
-        for path in files(&self.root.join(names::SERIES), "", ".csv") {
+        for path in files(&self.root.join(names::SERIES), "", names::TABLE_ENDING) {
             let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            match Table::read(&path, &columns_of(&format!("series/{name}.csv"))) {
+            let place = names::series(&name);
+            match Table::read(&path, &columns_of(&place)) {
                 Ok(table) => {
                     if table.dropped > 0 {
                         let rows = if table.dropped == 1 {
@@ -118,11 +119,11 @@ impl Folder {
                         } else {
                             format!("{} rows are", table.dropped)
                         };
-                        self.notes.push(format!("series/{name}.csv is cut or damaged: {rows} left out"));
+                        self.notes.push(format!("{place} is cut or damaged: {rows} left out"));
                     }
                     self.tables.push((name, table));
                 }
-                Err(reason) => self.notes.push(format!("series/{name}.csv cannot be used: {reason}")),
+                Err(reason) => self.notes.push(format!("{place} cannot be used: {reason}")),
             }
         }
         if self.tables.is_empty() {
@@ -131,7 +132,7 @@ impl Folder {
     }
 
     fn find_frames(&mut self) {
-        self.frames = files(&self.root.join(names::FRAMES), "grains_", ".vtp");
+        self.frames = files(&self.root.join(names::FRAMES), "grains_", names::FRAME_ENDING);
         if self.frames.is_empty() {
             self.notes.push("there are no frames in frames/: the replay is left out".to_owned());
         }
@@ -145,7 +146,8 @@ impl Folder {
 
     /// Whether there is a checkpoint, whole or not.
     pub fn has_checkpoint(&self) -> bool {
-        !files(&self.root.join(names::CHECKPOINTS), "checkpoint-", ".agglo").is_empty()
+        let checkpoints = self.root.join(names::CHECKPOINTS);
+        !files(&checkpoints, names::CHECKPOINT_BEGIN, names::CHECKPOINT_ENDING).is_empty()
     }
 
     /// The version that wrote the folder, as the scenario or the summary says it.
@@ -182,15 +184,15 @@ pub fn why(error: &std::io::Error) -> String {
     }
 }
 
-/// What is wrong with the text of a `summary.json`.
+/// What is wrong with the text of a summary.
 pub fn not_understood(text: &str) -> String {
     let ours = env!("CARGO_PKG_VERSION");
     let value: Option<serde_json::Value> = serde_json::from_str(text).ok();
     match value.as_ref().and_then(|value| value.get("version")?.as_str()) {
         Some(version) if version != ours => format!(
-            "summary.json is of agglo {version}, which agglo {ours} does not know: closing figures are left out"
+            "{SUMMARY} is of agglo {version}, which agglo {ours} does not know: closing figures are left out"
         ),
-        _ => "summary.json is cut or damaged: closing figures are left out".to_owned(),
+        _ => format!("{SUMMARY} is cut or damaged: closing figures are left out"),
     }
 }
 

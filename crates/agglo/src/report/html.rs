@@ -11,6 +11,7 @@ use flate2::write::DeflateEncoder;
 use super::chart::{Chart, Kind};
 use super::cite::{PAPERS, Paper};
 use super::{Citation, Figures, Line, Listing, Report};
+use crate::folder::names::SCENARIO;
 use crate::plot::{LINES, Map, NAMED, PLAIN};
 
 const STYLE: &str = include_str!("page/page.css");
@@ -123,11 +124,8 @@ impl Report {
         let items: String = self.citations.iter().map(source).collect();
         let paper = |paper: &Paper| format!("<li><b>{}</b>: {}</li>\n", paper.label, escaped(&paper.whole()));
         let papers: String = PAPERS.iter().filter(|paper| self.mentions(paper.label)).map(paper).collect();
-        let unknown = if self.laws_are_unknown {
-            "<li>The laws are not known: scenario.toml cannot be read.</li>\n"
-        } else {
-            ""
-        };
+        let unknown = format!("<li>The laws are not known: {SCENARIO} cannot be read.</li>\n");
+        let unknown = if self.laws_are_unknown { unknown.as_str() } else { "" };
         format!(
             "<h2>What to cite</h2>\n<ul class=\"card sources\">\n<li>{program}</li>\n{items}{papers}{unknown}</ul>\n"
         )

@@ -12,7 +12,6 @@ mod html;
 mod listing;
 mod pulses;
 mod replay;
-mod sheet;
 mod story;
 mod table;
 
@@ -83,9 +82,9 @@ pub struct Listing {
 pub enum ReportError {
     /// The folder holds nothing that could be shown.
     #[error(
-        "{} holds no run, search or study: neither scenario.toml nor search.toml, summary.json, tables or frames; give \
-         the folder that `agglo run`, `search` or `study` wrote into",
-        dir.display()
+        "{} holds no run, search or study: neither {} nor {}, {}, tables or frames; give the folder that `agglo run`, `search` or \
+         `study` wrote into",
+        dir.display(), names::SCENARIO, names::CAMPAIGN, names::SUMMARY
     )]
     NothingThere {
         /// The folder.
@@ -202,7 +201,7 @@ fn again(folder: &Folder) -> Option<Figures> {
     }
     if let Some(scenario) = &folder.scenario {
         row("seed", scenario.seed.to_string());
-        row("command", "agglo run scenario.toml -o again".to_owned());
+        row("command", format!("agglo run {} -o again", names::SCENARIO));
     }
     if rows.is_empty() {
         return None;

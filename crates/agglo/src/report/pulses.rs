@@ -3,6 +3,7 @@
 
 use super::chart::{Axis, Chart, Kind, Lines, Series};
 use super::table::Table;
+use crate::folder::names::RAYS;
 
 /// Rows of a pulse from which on its course can be seen.
 const FEWEST_ROWS: usize = 5;
@@ -54,7 +55,7 @@ fn in_flight(pulses: &[Pulse]) -> Chart {
     Chart {
         id: "rays-of-pulses".to_owned(),
         title: "Rays in flight after each launch".to_owned(),
-        caption: format!("How long rays stay among the grains. From series/rays.csv.{left_out}"),
+        caption: format!("How long rays stay among the grains. From {RAYS}.{left_out}"),
         words: series.iter().map(|series| series.in_words("")).collect(),
         kind: Kind::Lines,
         x: since_launch(),

@@ -2,6 +2,7 @@
 
 use super::folder::Folder;
 use crate::engine::soft::Limits;
+use crate::folder::names::SUMMARY;
 use crate::run::{HardSummary, SoftSummary, Summary};
 use crate::text::readable;
 
@@ -33,7 +34,7 @@ pub fn unfinished(folder: &Folder, grains: Option<u64>) -> String {
         }
     }
     words.extend(grains.map(|count| format!("It had {} then.", self::grains(count))));
-    words.push("Warnings are unknown: summary.json, which has them, is missing or damaged.".to_owned());
+    words.push(format!("Warnings are unknown: {SUMMARY}, which has them, is missing or damaged."));
     words.join(" ")
 }
 

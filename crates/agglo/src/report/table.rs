@@ -2,8 +2,7 @@
 
 use std::path::Path;
 
-use super::sheet::Sheet;
-use crate::record::About;
+use crate::record::{About, Sheet};
 
 /// A table of numbers.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -6,6 +6,7 @@ use thiserror::Error;
 
 use crate::engine::SimError;
 use crate::folder::FolderError;
+use crate::folder::names::SCENARIO;
 use crate::packing::StartError;
 use crate::record::RecordError;
 use crate::scenario::Faults;
@@ -94,10 +95,10 @@ pub enum RunError {
     },
     /// The folder's scenario is not what its checkpoints are of.
     #[error(
-        "cannot go on: {0}/scenario.toml was edited, or its checkpoints are of another run; they have {keys}\n\
+        "cannot go on: {0}/{SCENARIO} was edited, or its checkpoints are of another run; they have {keys}\n\
          help: put the file back as it was; `agglo resume {0} --until \"40 s\"` goes on to another end, and \
-         `agglo run {0}/scenario.toml -o ANOTHER` runs what the file says now",
-        dir.display()
+         `agglo run {0}/{SCENARIO} -o ANOTHER` runs what the file says now",
+        dir.display(), SCENARIO = SCENARIO
     )]
     Edited {
         /// The run's folder.

@@ -6,6 +6,7 @@ use serde_json::Value as Json;
 
 use super::RunError;
 use super::job::AnySaved;
+use crate::folder::names::SCENARIO;
 use crate::folder::{RunFolder, files};
 use crate::record::checkpoint::{self, Refused};
 use crate::record::{Opened, RecordError, door};
@@ -103,7 +104,7 @@ impl Fit<'_, '_> {
             Err(faults) => return self.other(format!("its scenario cannot be read: {faults}")),
         };
         if !keys.is_empty() {
-            let reason = format!("it is of another run than scenario.toml: {}", listed(&keys));
+            let reason = format!("it is of another run than {SCENARIO}: {}", listed(&keys));
             if self.edits.is_empty() {
                 self.edits = keys;
             }
@@ -167,7 +168,7 @@ fn compare(checkpoint: &Json, file: &Json, key: &str, found: &mut Vec<String>) {
             }
         }
         _ if checkpoint == file => {}
-        _ => found.push(format!("{key}: {}, in scenario.toml {}", short(checkpoint), short(file))),
+        _ => found.push(format!("{key}: {}, in {SCENARIO} {}", short(checkpoint), short(file))),
     }
 }
 

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::acoustics::{Flight, Ray};
 use crate::contact::network::Bond;
+use crate::folder::names::{self, FRAMES};
 use crate::folder::{Mark, RunFolder};
 use crate::math::Vec3;
 use crate::particles::{ColumnValues, Particles};
@@ -63,13 +64,16 @@ impl FrameList {
         }
         let listed = Collection::read(&folder.frame_list(kind)).map_err(|error| error.to_string())?;
         if !listed.frames().take(count).eq(self.list.frames()) || self.marks.len() != count {
-            return Err(format!("frames/{kind}.pvd does not list the frames that the run had written"));
+            return Err(format!(
+                "{FRAMES}/{} does not list the frames that the run had written",
+                names::frame_list(kind)
+            ));
         }
         for (number, ((_, file), mark)) in (1..).zip(self.list.frames().zip(&self.marks)) {
             if reading(&format!("reading frame {number} of {count} of {kind}")).is_break() {
                 return Err("stopped".to_owned());
             }
-            mark.check(&folder.frames().join(file)).map_err(|why| format!("frames/{file} {why}"))?;
+            mark.check(&folder.frames().join(file)).map_err(|why| format!("{FRAMES}/{file} {why}"))?;
         }
         Ok(())
     }
@@ -82,7 +86,7 @@ impl FrameList {
     }
 
     fn next_name(&self, kind: &str) -> String {
-        format!("{kind}_{:06}.vtp", self.list.len())
+        names::frame(kind, self.list.len())
     }
 }
 

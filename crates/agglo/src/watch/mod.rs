@@ -86,7 +86,7 @@ impl Follower {
             title: scenario.title,
             end: scenario.time.end.si(),
             steps_are: if counts_events { "events" } else { "steps" },
-            tables: quantities::Tables::new(&folder.series(), is_hard),
+            tables: quantities::Tables::new(dir, is_hard),
             dir: dir.to_owned(),
         })
     }

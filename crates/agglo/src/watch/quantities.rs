@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::tail::Tail;
+use crate::folder::names;
 use crate::record::columns::Glance;
 use crate::record::{About, RecordError};
 use crate::run::tables;
@@ -55,8 +56,8 @@ pub(super) struct Tables {
 }
 
 impl Tables {
-    /// Those of a run of hard or of soft spheres in the folder `series`.
-    pub fn new(series: &Path, is_hard: bool) -> Self {
+    /// Those of a run of hard or of soft spheres in this folder.
+    pub fn new(dir: &Path, is_hard: bool) -> Self {
         let mut shown = Vec::new();
         for table in tables(is_hard) {
             let told = |column: &'static About| Some((table.series()?, column.glance?, column));
@@ -66,7 +67,7 @@ impl Tables {
         let mut names: Vec<&str> = shown.iter().map(|(table, ..)| *table).collect();
         names.sort_unstable();
         names.dedup();
-        let tail = |name: &'static str| (name, Tail::new(&series.join(format!("{name}.csv"))));
+        let tail = |name: &'static str| (name, Tail::new(&dir.join(names::series(name))));
         Self { tails: names.into_iter().map(tail).collect(), shown }
     }
 

@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
+use crate::record::sheet::rows;
 use crate::record::{RecordError, door};
 
 /// The rows of a table so far.
@@ -33,11 +34,11 @@ impl Tail {
         fresh.map_err(RecordError::file("read", &self.path))?;
         let whole = text.rfind('\n').map_or(0, |last| last + 1);
         self.read += whole as u64;
-        for line in text[..whole].lines() {
+        for row in rows(&text[..whole], false) {
             if self.columns.is_empty() {
-                self.columns = line.split(',').map(str::to_owned).collect();
+                self.columns = row.iter().map(str::to_owned).collect();
             } else {
-                self.rows.push(line.split(',').map(|word| word.parse().unwrap_or(f64::NAN)).collect());
+                self.rows.push(row.iter().map(|word| word.parse().unwrap_or(f64::NAN)).collect());
             }
         }
         Ok(())

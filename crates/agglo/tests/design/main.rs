@@ -148,3 +148,58 @@ fn a_symbol_has_one_meaning() {
     let twice: Vec<&str> = symbols.into_iter().filter(|symbol| !seen.insert(*symbol)).collect();
     assert_eq!(twice, Vec::<&str>::new(), "symbols of NOTATION.md that stand there twice");
 }
+
+/// Where a line of code, and not of a comment, writes out the name of a file of a run, search or study.
+fn written_out(text: &str) -> Option<(usize, &str)> {
+    const NAMES: [&str; 9] = [
+        ".csv",
+        ".vtp",
+        ".pvd",
+        ".agglo\"",
+        "scenario.toml",
+        "search.toml",
+        "summary.json",
+        "report.html",
+        "replicates.journal",
+    ];
+    let code = text.lines().take_while(|line| !line.starts_with("mod tests {")).enumerate();
+    let mut code = code.filter(|(_, line)| !line.trim_start().starts_with("//"));
+    code.find(|(_, line)| NAMES.iter().any(|name| line.contains(name)))
+}
+
+fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in folder.read_dir().expect("a folder of sources").flatten() {
+        let path = entry.path();
+        if path.is_dir() {
+            sources(&path, found);
+        } else if path.extension().is_some_and(|end| end == "rs") {
+            found.push(path);
+        }
+    }
+}
+
+/// What a folder holds is named in one place, so that readers and writers cannot part.
+#[test]
+fn names_of_files_have_one_home() {
+    let root = root();
+    let mut files = Vec::new();
+    for name in names(&root.join("crates")).iter().filter(|name| *name != "agglo-testing") {
+        sources(&root.join("crates").join(name).join("src"), &mut files);
+    }
+    assert!(files.len() > 300, "files that were found: {}", files.len());
+    let is_of_tests = |path: &Path| {
+        let name = path.file_name().unwrap().to_string_lossy();
+        name.ends_with("tests.rs") || ["distinct.rs", "testing.rs"].contains(&&*name)
+    };
+    for path in files.iter().filter(|path| !is_of_tests(path) && !path.ends_with("folder/names.rs")) {
+        let text = std::fs::read_to_string(path).unwrap();
+        if let Some((line, found)) = written_out(&text) {
+            panic!("{}:{}: take the name from folder/names.rs: {}", path.display(), line + 1, found.trim());
+        }
+    }
+    assert!(written_out("let path = dir.join(\"events.csv\");").is_some(), "such a line is found");
+    assert!(
+        written_out("/// `events.csv`\n#[cfg(test)]\nmod tests {\n\"a.csv\"").is_none(),
+        "such lines are not"
+    );
+}

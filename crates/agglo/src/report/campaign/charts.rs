@@ -1,8 +1,9 @@
 //! Charts of searches, and those that searches and studies share.
 
 use super::folder::Folder;
+use crate::folder::names::{EVALUATIONS, GENERATIONS, SUMMARY};
+use crate::record::Sheet;
 use crate::report::chart::{Axis, Chart, Dimension, Kind, Series};
-use crate::report::sheet::Sheet;
 use crate::search::optimizer::Method;
 use crate::text::{column, readable};
 
@@ -62,8 +63,8 @@ fn costs(folder: &Folder, searched: &Sheet) -> Option<Chart> {
         caption: format!(
             "The best mean so far with its standard error, and the mean of the best {kept} so far, which are the \
              parents of a search that keeps them; in the last generations the best are polished or run again. What is \
-             best is too good where it scatters. Candidates that miss a limit are in no mean. From generations.csv and \
-             evaluations.csv."
+             best is too good where it scatters. Candidates that miss a limit are in no mean. From {GENERATIONS} and \
+             {EVALUATIONS}."
         ),
         words: series.iter().map(|series| series.in_words("")).collect(),
         x: Axis::new("generation", ""),
@@ -131,9 +132,10 @@ fn candidates(folder: &Folder) -> Option<Chart> {
     Some(Chart {
         id: "candidates".to_owned(),
         title: "Every candidate".to_owned(),
-        caption: "Mean of each candidate with its standard error, in the order in which they were tried; those that miss \
-                  a limit by themselves. From evaluations.csv."
-            .to_owned(),
+        caption: format!(
+            "Mean of each candidate with its standard error, in the order in which they were tried; those that miss a limit \
+             by themselves. From {EVALUATIONS}."
+        ),
         words: series.iter().map(|series| series.in_words("")).collect(),
         kind: Kind::Points,
         x: Axis::new("candidate", ""),
@@ -187,9 +189,10 @@ fn front(folder: &Folder, searched: &Sheet) -> Option<Chart> {
     Some(Chart {
         id: "front".to_owned(),
         title: "Front".to_owned(),
-        caption: "Means of all candidates that keep the limits; those on the front are beaten by no other in both. From \
-                  evaluations.csv and summary.json."
-            .to_owned(),
+        caption: format!(
+            "Means of all candidates that keep the limits; those on the front are beaten by no other in both. From \
+             {EVALUATIONS} and {SUMMARY}."
+        ),
         words: words.collect(),
         kind: Kind::Points,
         x: Axis::new(&goals[0], ""),
@@ -226,9 +229,10 @@ fn parallel(folder: &Folder, searched: &Sheet) -> Option<Chart> {
     Some(Chart {
         id: "parallel".to_owned(),
         title: "Parameters and goals".to_owned(),
-        caption: "A line for each candidate; bright ones are better. Drag along an axis to choose a range, drag a name \
-                  to move its axis. From evaluations.csv."
-            .to_owned(),
+        caption: format!(
+            "A line for each candidate; bright ones are better. Drag along an axis to choose a range, drag a name to move \
+             its axis. From {EVALUATIONS}."
+        ),
         words: vec![format!("{} candidates over {} axes", searched.rows.len(), dimensions.len())],
         kind: Kind::Parallel,
         series: vec![Series { label, colors, ascending, dimensions, ..Series::default() }],

@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::folder::names;
+use crate::folder::names::{self, CAMPAIGN, SCENARIO, SUMMARY};
+use crate::record::Sheet;
 use crate::record::door;
 use crate::report::folder::{not_understood, why};
-use crate::report::sheet::Sheet;
 use crate::scenario::{LoadError, Scenario};
 use crate::search::campaign::CampaignSummary;
 use crate::search::{Campaign, Objective};
@@ -49,16 +49,16 @@ impl Folder {
         let mut folder = Self { root: root.to_owned(), ..Self::default() };
         folder.read_campaign();
         folder.read_summary();
-        folder.evaluations = folder.sheet("evaluations.csv", true);
-        folder.generations = folder.sheet("generations.csv", true);
+        folder.evaluations = folder.sheet(names::EVALUATIONS, true);
+        folder.generations = folder.sheet(names::GENERATIONS, true);
         // What is written at the end is not missed before it.
         let has_ended = folder.summary.is_some();
-        folder.best = folder.sheet("best.csv", has_ended);
-        folder.failures = folder.sheet("failures.csv", false);
-        folder.measures = folder.sheet("measures.csv", has_ended && folder.is_study());
-        folder.refinement = folder.sheet("refinement.csv", false);
-        folder.differences = folder.sheet("differences.csv", false);
-        folder.sensitivity = folder.sheet("sensitivity.csv", false);
+        folder.best = folder.sheet(names::BEST, has_ended);
+        folder.failures = folder.sheet(names::FAILURES, false);
+        folder.measures = folder.sheet(names::MEASURES, has_ended && folder.is_study());
+        folder.refinement = folder.sheet(names::REFINEMENT, false);
+        folder.differences = folder.sheet(names::DIFFERENCES, false);
+        folder.sensitivity = folder.sheet(names::SENSITIVITY, false);
         folder
     }
 
@@ -129,7 +129,7 @@ impl Folder {
     }
 
     fn read_campaign(&mut self) {
-        let path = self.root.join("search.toml");
+        let path = self.root.join(CAMPAIGN);
         let loaded = Campaign::load(&path);
         let text = door::read(&path, door::MOST_OF_A_TABLE).unwrap_or_default();
         self.campaign_text = String::from_utf8_lossy(&text).into_owned();
@@ -138,28 +138,28 @@ impl Folder {
             Err(LoadError::Faulty { faults, .. }) => {
                 let first = faults.iter().next().map(ToString::to_string).unwrap_or_default();
                 self.notes.push(format!(
-                    "search.toml is damaged or of another version ({first}): it is shown as it is"
+                    "{CAMPAIGN} is damaged or of another version ({first}): it is shown as it is"
                 ));
             }
             Err(LoadError::Unreadable { cause, .. }) => {
-                self.notes.push(format!("search.toml {}", why(&cause)));
+                self.notes.push(format!("{CAMPAIGN} {}", why(&cause)));
             }
         }
-        match Scenario::load(&self.root.join(names::SCENARIO)) {
+        match Scenario::load(&self.root.join(SCENARIO)) {
             Ok(scenario) => self.scenario = Some(scenario),
-            Err(_) => self.notes.push(
-                "scenario.toml is missing or damaged: what to cite for its laws is not known".to_owned(),
-            ),
+            Err(_) => self
+                .notes
+                .push(format!("{SCENARIO} is missing or damaged: what to cite for its laws is not known")),
         }
     }
 
     fn read_summary(&mut self) {
-        match door::read_text(&self.root.join(names::SUMMARY), door::MOST_OF_A_TEXT) {
+        match door::read_text(&self.root.join(SUMMARY), door::MOST_OF_A_TEXT) {
             Ok(text) => match serde_json::from_str(&text) {
                 Ok(summary) => self.summary = Some(summary),
                 Err(_) => self.notes.push(not_understood(&text)),
             },
-            Err(_) => self.notes.push("summary.json is missing: the work has not finished".to_owned()),
+            Err(_) => self.notes.push(format!("{SUMMARY} is missing: the work has not finished")),
         }
     }
 

@@ -14,7 +14,7 @@ use std::path::Path;
 use super::cite::{citations, methods};
 use super::listing::{listing, plain};
 use super::{Listing, Report};
-use crate::folder::CampaignFolder;
+use crate::folder::{CampaignFolder, names};
 use crate::record::door;
 use crate::scenario::Scenario;
 use crate::search::campaign::CampaignSummary as Summary;
@@ -27,7 +27,8 @@ pub fn report(dir: &Path) -> Report {
     // What a study is for comes first.
     let mut charts = study::charts(&folder);
     charts.extend(charts::charts(&folder));
-    let run = dir.join("best/report.html").is_file();
+    let run = format!("{}/{}", names::BEST_RUN, names::REPORT);
+    let run = dir.join(&run).is_file().then_some(run);
     let methods = folder.campaign.as_ref().map(methods).unwrap_or_default();
     let what = "The run of the best candidate: its replay and charts";
     Report {
@@ -36,7 +37,7 @@ pub fn report(dir: &Path) -> Report {
         story: story(&folder),
         notes: folder.notes.clone(),
         replay: None,
-        links: run.then(|| ["best/report.html".to_owned(), what.to_owned()]).into_iter().collect(),
+        links: run.map(|run| [run, what.to_owned()]).into_iter().collect(),
         charts,
         tables: tables::tables(&folder),
         files: files(&folder),

@@ -1,8 +1,9 @@
 //! Charts of studies.
 
 use super::folder::Folder;
+use crate::folder::names::{MEASURES, SENSITIVITY};
+use crate::record::Sheet;
 use crate::report::chart::{Axis, Chart, Kind, Series};
-use crate::report::sheet::Sheet;
 use crate::search::Plan;
 
 /// Charts of this many outcomes at the most.
@@ -42,7 +43,7 @@ fn outcomes(folder: &Folder) -> Vec<Chart> {
         Some(Chart {
             id: format!("outcome-{number}"),
             title: format!("{name} over {parameter}"),
-            caption: "Means over random replicates with their standard errors. From measures.csv.".to_owned(),
+            caption: format!("Means over random replicates with their standard errors. From {MEASURES}."),
             words: vec![series.in_words("")],
             kind: Kind::Points,
             x: axis.clone(),
@@ -100,9 +101,9 @@ fn effects(sheet: &Sheet, target: &str) -> Option<Chart> {
     ];
     Some(Chart {
         title: format!("What moves {target}"),
-        caption: "Elementary effects of Morris: a large mean size matters, a large deviation interacts or bends. From \
-                  sensitivity.csv."
-            .to_owned(),
+        caption: format!(
+            "Elementary effects of Morris: a large mean size matters, a large deviation interacts or bends. From {SENSITIVITY}."
+        ),
         words: said(&x, &series),
         kind: Kind::Bars,
         x,
@@ -124,9 +125,10 @@ fn shares(sheet: &Sheet, target: &str) -> Option<Chart> {
     ];
     Some(Chart {
         title: format!("What {target} varies with"),
-        caption: "Sobol indices: shares of the variance; bars of error are as long as the intervals of confidence. From \
-                  sensitivity.csv."
-            .to_owned(),
+        caption: format!(
+            "Sobol indices: shares of the variance; bars of error are as long as the intervals of confidence. From \
+             {SENSITIVITY}."
+        ),
         words: said(&x, &series),
         kind: Kind::Bars,
         x,

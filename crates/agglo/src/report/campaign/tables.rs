@@ -2,8 +2,11 @@
 
 use super::folder::Folder;
 use crate::folder::CampaignFolder;
+use crate::folder::names::{
+    BEST, BEST_RUN, CAMPAIGN, DIFFERENCES, EVALUATIONS, FAILURES, REFINEMENT, SCENARIO, SENSITIVITY,
+};
+use crate::record::Sheet;
 use crate::report::Figures;
-use crate::report::sheet::Sheet;
 use crate::text::column;
 
 /// Rows of failures at the most.
@@ -13,14 +16,16 @@ const MOST_FAILURES: usize = 50;
 pub fn tables(folder: &Folder) -> Vec<Figures> {
     let best = [parameters(folder), outcomes(folder)];
     let studied = [
-        whole(&folder.refinement, "What refinement says", "From refinement.csv."),
+        whole(&folder.refinement, "What refinement says", &format!("From {REFINEMENT}.")),
         whole(
             &folder.differences,
             "How far each level is from the finest",
-            "Replicate by replicate where levels share their replicates, with 95 % confidence: settled within the tolerance, not settled, \
-             or not shown, where the interval has both. From differences.csv.",
+            &format!(
+                "Replicate by replicate where levels share their replicates, with 95 % confidence: settled within the tolerance, not \
+                 settled, or not shown, where the interval has both. From {DIFFERENCES}."
+            ),
         ),
-        whole(&folder.sensitivity, "Sensitivity", "From sensitivity.csv."),
+        whole(&folder.sensitivity, "Sensitivity", &format!("From {SENSITIVITY}.")),
     ];
     let tables = best.into_iter().chain(studied).chain([figures(folder), failures(folder)]);
     tables.flatten().chain([again(folder)]).collect()
@@ -36,7 +41,7 @@ fn parameters(folder: &Folder) -> Option<Figures> {
         &folder.best,
         &columns,
         "The best candidates: their parameters",
-        "In SI units; the letters after the last underscores are the units. From best.csv.",
+        &format!("In SI units; the letters after the last underscores are the units. From {BEST}."),
     )
 }
 
@@ -64,8 +69,10 @@ fn outcomes(folder: &Folder) -> Option<Figures> {
         &sheet,
         &[&["rank"][..], limits, &[&goal, "standard_error"], &fixed, &new].concat(),
         "The best candidates: what they come to",
-        "Means over replicates that the search had not seen, where they were run again. The first was chosen by these, so it \
-         was run once more, and what it came to then is what counts. From best.csv and evaluations.csv.",
+        &format!(
+            "Means over replicates that the search had not seen, where they were run again. The first was chosen by these, so it \
+             was run once more, and what it came to then is what counts. From {BEST} and {EVALUATIONS}."
+        ),
     )
 }
 
@@ -161,7 +168,7 @@ fn failures(folder: &Folder) -> Option<Figures> {
     }
     let count = sheet.rows.len();
     let about = if count > MOST_FAILURES {
-        format!("The first {MOST_FAILURES} of {count}; failures.csv has all.")
+        format!("The first {MOST_FAILURES} of {count}; {FAILURES} has all.")
     } else {
         String::new()
     };
@@ -185,9 +192,9 @@ fn again(folder: &Folder) -> Figures {
         row("seed", campaign.seed.to_string());
     }
     let verb = if folder.is_study() { "study" } else { "search" };
-    row("command", format!("agglo {verb} search.toml -o again"));
+    row("command", format!("agglo {verb} {CAMPAIGN} -o again"));
     if CampaignFolder::at(&folder.root).best_run().scenario().is_file() {
-        row("command of the best one's run", "agglo run best/scenario.toml -o best-again".to_owned());
+        row("command of the best one's run", format!("agglo run {BEST_RUN}/{SCENARIO} -o best-again"));
     }
     Figures {
         title: "To run it again".to_owned(),

@@ -1,6 +1,7 @@
 //! The tables of hard spheres: a line declares a column, with all that is told of it anywhere.
 
 use crate::engine::hard::{Descent, EventKind, GrainEvent};
+use crate::folder::names;
 use crate::measure::{BreakageRow, DaughterRow, KernelRow};
 use crate::record::columns::{Column, Table, Tables, count, number, number_or_none, word};
 
@@ -11,7 +12,7 @@ const TIME: Column<Now> = number("time_s", "s", "time", "simulated", |now: &Now|
 
 /// The grains.
 #[rustfmt::skip]
-pub static GRAINS: Table<Now> = Table { file: "series/grains.csv", columns: &[
+pub static GRAINS: Table<Now> = Table { file: names::GRAINS, columns: &[
     TIME,
     count("grains", "grains", "how many", |now: &Now| now.growth.grains as u64).on(&panels::GRAINS).glance_with_curve(1),
     number("mean_radius_m", "m", "mean radius", "by number", |now: &Now| now.growth.mean_radius).glance_with_curve(2),
@@ -38,7 +39,7 @@ pub const FALSE_HEAT: &str = "unbalanced_J";
 
 /// The ledger.
 #[rustfmt::skip]
-pub static ENERGY: Table<Now> = Table { file: "series/energy.csv", columns: &[
+pub static ENERGY: Table<Now> = Table { file: names::ENERGY, columns: &[
     TIME,
     number("kinetic_J", "J", "kinetic energy", "now", |now: &Now| now.balance.stored.kinetic).on(&panels::ENERGY),
     number("thermal_J", "J", "thermal energy", "m C T, now", |now: &Now| now.balance.stored.thermal).on(&panels::HEAT),
@@ -56,7 +57,7 @@ pub static ENERGY: Table<Now> = Table { file: "series/energy.csv", columns: &[
 
 /// Momenta.
 #[rustfmt::skip]
-pub static MOMENTUM: Table<Now> = Table { file: "series/momentum.csv", columns: &[
+pub static MOMENTUM: Table<Now> = Table { file: names::MOMENTUM, columns: &[
     TIME,
     number("px_kg_m_s", "kg m/s", "momentum along x", "", |now: &Now| now.momentum.x),
     number("py_kg_m_s", "kg m/s", "momentum along y", "", |now: &Now| now.momentum.y),
@@ -71,7 +72,7 @@ pub static MOMENTUM: Table<Now> = Table { file: "series/momentum.csv", columns: 
 
 /// What happened since the start.
 #[rustfmt::skip]
-pub static IMPACTS: Table<Now> = Table { file: "series/impacts.csv", columns: &[
+pub static IMPACTS: Table<Now> = Table { file: names::IMPACTS, columns: &[
     TIME,
     count("impacts", "impacts", "since the start, as all counts of this table", |now: &Now| now.counts.collisions).on(&panels::IMPACTS).glance(7),
     count("bounces", "bounces", "impacts after which both went on", |now: &Now| now.counts.bounces).on(&panels::IMPACTS),
@@ -89,7 +90,7 @@ pub static IMPACTS: Table<Now> = Table { file: "series/impacts.csv", columns: &[
 
 /// Steps.
 #[rustfmt::skip]
-pub static STEPS: Table<Now> = Table { file: "series/steps.csv", columns: &[
+pub static STEPS: Table<Now> = Table { file: names::STEPS, columns: &[
     TIME,
     count("step", "steps", "or events of the engine", |now: &Now| now.clock.step),
     number("step_size_s", "s", "time between steps", "length of the last step; for `event_driven` the mean time between two impacts", |now: &Now| now.clock.last_step).on(&panels::STEP).glance(10),
@@ -97,7 +98,7 @@ pub static STEPS: Table<Now> = Table { file: "series/steps.csv", columns: &[
 
 /// Classes of sizes over time.
 #[rustfmt::skip]
-pub static SIZES: Table<ClassNow> = Table { file: "series/sizes.csv", columns: &[
+pub static SIZES: Table<ClassNow> = Table { file: names::SIZES, columns: &[
     number("time_s", "s", "time", "simulated", |now: &ClassNow| now.time),
     count("lower_primaries", "fewest primaries", "of the class: 1, 2 to 3, 4 to 7, ...", |now: &ClassNow| u64::from(now.class.lower)),
     count("upper_primaries", "most primaries", "of the class", |now: &ClassNow| u64::from(now.class.upper)),
@@ -108,7 +109,7 @@ pub static SIZES: Table<ClassNow> = Table { file: "series/sizes.csv", columns: &
 
 /// Impacts that merged two grains or broke one.
 #[rustfmt::skip]
-pub static EVENTS: Table<GrainEvent> = Table { file: "events.csv", columns: &[
+pub static EVENTS: Table<GrainEvent> = Table { file: names::EVENTS, columns: &[
     count("event", "event", "its number, from 1", |event: &GrainEvent| event.number),
     number("time_s", "s", "time", "when it happened", |event: &GrainEvent| event.time),
     word("kind", "what happened", "`merge` or `break`", what_happened),
@@ -134,8 +135,8 @@ fn what_happened(event: &GrainEvent) -> &str {
 
 /// Parents and children of events.
 #[rustfmt::skip]
-pub static GENEALOGY: Table<Descent> = Table { file: "genealogy.csv", columns: &[
-    count("event", "event", "its number in `events.csv`", |line: &Descent| line.event),
+pub static GENEALOGY: Table<Descent> = Table { file: names::GENEALOGY, columns: &[
+    count("event", "event", "its number in the table of events", |line: &Descent| line.event),
     count("parent", "parent", "its id", |line: &Descent| u64::from(line.parent)),
     count("child", "child", "its id; a merged grain keeps the heavier partner's (of equal ones, of the one that comes first in space), fragments get new ones", |line: &Descent| u64::from(line.child)),
     count("primaries", "primaries", "that go from parent to child", |line: &Descent| u64::from(line.primaries)),
@@ -144,7 +145,7 @@ pub static GENEALOGY: Table<Descent> = Table { file: "genealogy.csv", columns: &
 
 /// How often grains collide, merge and break, by size.
 #[rustfmt::skip]
-pub static KERNELS: Table<KernelRow> = Table { file: "kernels.csv", columns: &[
+pub static KERNELS: Table<KernelRow> = Table { file: names::KERNELS, columns: &[
     count("a_lower_primaries", "fewest primaries of the larger class", "", |row: &KernelRow| u64::from(row.a[0])),
     count("a_upper_primaries", "most primaries of the larger class", "", |row: &KernelRow| u64::from(row.a[1])),
     count("b_lower_primaries", "fewest primaries of the smaller class", "", |row: &KernelRow| u64::from(row.b[0])),
@@ -161,7 +162,7 @@ pub static KERNELS: Table<KernelRow> = Table { file: "kernels.csv", columns: &[
 
 /// How often grains break, by size.
 #[rustfmt::skip]
-pub static BREAKAGE: Table<BreakageRow> = Table { file: "breakage.csv", columns: &[
+pub static BREAKAGE: Table<BreakageRow> = Table { file: names::BREAKAGE, columns: &[
     count("lower_primaries", "fewest primaries", "of the class", |row: &BreakageRow| u64::from(row.class[0])),
     count("upper_primaries", "most primaries", "of the class", |row: &BreakageRow| u64::from(row.class[1])),
     count("grains", "grains", "in the class now", |row: &BreakageRow| row.grains),
@@ -172,7 +173,7 @@ pub static BREAKAGE: Table<BreakageRow> = Table { file: "breakage.csv", columns:
 
 /// What they broke into.
 #[rustfmt::skip]
-pub static DAUGHTERS: Table<DaughterRow> = Table { file: "daughters.csv", columns: &[
+pub static DAUGHTERS: Table<DaughterRow> = Table { file: names::DAUGHTERS, columns: &[
     count("parent_lower_primaries", "fewest primaries of the parents", "", |row: &DaughterRow| u64::from(row.parent[0])),
     count("parent_upper_primaries", "most primaries of the parents", "", |row: &DaughterRow| u64::from(row.parent[1])),
     count("daughter_lower_primaries", "fewest primaries of the daughters", "", |row: &DaughterRow| u64::from(row.daughter[0])),

@@ -2,6 +2,7 @@
 
 use crate::contact::bond::Break;
 use crate::contact::network::BondEvent;
+use crate::folder::names;
 use crate::record::columns::{Column, Table, Tables, count, number, number_or_none, word};
 
 use super::now::Now;
@@ -13,7 +14,7 @@ const TIME: Column<Now> = number("time_s", "s", "time", "simulated", |now: &Now|
 
 /// The ledger.
 #[rustfmt::skip]
-pub static ENERGY: Table<Now> = Table { file: "series/energy.csv", columns: &[
+pub static ENERGY: Table<Now> = Table { file: names::ENERGY, columns: &[
     TIME,
     number("kinetic_J", "J", "kinetic energy", "of centers, added mass included", |now: &Now| now.balance.stored.kinetic).on(&STORES).glance(9),
     number("spin_J", "J", "energy of spin", "", |now: &Now| now.balance.stored.spin).on(&STORES),
@@ -35,7 +36,7 @@ pub static ENERGY: Table<Now> = Table { file: "series/energy.csv", columns: &[
 
 /// Momenta.
 #[rustfmt::skip]
-pub static MOMENTUM: Table<Now> = Table { file: "series/momentum.csv", columns: &[
+pub static MOMENTUM: Table<Now> = Table { file: names::MOMENTUM, columns: &[
     TIME,
     number("px_kg_m_s", "kg m/s", "momentum along x", "", |now: &Now| now.momentum.linear.x),
     number("py_kg_m_s", "kg m/s", "momentum along y", "", |now: &Now| now.momentum.linear.y),
@@ -53,7 +54,7 @@ pub static MOMENTUM: Table<Now> = Table { file: "series/momentum.csv", columns: 
 
 /// How grains hang together.
 #[rustfmt::skip]
-pub static TOGETHER: Table<Now> = Table { file: "series/clusters.csv", columns: &[
+pub static TOGETHER: Table<Now> = Table { file: names::CLUSTERS, columns: &[
     TIME,
     count("clusters", "clusters", "single grains included", |now: &Now| now.clusters.count as u64).on(&CLUSTERS).glance(2),
     number("largest_fraction", "", "largest cluster", "mass of the heaviest cluster over all", |now: &Now| now.clusters.largest_mass_fraction).on(&DISPERSION).part().glance(3),
@@ -70,7 +71,7 @@ pub static TOGETHER: Table<Now> = Table { file: "series/clusters.csv", columns: 
 
 /// Places and speeds, weighted by mass.
 #[rustfmt::skip]
-pub static MOTION: Table<Now> = Table { file: "series/moments.csv", columns: &[
+pub static MOTION: Table<Now> = Table { file: names::MOMENTS, columns: &[
     TIME,
     number("mean_x_m", "m", "mean place along x", "by mass, as all of this table", |now: &Now| now.places[0].mean),
     number("mean_y_m", "m", "mean place along y", "", |now: &Now| now.places[1].mean),
@@ -87,7 +88,7 @@ pub static MOTION: Table<Now> = Table { file: "series/moments.csv", columns: &[
 
 /// All pulses so far together.
 #[rustfmt::skip]
-pub static SOUND: Table<Now> = Table { file: "series/rays.csv", columns: &[
+pub static SOUND: Table<Now> = Table { file: names::RAYS, columns: &[
     TIME,
     count("pulses", "pulses", "launched so far", |now: &Now| now.pulses.len() as u64),
     count("in_flight", "rays in flight", "", |now: &Now| now.in_flight).on(&RAYS).glance(7),
@@ -110,7 +111,7 @@ pub static SOUND: Table<Now> = Table { file: "series/rays.csv", columns: &[
 
 /// Steps.
 #[rustfmt::skip]
-pub static STEPS: Table<Now> = Table { file: "series/steps.csv", columns: &[
+pub static STEPS: Table<Now> = Table { file: names::STEPS, columns: &[
     TIME,
     count("step", "steps", "accepted so far", |now: &Now| now.clock.step),
     number("step_size_s", "s", "step", "length of the last", |now: &Now| now.clock.last_step).on(&STEP).glance(10),
@@ -121,7 +122,7 @@ pub static STEPS: Table<Now> = Table { file: "series/steps.csv", columns: &[
 
 /// Bonds that broke or were made.
 #[rustfmt::skip]
-pub static EVENTS: Table<BondEvent> = Table { file: "events.csv", columns: &[
+pub static EVENTS: Table<BondEvent> = Table { file: names::EVENTS, columns: &[
     number("time_s", "s", "time", "when it happened", |event: &BondEvent| event.time),
     count("grain_i", "first grain", "the lower id of the two", |event: &BondEvent| u64::from(event.ids[0])),
     count("grain_j", "second grain", "the higher id of the two", |event: &BondEvent| u64::from(event.ids[1])),

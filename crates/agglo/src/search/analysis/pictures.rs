@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::evaluations::Target;
 use super::refinement::{Convergence, Verdict, differences, observed_order, settled};
 use super::{Axis, Evaluations, Generation, Moments, Status, elementary_effects, variance_shares, varies};
+use crate::folder::names::picture;
 use crate::plot::{
     Bars, Front, FrontPoint, Histogram, Histograms, Line, LinePanel, Lines, Pairs, Parallel, Series, Settled,
     Staircase,
@@ -30,11 +31,11 @@ pub fn search_pictures(folder: &Path, evaluations: &Evaluations) -> Result<Vec<P
         return Ok(files);
     }
     let mut keep = |name: &str, svg: String| write(folder, name, &svg).map(|file| files.push(file));
-    keep("cost.svg", costs(evaluations))?;
-    keep("parallel.svg", parallel(evaluations))?;
-    keep("pairs.svg", pairs(evaluations))?;
+    keep("cost", costs(evaluations))?;
+    keep("parallel", parallel(evaluations))?;
+    keep("pairs", pairs(evaluations))?;
     if evaluations.objectives.len() == 2 {
-        keep("front.svg", front(evaluations))?;
+        keep("front", front(evaluations))?;
     }
     Ok(files)
 }
@@ -57,22 +58,22 @@ pub fn study_pictures(
     }
     let mut keep = |name: &str, svg: String| write(folder, name, &svg).map(|file| files.push(file));
     match plan {
-        Plan::Refinement(refinement) => keep("refinement.svg", staircase(evaluations, refinement.tolerance))?,
-        Plan::Morris(_) => keep("sensitivity.svg", effects(evaluations))?,
+        Plan::Refinement(refinement) => keep("refinement", staircase(evaluations, refinement.tolerance))?,
+        Plan::Morris(_) => keep("sensitivity", effects(evaluations))?,
         Plan::SobolIndices(indices) => {
-            keep("sensitivity.svg", shares(evaluations, indices.bootstraps, indices.level, seed))?;
+            keep("sensitivity", shares(evaluations, indices.bootstraps, indices.level, seed))?;
         }
-        Plan::Grid(_) if evaluations.parameters.len() > 1 => keep("parallel.svg", parallel(evaluations))?,
-        Plan::Grid(_) | Plan::List(_) => keep("outcomes.svg", outcomes(evaluations))?,
+        Plan::Grid(_) if evaluations.parameters.len() > 1 => keep("parallel", parallel(evaluations))?,
+        Plan::Grid(_) | Plan::List(_) => keep("outcomes", outcomes(evaluations))?,
     }
     if evaluations.rows.iter().any(|row| row.replicates.len() >= 8) && !evaluations.measures.is_empty() {
-        keep("histograms.svg", histograms(evaluations))?;
+        keep("histograms", histograms(evaluations))?;
     }
     Ok(files)
 }
 
 fn write(folder: &Path, name: &str, svg: &str) -> Result<PathBuf, RecordError> {
-    let path = folder.join(name);
+    let path = folder.join(picture(name));
     atomic::write(&path, svg.as_bytes())?;
     Ok(path)
 }

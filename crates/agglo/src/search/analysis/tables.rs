@@ -2,6 +2,7 @@
 
 use super::refinement::{Convergence, Difference, Order, differences, observed_order, settled};
 use super::{Axis, ElementaryEffects, Evaluations, Share, elementary_effects, variance_shares};
+use crate::folder::names;
 use crate::record::Rows;
 use crate::record::columns::{Cell, Column, Declared, Table, count, number_or_none, word};
 use crate::search::plan::Plan;
@@ -77,7 +78,7 @@ impl RefinementRow {
 
 /// What refinement comes to, target by target.
 #[rustfmt::skip]
-static REFINEMENT: Table<RefinementRow> = Table { file: "refinement.csv", columns: &[
+static REFINEMENT: Table<RefinementRow> = Table { file: names::REFINEMENT, columns: &[
     word("target", "target", "an objective or a measure", |row| &row.target),
     word("settled_from", "settled from", "the level from which on all are settled", |row| &row.settled_from),
     word("settling", "settling", "verdict on the level before the finest", |row| row.settling),
@@ -114,7 +115,7 @@ struct DifferenceRow {
 
 /// How far each level is from the finest one, with its interval. The level itself stands second.
 #[rustfmt::skip]
-static DIFFERENCES: Table<DifferenceRow> = Table { file: "differences.csv", columns: &[
+static DIFFERENCES: Table<DifferenceRow> = Table { file: names::DIFFERENCES, columns: &[
     word("target", "target", "an objective or a measure", |row| &row.target),
     count("replicates", "replicates", "that count", |row: &DifferenceRow| row.replicates),
     number_or_none("mean", "", "mean", "over the replicates", |row| finite(row.mean)),
@@ -167,7 +168,7 @@ struct EffectsRow {
 
 /// Elementary effects, parameter by parameter.
 #[rustfmt::skip]
-static EFFECTS: Table<EffectsRow> = Table { file: "sensitivity.csv", columns: &[
+static EFFECTS: Table<EffectsRow> = Table { file: names::SENSITIVITY, columns: &[
     word("target", "target", "an objective or a measure", |row| &row.target),
     word("parameter", "parameter", "", |row| &row.parameter),
     number_or_none("mean_effect", "", "mean effect", "", |row| finite(row.effects.mean)),
@@ -202,7 +203,7 @@ struct ShareRow {
 
 /// Shares of the variance, parameter by parameter.
 #[rustfmt::skip]
-static SHARES: Table<ShareRow> = Table { file: "sensitivity.csv", columns: &[
+static SHARES: Table<ShareRow> = Table { file: names::SENSITIVITY, columns: &[
     word("target", "target", "an objective or a measure", |row| &row.target),
     word("parameter", "parameter", "", |row| &row.parameter),
     number_or_none("first", "", "first-order share", "", |row| finite(row.share.first)),

@@ -3,11 +3,12 @@
 
 use super::archive::Evaluation;
 use super::records::error_of;
+use crate::folder::names;
 use crate::record::columns::{Table, Tables, count, count_or_none, number_or_none, word};
 
 /// Candidates.
 #[rustfmt::skip]
-pub static EVALUATIONS: Table<Evaluation> = Table { file: "evaluations.csv", columns: &[
+pub static EVALUATIONS: Table<Evaluation> = Table { file: names::EVALUATIONS, columns: &[
     count("evaluation", "evaluation", "its number, from zero", |one: &Evaluation| one.number),
     count("generation", "generation", "number of its batch, from zero", |one: &Evaluation| one.generation),
     word("stage", "stage", "`search`, `polish`, `confirm` or `final`", |one: &Evaluation| one.stage.word()),
@@ -29,7 +30,7 @@ pub struct ReplicateRow {
 
 /// Simulations that count.
 #[rustfmt::skip]
-pub static RUNS: Table<ReplicateRow> = Table { file: "runs.csv", columns: &[
+pub static RUNS: Table<ReplicateRow> = Table { file: names::RUNS, columns: &[
     count("evaluation", "evaluation", "number of the candidate's", |run: &ReplicateRow| run.evaluation),
     count("replicate", "replicate", "its number, from zero", |run: &ReplicateRow| u64::from(run.replicate)),
     count("seed", "seed", "of the simulation", |run: &ReplicateRow| run.seed),
@@ -51,7 +52,7 @@ pub struct GenerationRow {
 
 /// Generations.
 #[rustfmt::skip]
-pub static GENERATIONS: Table<GenerationRow> = Table { file: "generations.csv", columns: &[
+pub static GENERATIONS: Table<GenerationRow> = Table { file: names::GENERATIONS, columns: &[
     count("generation", "generation", "its number, from zero", |batch: &GenerationRow| batch.generation),
     word("stage", "stage", "`search`, `polish`, `confirm` or `final`", |batch: &GenerationRow| batch.stage),
     count("evaluations", "evaluations", "so far", |batch: &GenerationRow| batch.sums[0]),
@@ -77,7 +78,7 @@ pub struct Failure {
 
 /// Failures.
 #[rustfmt::skip]
-pub static FAILURES: Table<Failure> = Table { file: "failures.csv", columns: &[
+pub static FAILURES: Table<Failure> = Table { file: names::FAILURES, columns: &[
     count("evaluation", "evaluation", "number of the candidate's", |failure: &Failure| failure.run.evaluation),
     count("replicate", "replicate", "the one that failed", |failure: &Failure| u64::from(failure.run.replicate)),
     count("seed", "seed", "of the simulation", |failure: &Failure| failure.run.seed),
@@ -121,7 +122,7 @@ pub struct BestRow {
 
 /// The best candidates.
 #[rustfmt::skip]
-pub static BEST: Table<BestRow> = Table { file: "best.csv", columns: &[
+pub static BEST: Table<BestRow> = Table { file: names::BEST, columns: &[
     count("rank", "rank", "best first", |row: &BestRow| row.rank),
     count("evaluation", "evaluation", "as it was run again, or as the search saw it", |row: &BestRow| row.evaluation.number),
     number_or_none("cost", "", "cost", "", |row: &BestRow| row.evaluation.cost),

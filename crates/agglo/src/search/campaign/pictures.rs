@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::archive::{Evaluation, Status};
 use super::course::Results;
+use crate::folder::names;
 use crate::record::{RecordError, atomic};
 use crate::search::analysis::{
     self, EvaluationRow, Evaluations, Objective, Replicates, measures_table, parameter_axis, parameter_value,
@@ -20,7 +21,7 @@ pub fn write(campaign: &Campaign, problem: &Problem, results: &Results<'_>) -> R
         return search_pictures(&pictures, &evaluations).map(drop);
     };
     let keep = |name: &str, text: &str| atomic::write(&root.join(name), text.as_bytes());
-    keep("measures.csv", &measures_table(&evaluations))?;
+    keep(names::MEASURES, &measures_table(&evaluations))?;
     for (name, text) in study_tables(plan, &evaluations, campaign.seed) {
         keep(name, &text)?;
     }

@@ -10,7 +10,7 @@ use super::progress::CampaignObserver;
 use super::summary::Goal;
 use super::{CampaignEnding, CampaignError, pictures};
 use crate::engine::SimError;
-use crate::folder::{CampaignFolder, FolderError};
+use crate::folder::{CampaignFolder, FolderError, names};
 use crate::record::{RecordError, door};
 use crate::run::{self, Ending, RunError};
 use crate::scenario::{LoadError, Scenario};
@@ -33,7 +33,7 @@ pub fn run(
     let head = |what: &str| {
         format!("# {what} of agglo {}: every default is written out.\n", env!("CARGO_PKG_VERSION"))
     };
-    let own = Base::File("scenario.toml".to_owned());
+    let own = Base::File(names::SCENARIO.to_owned());
     let resolved = Campaign { base: own, settings: Vec::new(), ..campaign.clone() };
     let folder = CampaignFolder::create(dir)?;
     let (scenario, resolved) = with_tables(&folder, &problem, resolved)?;
@@ -110,7 +110,7 @@ fn go_on(
     };
     let text = read(folder.campaign())? + &read(folder.scenario())? + &folder.told_of_tables()?;
     let unreadable = |error: LoadError| {
-        let reason = format!("its search.toml cannot be read: {error}");
+        let reason = format!("its {} cannot be read: {error}", names::CAMPAIGN);
         FolderError::NoCampaign { dir: dir.to_owned(), reason }
     };
     let campaign = Campaign::load(&folder.campaign()).map_err(unreadable)?;

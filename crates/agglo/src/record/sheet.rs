@@ -1,7 +1,10 @@
-//! Tables of numbers and words, read back.
+//! The one reader of tables: numbers and words.
 
-use crate::record::door;
 use std::path::Path;
+
+use csv::{ReaderBuilder, StringRecord};
+
+use super::door;
 
 /// A table as it stands in its file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -31,15 +34,9 @@ impl Sheet {
         // Bytes that are no text become entries that are no numbers.
         let bytes = door::read(path, door::MOST_OF_A_TABLE).map_err(|error| error.to_string())?;
         let text = String::from_utf8_lossy(&bytes);
-        let mut reader =
-            csv::ReaderBuilder::new().flexible(true).quoting(quotes).from_reader(text.as_bytes());
-        let names: Vec<String> =
-            reader.headers().map_err(|error| error.to_string())?.iter().map(str::to_owned).collect();
-        if names.is_empty() {
-            return Err("it is empty".to_owned());
-        }
-        let mut rows: Vec<Vec<String>> =
-            reader.records().flatten().map(|row| row.iter().map(str::to_owned).collect()).collect();
+        let mut rows = rows(&text, quotes).map(|row| row.iter().map(str::to_owned).collect());
+        let Some(names) = rows.next() else { return Err("it is empty".to_owned()) };
+        let mut rows: Vec<Vec<String>> = rows.collect();
         let all = rows.len();
         // The last row of a file that does not end its last line may have lost digits.
         if !text.ends_with('\n') {
@@ -71,4 +68,12 @@ impl Sheet {
             self.rows.retain(|row| row[at] == word);
         }
     }
+}
+
+/// The rows of a text, whatever the numbers of their entries; without `quotes` these are letters as any other.
+pub(crate) fn rows(text: &str, quotes: bool) -> impl Iterator<Item = StringRecord> {
+    let mut reader = ReaderBuilder::new();
+    let reader = reader.has_headers(false).flexible(true).quoting(quotes).from_reader(text.as_bytes());
+    // Text has no rows that cannot be read.
+    reader.into_records().flatten()
 }
