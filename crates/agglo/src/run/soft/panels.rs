@@ -98,6 +98,7 @@ pub static STRAIN: Panel = Panel {
 };
 
 /// All of them, in the order of the page.
+#[cfg(feature = "report")]
 pub const ALL: &[&Panel] = &[
     &DISPERSION,
     &CLUSTERS,
