@@ -8,6 +8,7 @@ mod genetic;
 mod nelder_mead;
 mod published_genetic;
 mod random;
+mod samples;
 mod sobol;
 #[cfg(test)]
 mod tests;

@@ -41,12 +41,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Candidate, Fault, Optimizer, Part, Point, candidates, keep_best, stream, uniform_point};
-use crate::math::rng::Stream;
-use crate::search::Fitness;
-
-/// Points in one batch; none depends on another, so this only says how often results are seen.
-pub(super) const BATCH: usize = 32;
+use super::samples::Samples;
+use super::{Fault, Optimizer, Part, stream, uniform_point};
 
 /// Points drawn uniformly.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -64,41 +60,11 @@ impl Default for Random {
 
 impl Random {
     pub(super) fn start(&self, dimensions: usize, seed: u64) -> impl Optimizer + use<> {
-        Search {
-            left: self.points,
-            dimensions,
-            stream: stream(seed, Part::Points),
-            asked: Vec::new(),
-            best: None,
-        }
+        let mut stream = stream(seed, Part::Points);
+        Samples::new(self.points, move || uniform_point(&mut stream, dimensions))
     }
 
     pub(super) fn faults(&self) -> Vec<Fault> {
         if self.points == 0 { vec![("points", "at least 1 point is needed".into())] } else { Vec::new() }
-    }
-}
-
-struct Search {
-    left: usize,
-    dimensions: usize,
-    stream: Stream,
-    asked: Vec<Point>,
-    best: Option<Candidate>,
-}
-
-impl Optimizer for Search {
-    fn ask(&mut self) -> Vec<Point> {
-        let count = self.left.min(BATCH);
-        self.left -= count;
-        self.asked = (0..count).map(|_| uniform_point(&mut self.stream, self.dimensions)).collect();
-        self.asked.clone()
-    }
-
-    fn tell(&mut self, fitnesses: &[Fitness]) {
-        keep_best(&mut self.best, candidates(&mut self.asked, fitnesses));
-    }
-
-    fn recommended(&self) -> Option<Point> {
-        self.best.as_ref().map(|best| best.point.clone())
     }
 }

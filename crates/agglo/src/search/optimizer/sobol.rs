@@ -46,9 +46,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::random::BATCH;
-use super::{Candidate, Fault, Optimizer, Part, Point, candidates, keep_best, stream};
-use crate::search::Fitness;
+use super::samples::Samples;
+use super::{Fault, Optimizer, Part, Point, stream};
 
 /// Degree, inner coefficients a_1 ... a_(s-1) as bits, and m_1 ... m_s of dimensions 2, 3 ...
 const TABLE: [(usize, u64, &[u64]); 31] = [
@@ -106,12 +105,8 @@ impl Sobol {
     pub(super) fn start(&self, dimensions: usize, seed: u64) -> impl Optimizer + use<> {
         let mut shifts = stream(seed, Part::Points);
         let shift = (0..dimensions).map(|_| (shifts.uniform() * 2.0_f64.powi(53)) as u64).collect();
-        Search {
-            left: self.points,
-            sequence: Sequence::new(dimensions, shift),
-            asked: Vec::new(),
-            best: None,
-        }
+        let mut sequence = Sequence::new(dimensions, shift);
+        Samples::new(self.points, move || sequence.next_point())
     }
 
     pub(super) fn faults(&self, dimensions: usize) -> Vec<Fault> {
@@ -161,30 +156,6 @@ fn directions(dimension: usize) -> [u64; BITS] {
         }
     }
     std::array::from_fn(|k| m[k] << (52 - k))
-}
-
-struct Search {
-    left: usize,
-    sequence: Sequence,
-    asked: Vec<Point>,
-    best: Option<Candidate>,
-}
-
-impl Optimizer for Search {
-    fn ask(&mut self) -> Vec<Point> {
-        let count = self.left.min(BATCH);
-        self.left -= count;
-        self.asked = (0..count).map(|_| self.sequence.next_point()).collect();
-        self.asked.clone()
-    }
-
-    fn tell(&mut self, fitnesses: &[Fitness]) {
-        keep_best(&mut self.best, candidates(&mut self.asked, fitnesses));
-    }
-
-    fn recommended(&self) -> Option<Point> {
-        self.best.as_ref().map(|best| best.point.clone())
-    }
 }
 
 #[cfg(test)]
