@@ -10,10 +10,12 @@ use crate::common::{Bench, STAGGERED, command, complained, reference, signal};
 /// A second, and as much again for a machine that is busy with other tests, on top of a build that is not optimized.
 const SOON: Duration = Duration::from_secs(6);
 
-/// Grains that are placed at random, denser than there is room for: the search for it takes minutes.
+/// Grains that are placed at random, denser than there is room for: the search for it takes minutes. They are many, and their
+/// frames few: a disk that is nearly full has room for them.
 const PACKING: &str = r#"
 version = 1
 time.end = "1 s"
+output = { series = "1 s", frames = "1 s" }
 [engine.verlet]
 step = "1 us"
 [materials.glass]
