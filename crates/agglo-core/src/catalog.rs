@@ -4,13 +4,13 @@
 use crate::acoustics::RayForce;
 use crate::contact::{Bonds, Damping, Friction, Normal};
 use crate::fields::near_field::NearFieldLaw;
-use crate::fields::{Drag, Gravity, Lorentz, Magnetic};
+use crate::fields::{Drag, Gravity, Lorentz, Magnetic, NearField};
 use crate::impact::{Cooling, Fragmentation, HeatBalance, Restitution, Tangential};
 use crate::law::Entry;
 use crate::pages::{OF_SINGLE_FILES, Page};
 
 /// The families.
-pub const FAMILIES: &[&[Entry]] = &[
+const FAMILIES: &[&[Entry]] = &[
     Normal::LAWS,
     Damping::LAWS,
     Friction::LAWS,
@@ -28,6 +28,7 @@ const PAGES: &[&[Page]] = &[
     Damping::PAGES,
     Friction::PAGES,
     Bonds::PAGES,
+    &[NearField::PAGE],
     NearFieldLaw::PAGES,
     Restitution::PAGES,
     OF_SINGLE_FILES,

@@ -24,10 +24,10 @@ pub struct ContactLaws {
 
 impl ContactLaws {
     /// All that the scenario has chosen.
-    pub fn chosen(&self) -> impl Iterator<Item = &dyn Chosen> {
-        let damping = self.damping.iter().map(|law| law as &dyn Chosen);
-        let friction = self.friction.iter().map(|law| law as &dyn Chosen);
-        std::iter::once(&self.normal as &dyn Chosen).chain(damping).chain(friction)
+    pub fn chosen(&self) -> impl Iterator<Item = Chosen<'_>> {
+        let damping = self.damping.iter().map(Damping::chosen);
+        let friction = self.friction.iter().map(Friction::chosen);
+        std::iter::once(self.normal.chosen()).chain(damping).chain(friction)
     }
 
     /// Whether contacts have a memory.

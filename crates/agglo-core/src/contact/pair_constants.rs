@@ -33,11 +33,11 @@ impl PairConstants {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::units::Quantity;
 
-    fn material(modulus: f64, poisson: f64) -> Material {
+    pub(in crate::contact) fn material(modulus: f64, poisson: f64) -> Material {
         Material {
             density: Quantity(2000.0),
             youngs_modulus: Some(Quantity(modulus)),

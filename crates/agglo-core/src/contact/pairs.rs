@@ -47,16 +47,7 @@ mod tests {
     use crate::contact::damping::{Damping, Restitution, damping_ratio};
     use crate::contact::friction::{Friction, Mindlin};
     use crate::contact::normal::{Hertz, Normal};
-    use crate::units::Quantity;
-
-    fn material(modulus: f64, poisson: f64) -> Material {
-        Material {
-            density: Quantity(2000.0),
-            youngs_modulus: Some(Quantity(modulus)),
-            poisson_ratio: Some(poisson),
-            ..Material::default()
-        }
-    }
+    use crate::contact::pair_constants::tests::material;
 
     /// What a pair of materials has by itself takes the place of what the laws say, for that pair alone.
     #[test]

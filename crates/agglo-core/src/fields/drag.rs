@@ -62,7 +62,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{FlowAt, FlowField};
 use crate::acoustics::Medium;
-use crate::law::{Faults, Law, Surroundings};
+use crate::law::{Context, Faults, Law};
 use crate::math::{Pace, Vec3};
 
 /// Drag on every grain; viscosity and density are the medium's.
@@ -123,9 +123,9 @@ impl DragLaw {
 lone_law!(Drag at "fields", drag);
 
 impl Law for Drag {
-    fn faults(&self, faults: &mut Faults, around: &Surroundings<'_>) {
+    fn faults(&self, faults: &mut Faults, context: &Context<'_>) {
         faults.zero_or_more("added_mass", self.added_mass);
-        if around.medium.viscosity.si() == 0.0 {
+        if context.medium.viscosity.si() == 0.0 {
             let message = "the medium has no viscosity: there would be no drag".to_owned();
             let help = "give medium.viscosity, such as \"1 mPa s\" for water, or remove [fields.drag]";
             faults.fail_with("law", message, help);

@@ -40,7 +40,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Channel, FieldLaw, Grain};
-use crate::law::{Faults, Law, Surroundings};
+use crate::law::{Context, Faults, Law};
 use crate::math::Vec3;
 use crate::units::{Acceleration, Triple, vector};
 
@@ -56,8 +56,8 @@ pub struct Gravity {
 }
 
 impl Law for Gravity {
-    fn faults(&self, faults: &mut Faults, around: &Surroundings<'_>) {
-        if self.buoyancy && around.medium.density.si() == 0.0 {
+    fn faults(&self, faults: &mut Faults, context: &Context<'_>) {
+        if self.buoyancy && context.medium.density.si() == 0.0 {
             let message = "buoyancy is on, but medium.density is 0".to_owned();
             faults.fail_with("buoyancy", message, "give the medium a density or turn buoyancy off");
         }

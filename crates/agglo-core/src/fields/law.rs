@@ -12,8 +12,6 @@ pub struct Grain {
     pub velocity: Vec3,
     /// Its own mass [kg].
     pub mass: f64,
-    /// Mass that resists acceleration [kg]: its own, and that of the fluid that it moves.
-    pub inertial_mass: f64,
     /// Radius [m].
     pub radius: f64,
     /// Charge [C].
@@ -41,8 +39,9 @@ pub trait FieldLaw: Law {
     /// Force [N].
     fn force(&self, grain: &Grain) -> Vec3;
 
-    /// How fast it is by the change of the force along the way, and by rotation.
-    fn pace(&self, _: &Grain) -> Pace {
+    /// How fast it is by the change of the force along the way, and by rotation, where this mass [kg] resists it: the
+    /// grain's own, and that of the fluid that it moves.
+    fn pace(&self, _: &Grain, _mass: f64) -> Pace {
         Pace::NONE
     }
 

@@ -45,7 +45,7 @@ use serde::{Deserialize, Serialize};
 
 use super::expression::evaluate;
 use super::{Channel, FieldLaw, FieldVector, Grain};
-use crate::law::{Faults, Law, Surroundings};
+use crate::law::{Context, Faults, Law};
 use crate::math::{Pace, Vec3};
 
 /// q (E + v x B).
@@ -61,7 +61,7 @@ pub struct Lorentz {
 }
 
 impl Law for Lorentz {
-    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+    fn faults(&self, faults: &mut Faults, _: &Context<'_>) {
         if self.electric_field.is_none() && self.magnetic_flux_density.is_none() {
             let message = "has neither electric_field nor magnetic_flux_density".to_owned();
             faults.fail_with("", message, "give one of them or remove the table");
@@ -104,8 +104,8 @@ impl FieldLaw for Lorentz {
     }
 
     /// By the frequency q B/m of rotation, and by the gradient of E.
-    fn pace(&self, grain: &Grain) -> Pace {
-        let Grain { charge, inertial_mass: mass, radius, position, time, .. } = *grain;
+    fn pace(&self, grain: &Grain, mass: f64) -> Pace {
+        let Grain { charge, radius, position, time, .. } = *grain;
         let turning = Pace::of_dashpot(self.turning(grain).norm(), mass);
         let Some(field) =
             self.electric_field.as_ref().filter(|field| field.iter().any(|e| e.constant().is_none()))
@@ -168,8 +168,8 @@ mod tests {
         let slope = std::f64::consts::TAU / 0.01;
         let within = 1.0 - (slope * 1e-5).powi(2) / 6.0;
         for mass in [1e-9, 2.0] {
-            let grain = Grain { charge: 3e-6, inertial_mass: mass, radius: 1e-3, ..Default::default() };
-            let pace = law.pace(&grain);
+            let grain = Grain { charge: 3e-6, radius: 1e-3, ..Default::default() };
+            let pace = law.pace(&grain, mass);
             assert_close!(pace.square, 3e-6 * slope * within / mass, 1e-9, "in 1/s², a grain of {mass} kg");
         }
     }

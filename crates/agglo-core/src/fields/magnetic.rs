@@ -43,7 +43,7 @@ use serde::{Deserialize, Serialize};
 
 use super::expression::evaluate;
 use super::{Channel, FieldLaw, FieldVector, Grain};
-use crate::law::{Faults, Law, Surroundings};
+use crate::law::{Context, Faults, Law};
 use crate::math::{Pace, Vec3};
 use crate::units::{Length, Magnetizability};
 
@@ -61,7 +61,7 @@ pub struct Magnetic {
 }
 
 impl Law for Magnetic {
-    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+    fn faults(&self, faults: &mut Faults, _: &Context<'_>) {
         if let Some(difference) = self.difference {
             faults.positive("difference", difference);
         }
@@ -88,8 +88,8 @@ impl FieldLaw for Magnetic {
     }
 
     /// By the gradient of the force.
-    fn pace(&self, grain: &Grain) -> Pace {
-        let Grain { inertial_mass: mass, radius, position, .. } = *grain;
+    fn pace(&self, grain: &Grain, mass: f64) -> Pace {
+        let Grain { radius, position, .. } = *grain;
         let at = |position: Vec3| self.force(&Grain { position, ..*grain });
         let square = Vec3::AXES.map(|axis| {
             let (ahead, behind) = (position + axis * radius, position - axis * radius);

@@ -52,11 +52,11 @@ macro_rules! fields {
             pub const SINGLE: &'static [&'static str] = &[$(concat!("fields.", stringify!($word))),+];
 
             /// All that the scenario has chosen.
-            pub fn chosen(&self) -> impl Iterator<Item = &dyn Chosen> {
+            pub fn chosen(&self) -> impl Iterator<Item = Chosen<'_>> {
                 [
-                    $(chosen(self.$word.as_ref()),)+
-                    chosen(self.drag.as_ref()),
-                    chosen(self.near_field.as_ref()),
+                    $(self.$word.as_ref().map($Law::chosen),)+
+                    self.drag.as_ref().map(Drag::chosen),
+                    self.near_field.as_ref().map(NearField::chosen),
                 ]
                 .into_iter()
                 .flatten()
@@ -70,9 +70,9 @@ macro_rules! fields {
                 })+
             }
 
-            /// How fast each field is, in the order of [`Self::SINGLE`].
-            pub fn paces(&self, grain: &Grain) -> [Pace; Self::SINGLE.len()] {
-                [$(self.$word.as_ref().map_or(Pace::NONE, |law| FieldLaw::pace(law, grain))),+]
+            /// How fast each field is where this mass [kg] resists it, in the order of [`Self::SINGLE`].
+            pub fn paces(&self, grain: &Grain, mass: f64) -> [Pace; Self::SINGLE.len()] {
+                [$(self.$word.as_ref().map_or(Pace::NONE, |law| FieldLaw::pace(law, grain, mass))),+]
             }
 
             /// What all fields turn the velocity of a grain by [kg/s].
@@ -102,10 +102,6 @@ macro_rules! fields {
             }
         }
     };
-}
-
-fn chosen<L: Chosen>(law: Option<&L>) -> Option<&dyn Chosen> {
-    law.map(|law| law as &dyn Chosen)
 }
 
 fields! {

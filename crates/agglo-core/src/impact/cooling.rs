@@ -57,7 +57,7 @@ use serde::{Deserialize, Serialize};
 
 use super::decay::Decay;
 use crate::constants::STEFAN_BOLTZMANN;
-use crate::law::{Faults, Law, Surroundings};
+use crate::law::{Context, Faults, Law, note_if};
 use crate::math::roots::root_between;
 use crate::particles::Property;
 use crate::particles::property::{EMISSIVITY, HEAT_CAPACITY, THERMAL_CONDUCTIVITY};
@@ -86,8 +86,8 @@ lone_law!(Cooling at "impact", cooling);
 impl Law for Cooling {
     const READS: &'static [Property] = &[HEAT_CAPACITY, EMISSIVITY, THERMAL_CONDUCTIVITY];
 
-    fn faults(&self, faults: &mut Faults, around: &Surroundings<'_>) {
-        if self.integration == Integration::Published && !around.is_stepped {
+    fn faults(&self, faults: &mut Faults, context: &Context<'_>) {
+        if self.integration == Integration::Published && !context.is_stepped {
             // It would be one step from a grain's impact to its next.
             let message = "found \"published\", which takes the engine's steps; engine.event_driven has none"
                 .to_owned();
@@ -98,9 +98,9 @@ impl Law for Cooling {
         faults.positive("surroundings", self.surroundings);
     }
 
-    fn notes(&self, _: &Surroundings<'_>) -> Vec<String> {
+    fn notes(&self, _: &Context<'_>) -> Vec<String> {
         let note = "impact.cooling.integration = published: one Euler step overshoots below zero where grains are hot and is then cut; exact does not";
-        (self.integration == Integration::Published).then(|| note.to_owned()).into_iter().collect()
+        note_if(self.integration == Integration::Published, note)
     }
 
     fn warnings(&self) -> &'static [&'static str] {

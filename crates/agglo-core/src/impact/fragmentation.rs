@@ -56,7 +56,7 @@ use std::f64::consts::PI;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::law::{Faults, Law, Surroundings};
+use crate::law::{Context, Faults, Law, note_if};
 use crate::math::rng::{Purpose, Stream};
 use crate::particles::Property;
 use crate::particles::property::SURFACE_ENERGY;
@@ -78,15 +78,15 @@ lone_law!(Fragmentation at "impact", fragmentation);
 impl Law for Fragmentation {
     const READS: &'static [Property] = &[SURFACE_ENERGY];
 
-    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+    fn faults(&self, faults: &mut Faults, _: &Context<'_>) {
         if let Fragments::PowerLaw(law) = &self.fragments {
             faults.exponent("fragments.power_law.exponent", law.exponent);
         }
     }
 
-    fn notes(&self, _: &Surroundings<'_>) -> Vec<String> {
+    fn notes(&self, _: &Context<'_>) -> Vec<String> {
         let note = "impact.fragmentation.energy = published: what breaks depends on the observer; center_of_mass does not";
-        (self.energy == BreakingEnergy::Published).then(|| note.to_owned()).into_iter().collect()
+        note_if(self.energy == BreakingEnergy::Published, note)
     }
 
     fn warnings(&self) -> &'static [&'static str] {

@@ -53,7 +53,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::law::{Law, Surroundings};
+use crate::law::{Context, Law, note_if};
 use crate::particles::Property;
 use crate::particles::property::{HEAT_CAPACITY, REACTION_HEAT};
 
@@ -74,9 +74,9 @@ lone_law!(HeatBalance at "impact", heat);
 impl Law for HeatBalance {
     const READS: &'static [Property] = &[HEAT_CAPACITY, REACTION_HEAT];
 
-    fn notes(&self, _: &Surroundings<'_>) -> Vec<String> {
+    fn notes(&self, _: &Context<'_>) -> Vec<String> {
         let note = "impact.heat.balance = published: a pair gets more heat than the energy it lost, and how much depends on the observer; the run's drift does not show it, its row \"false heat\" does; energy is consistent";
-        (self.balance == Balance::Published).then(|| note.to_owned()).into_iter().collect()
+        note_if(self.balance == Balance::Published, note)
     }
 
     fn warnings(&self) -> &'static [&'static str] {

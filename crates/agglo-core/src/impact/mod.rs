@@ -61,19 +61,14 @@ pub struct Impact {
 
 impl Impact {
     /// All that the scenario has chosen.
-    pub fn chosen(&self) -> impl Iterator<Item = &dyn Chosen> {
-        fn of<L: Chosen>(law: Option<&L>) -> Option<&dyn Chosen> {
-            law.map(|law| law as &dyn Chosen)
-        }
-        let (restitution, sticking): (&dyn Chosen, &dyn Chosen) = (&self.restitution, &self.sticking);
-        let heat: &dyn Chosen = &self.heat;
+    pub fn chosen(&self) -> impl Iterator<Item = Chosen<'_>> {
         [
-            Some(restitution),
-            of(self.tangential.as_ref()),
-            Some(sticking),
-            Some(heat),
-            of(self.fragmentation.as_ref()),
-            of(self.cooling.as_ref()),
+            Some(self.restitution.chosen()),
+            self.tangential.as_ref().map(Tangential::chosen),
+            Some(self.sticking.chosen()),
+            Some(self.heat.chosen()),
+            self.fragmentation.as_ref().map(Fragmentation::chosen),
+            self.cooling.as_ref().map(Cooling::chosen),
         ]
         .into_iter()
         .flatten()

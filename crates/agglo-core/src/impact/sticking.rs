@@ -50,9 +50,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Body;
-use crate::law::{Chosen, Faults, Needs, Surroundings};
+use crate::law::{Chosen, Law};
 use crate::math::Vec3;
-use crate::particles::Property;
 
 /// What becomes of a pair with restitution 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -65,30 +64,16 @@ pub enum Sticking {
     Never,
 }
 
-impl Chosen for Sticking {
-    fn key(&self) -> &'static str {
-        match self {
+impl Law for Sticking {}
+
+impl Sticking {
+    /// The law that is chosen.
+    pub fn chosen(&self) -> Chosen<'_> {
+        let key = match self {
             Self::Merge => "impact.sticking.merge",
             Self::Never => "impact.sticking.never",
-        }
-    }
-
-    fn reads(&self) -> &'static [Property] {
-        &[]
-    }
-
-    fn needs(&self) -> Needs {
-        Needs::default()
-    }
-
-    fn faults(&self, _: &mut Faults, _: &Surroundings<'_>) {}
-
-    fn notes(&self, _: &Surroundings<'_>) -> Vec<String> {
-        Vec::new()
-    }
-
-    fn warnings(&self) -> &'static [&'static str] {
-        &[]
+        };
+        Chosen::new(key, self)
     }
 }
 

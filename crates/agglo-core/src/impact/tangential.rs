@@ -44,7 +44,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::law::{Faults, Law, Surroundings};
+use crate::law::{Context, Faults, Law, note_if};
 
 /// Coulomb friction of an impact, [B] 4.17.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -60,13 +60,13 @@ pub struct Tangential {
 lone_law!(Tangential at "impact", tangential);
 
 impl Law for Tangential {
-    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+    fn faults(&self, faults: &mut Faults, _: &Context<'_>) {
         faults.zero_or_more("friction", self.friction);
     }
 
-    fn notes(&self, _: &Surroundings<'_>) -> Vec<String> {
+    fn notes(&self, _: &Context<'_>) -> Vec<String> {
         let note = "impact.tangential.limit = published: friction may reverse the slip and create energy; no_slip does not";
-        (self.limit == SlipLimit::Published).then(|| note.to_owned()).into_iter().collect()
+        note_if(self.limit == SlipLimit::Published, note)
     }
 
     fn warnings(&self) -> &'static [&'static str] {

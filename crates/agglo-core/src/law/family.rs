@@ -49,42 +49,13 @@ macro_rules! family {
             },)+];
 
             family!(@pages $($group)? $($Law in $file)+);
-        }
 
-        impl $crate::law::Chosen for $Family {
-            fn key(&self) -> &'static str {
+            /// The law that is chosen.
+            pub fn chosen(&self) -> $crate::law::Chosen<'_> {
                 match self {
-                    $(Self::$Law(_) => concat!($key, ".", stringify!($file)),)+
-                }
-            }
-
-            fn reads(&self) -> &'static [$crate::particles::Property] {
-                match self {
-                    $(Self::$Law(law) => $crate::law::Law::reads(law),)+
-                }
-            }
-
-            fn needs(&self) -> $crate::law::Needs {
-                match self {
-                    $(Self::$Law(law) => $crate::law::Law::needs(law),)+
-                }
-            }
-
-            fn faults(&self, faults: &mut $crate::law::Faults, around: &$crate::law::Surroundings<'_>) {
-                faults.under(self.key(), |faults| match self {
-                    $(Self::$Law(law) => $crate::law::Law::faults(law, faults, around),)+
-                });
-            }
-
-            fn notes(&self, around: &$crate::law::Surroundings<'_>) -> Vec<String> {
-                match self {
-                    $(Self::$Law(law) => $crate::law::Law::notes(law, around),)+
-                }
-            }
-
-            fn warnings(&self) -> &'static [&'static str] {
-                match self {
-                    $(Self::$Law(law) => $crate::law::Law::warnings(law),)+
+                    $(Self::$Law(law) => {
+                        $crate::law::Chosen::new(concat!($key, ".", stringify!($file)), law)
+                    })+
                 }
             }
         }
@@ -101,31 +72,10 @@ macro_rules! lone_law {
             /// The law as it is listed among all.
             pub const ENTRY: $crate::law::Entry =
                 $crate::law::Entry { key: $key, reads: <Self as $crate::law::Law>::READS };
-        }
 
-        impl $crate::law::Chosen for $Law {
-            fn key(&self) -> &'static str {
-                $key
-            }
-
-            fn reads(&self) -> &'static [$crate::particles::Property] {
-                $crate::law::Law::reads(self)
-            }
-
-            fn needs(&self) -> $crate::law::Needs {
-                $crate::law::Law::needs(self)
-            }
-
-            fn faults(&self, faults: &mut $crate::law::Faults, around: &$crate::law::Surroundings<'_>) {
-                faults.under($key, |faults| $crate::law::Law::faults(self, faults, around));
-            }
-
-            fn notes(&self, around: &$crate::law::Surroundings<'_>) -> Vec<String> {
-                $crate::law::Law::notes(self, around)
-            }
-
-            fn warnings(&self) -> &'static [&'static str] {
-                $crate::law::Law::warnings(self)
+            /// The law that is chosen.
+            pub fn chosen(&self) -> $crate::law::Chosen<'_> {
+                $crate::law::Chosen::new($key, self)
             }
         }
     };

@@ -31,10 +31,10 @@ pub trait Law {
     }
 
     /// What is wrong with its settings; keys are relative to the law's table.
-    fn faults(&self, _: &mut Faults, _: &Surroundings<'_>) {}
+    fn faults(&self, _: &mut Faults, _: &Context<'_>) {}
 
     /// What a plan tells before a run: where the law does not hold, or is not what its name says.
-    fn notes(&self, _: &Surroundings<'_>) -> Vec<String> {
+    fn notes(&self, _: &Context<'_>) -> Vec<String> {
         Vec::new()
     }
 
@@ -62,7 +62,7 @@ impl Needs {
 
 /// What there is besides the law.
 #[derive(Clone, Copy, Debug)]
-pub struct Surroundings<'a> {
+pub struct Context<'a> {
     /// The fluid around the grains.
     pub medium: &'a Medium,
     /// How many groups of grains there are.
@@ -76,24 +76,96 @@ pub struct Surroundings<'a> {
 }
 
 /// A law that a scenario has chosen, whatever its family.
-pub trait Chosen {
-    /// Path of its table in a scenario, such as `contact.normal.hertz`.
-    fn key(&self) -> &'static str;
+#[derive(Clone, Copy)]
+pub struct Chosen<'a> {
+    key: &'static str,
+    /// Path of the table that its settings are in.
+    table: &'static str,
+    law: &'a dyn Told,
+}
 
-    /// What it may read of a material.
+/// What [`Law`] says, of a law whose type is not known any more.
+trait Told {
     fn reads(&self) -> &'static [Property];
+    fn needs(&self) -> Needs;
+    fn faults(&self, faults: &mut Faults, context: &Context<'_>);
+    fn notes(&self, context: &Context<'_>) -> Vec<String>;
+    fn warnings(&self) -> &'static [&'static str];
+}
+
+impl<L: Law> Told for L {
+    fn reads(&self) -> &'static [Property] {
+        Law::reads(self)
+    }
+
+    fn needs(&self) -> Needs {
+        Law::needs(self)
+    }
+
+    fn faults(&self, faults: &mut Faults, context: &Context<'_>) {
+        Law::faults(self, faults, context);
+    }
+
+    fn notes(&self, context: &Context<'_>) -> Vec<String> {
+        Law::notes(self, context)
+    }
+
+    fn warnings(&self) -> &'static [&'static str] {
+        Law::warnings(self)
+    }
+}
+
+impl<'a> Chosen<'a> {
+    /// A law whose table has this path in a scenario, such as `contact.normal.hertz`.
+    pub(crate) fn new(key: &'static str, law: &'a impl Law) -> Self {
+        Self { key, table: key, law }
+    }
+
+    /// The same, with settings in a table above the one that names the law.
+    pub(crate) fn with_settings_in(self, table: &'static str) -> Self {
+        Self { table, ..self }
+    }
+
+    /// Path of its table in a scenario.
+    pub fn key(self) -> &'static str {
+        self.key
+    }
+
+    /// What it reads of a material.
+    pub fn reads(self) -> &'static [Property] {
+        self.law.reads()
+    }
 
     /// What it must find with every material in use.
-    fn needs(&self) -> Needs;
+    pub fn needs(self) -> Needs {
+        self.law.needs()
+    }
 
     /// What is wrong with its settings; keys are paths in the scenario.
-    fn faults(&self, faults: &mut Faults, around: &Surroundings<'_>);
+    pub fn faults(self, faults: &mut Faults, context: &Context<'_>) {
+        faults.under(self.table, |faults| self.law.faults(faults, context));
+    }
+
+    /// The same where the table that it is within is looked at already.
+    pub(crate) fn faults_within(self, table: &str, faults: &mut Faults, context: &Context<'_>) {
+        let path = self.table.strip_prefix(table).unwrap_or(self.table).trim_start_matches('.');
+        faults.under(path, |faults| self.law.faults(faults, context));
+    }
 
     /// What a plan tells before a run.
-    fn notes(&self, around: &Surroundings<'_>) -> Vec<String>;
+    pub fn notes(self, context: &Context<'_>) -> Vec<String> {
+        self.law.notes(context)
+    }
 
     /// Warnings that hold for a whole run.
-    fn warnings(&self) -> &'static [&'static str];
+    pub fn warnings(self) -> &'static [&'static str] {
+        self.law.warnings()
+    }
+}
+
+/// The one note of a law, where there is reason for it.
+pub(crate) fn note_if(is_due: bool, note: &str) -> Vec<String> {
+    is_due.then(|| note.to_owned()).into_iter().collect()
 }
 
 /// A law as its family lists it.

@@ -31,7 +31,6 @@ macro_rules! pages {
 }
 
 pages! {
-    "near_field" "fields/near_field" "mod" [];
     "lorentz" "fields" "lorentz" [];
     "magnetic" "fields" "magnetic" [];
     "gravity" "fields" "gravity" [];

@@ -62,9 +62,9 @@ fn wavelengths(notes: &mut Vec<String>, scenario: &Scenario, smallest: f64) {
 
 /// What the laws say of themselves.
 fn of_laws(notes: &mut Vec<String>, scenario: &Scenario) {
-    let around = scenario.surroundings();
+    let context = scenario.context();
     for law in scenario.laws() {
-        notes.extend(law.notes(&around));
+        notes.extend(law.notes(&context));
     }
     if scenario.contact.is_none() && !scenario.engine.is_hard() {
         notes.push("there is no [contact]: grains pass through one another".to_owned());
@@ -100,7 +100,7 @@ fn without_effect(notes: &mut Vec<String>, scenario: &Scenario) {
     }
     aims(notes, scenario);
     trains(notes, scenario);
-    if !scenario.surroundings().is_charged && scenario.fields.are_by_charge() {
+    if !scenario.context().is_charged && scenario.fields.are_by_charge() {
         notes.push("no grain carries a charge: fields that act on charges do nothing".to_owned());
     }
     unread(notes, scenario);

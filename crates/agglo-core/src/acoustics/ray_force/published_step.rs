@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::impulse::force_of_waves;
 use super::{Impedance, RayLaw};
 use crate::acoustics::{Hit, Medium};
-use crate::law::{Faults, Law, Surroundings};
+use crate::law::{Context, Faults, Law};
 use crate::math::Vec3;
 use crate::particles::Property;
 use crate::particles::property::{SHEAR_SOUND_SPEED, SOUND_SPEED};
@@ -27,14 +27,14 @@ fn default_xi() -> f64 {
 impl Law for PublishedStep {
     const READS: &'static [Property] = &[SOUND_SPEED, SHEAR_SOUND_SPEED];
 
-    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+    fn faults(&self, faults: &mut Faults, _: &Context<'_>) {
         if self.step_fraction <= 0.0 || self.step_fraction > 1.0 {
             let message = format!("found {}; a number above 0 and up to 1 is wanted", self.step_fraction);
             faults.fail("step_fraction", message);
         }
     }
 
-    fn notes(&self, _: &Surroundings<'_>) -> Vec<String> {
+    fn notes(&self, _: &Context<'_>) -> Vec<String> {
         let note = "acoustics.force.published_step: the impulse of a hit is proportional to the step and does not converge; impulse does";
         vec![note.to_owned()]
     }

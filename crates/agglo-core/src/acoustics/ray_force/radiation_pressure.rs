@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Impedance, RayLaw};
 use crate::acoustics::{Hit, Medium};
-use crate::law::{Faults, Law, Surroundings};
+use crate::law::{Context, Faults, Law};
 use crate::math::Vec3;
 use crate::particles::Property;
 use crate::particles::property::{SHEAR_SOUND_SPEED, SOUND_SPEED};
@@ -22,7 +22,7 @@ pub struct RadiationPressure {
 impl Law for RadiationPressure {
     const READS: &'static [Property] = &[SOUND_SPEED, SHEAR_SOUND_SPEED];
 
-    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+    fn faults(&self, faults: &mut Faults, _: &Context<'_>) {
         faults.positive("duration", self.duration);
     }
 }

@@ -67,7 +67,7 @@ use std::f64::consts::PI;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::law::{Faults, Law, Surroundings};
+use crate::law::{Context, Faults, Law, note_if};
 use crate::math::{Pace, Vec3};
 use crate::units::Pressure;
 
@@ -106,7 +106,7 @@ fn one() -> f64 {
 }
 
 impl Law for Beam {
-    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+    fn faults(&self, faults: &mut Faults, _: &Context<'_>) {
         faults.positive("youngs_modulus", self.youngs_modulus);
         faults.positive("tensile_strength", self.tensile_strength);
         faults.positive("shear_strength", self.shear_strength);
@@ -119,9 +119,9 @@ impl Law for Beam {
         }
     }
 
-    fn notes(&self, _: &Surroundings<'_>) -> Vec<String> {
+    fn notes(&self, _: &Context<'_>) -> Vec<String> {
         let note = "bonds.beam.gap is 0: only grains that overlap at the start are bonded";
-        (self.gap == 0.0).then(|| note.to_owned()).into_iter().collect()
+        note_if(self.gap == 0.0, note)
     }
 }
 

@@ -55,7 +55,7 @@ use serde::{Deserialize, Serialize};
 use crate::contact::normal::NormalLaw;
 use crate::contact::normal::strain_power::{StrainPower, strain_power};
 use crate::contact::{PairConstants, Touch};
-use crate::law::{Faults, Law, Surroundings};
+use crate::law::{Context, Faults, Law};
 use crate::math::Pace;
 use crate::units::{AreaStiffness, Pressure};
 
@@ -74,14 +74,14 @@ pub struct StrainBond {
 }
 
 impl Law for StrainBond {
-    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+    fn faults(&self, faults: &mut Faults, _: &Context<'_>) {
         faults.not_negative("stiffness", self.stiffness);
         faults.not_negative("tangential_stiffness", self.tangential_stiffness);
         faults.exponent("exponent", self.exponent);
         faults.within("threshold_strain", self.threshold_strain, 0.0, 1.0);
     }
 
-    fn notes(&self, _: &Surroundings<'_>) -> Vec<String> {
+    fn notes(&self, _: &Context<'_>) -> Vec<String> {
         let note = "bonds.strain_bond acts only between overlapping grains, cannot resist tension, and its tangential part is proportional to the step; beam bonds hold grains together";
         vec![note.to_owned()]
     }

@@ -58,7 +58,7 @@ use serde::{Deserialize, Serialize};
 
 use super::DampingLaw;
 use crate::contact::{Elastic, PairConstants, Touch};
-use crate::law::{Faults, Law, Surroundings};
+use crate::law::{Context, Faults, Law};
 use crate::math::Real;
 use crate::particles::Mixture;
 
@@ -71,7 +71,7 @@ pub struct Restitution {
 }
 
 impl Law for Restitution {
-    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+    fn faults(&self, faults: &mut Faults, _: &Context<'_>) {
         faults.within("restitution", self.restitution, 0.0, 1.0);
     }
 }

@@ -41,7 +41,7 @@ use serde::{Deserialize, Serialize};
 
 use super::DampingLaw;
 use crate::contact::{Elastic, PairConstants, Touch};
-use crate::law::{Faults, Law, Surroundings};
+use crate::law::{Context, Faults, Law};
 use crate::math::Real;
 use crate::units::AreaDamping;
 
@@ -54,7 +54,7 @@ pub struct ViscousArea {
 }
 
 impl Law for ViscousArea {
-    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+    fn faults(&self, faults: &mut Faults, _: &Context<'_>) {
         faults.not_negative("coefficient", self.coefficient);
     }
 }

@@ -64,7 +64,7 @@ use super::law::check_coefficients;
 use super::spring::shortened;
 use super::{FrictionLaw, Sliding, TangentialSpring};
 use crate::contact::{Elastic, PairConstants, Touch};
-use crate::law::{Faults, Law, Needs, Surroundings};
+use crate::law::{Context, Faults, Law, Needs};
 use crate::math::{Pace, Real, Vector};
 use crate::particles::property::{POISSON_RATIO, YOUNGS_MODULUS};
 use crate::particles::{Mixture, Property};
@@ -97,7 +97,7 @@ impl Law for Mindlin {
         Needs { properties: self.reads(), because: "without stiffness_ratio" }
     }
 
-    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+    fn faults(&self, faults: &mut Faults, _: &Context<'_>) {
         check_coefficients(faults, self.static_friction, self.dynamic_friction);
         faults.zero_or_more("dashpot", self.dashpot);
         if let Some(ratio) = self.stiffness_ratio {

@@ -61,7 +61,7 @@ use serde::{Deserialize, Serialize};
 use super::law::check_coefficients;
 use super::{FrictionLaw, Sliding};
 use crate::contact::{Elastic, PairConstants, Touch};
-use crate::law::{Faults, Law, Surroundings};
+use crate::law::{Context, Faults, Law};
 use crate::math::{Pace, Real, Vector};
 use crate::particles::Mixture;
 use crate::units::AreaStiffness;
@@ -90,12 +90,12 @@ impl Regularized {
 }
 
 impl Law for Regularized {
-    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+    fn faults(&self, faults: &mut Faults, _: &Context<'_>) {
         faults.not_negative("stiffness", self.stiffness);
         check_coefficients(faults, self.static_friction, Some(self.dynamic_friction));
     }
 
-    fn notes(&self, _: &Surroundings<'_>) -> Vec<String> {
+    fn notes(&self, _: &Context<'_>) -> Vec<String> {
         let note = "contact.friction.regularized: its stick force is proportional to the step and does not converge; mindlin does";
         vec![note.to_owned()]
     }

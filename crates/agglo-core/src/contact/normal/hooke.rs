@@ -39,7 +39,7 @@ use serde::{Deserialize, Serialize};
 
 use super::NormalLaw;
 use crate::contact::{PairConstants, Touch};
-use crate::law::{Faults, Law, Surroundings};
+use crate::law::{Context, Faults, Law, note_if};
 use crate::math::Real;
 use crate::units::Stiffness;
 
@@ -52,13 +52,13 @@ pub struct Hooke {
 }
 
 impl Law for Hooke {
-    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+    fn faults(&self, faults: &mut Faults, _: &Context<'_>) {
         faults.positive("stiffness", self.stiffness);
     }
 
-    fn notes(&self, around: &Surroundings<'_>) -> Vec<String> {
+    fn notes(&self, context: &Context<'_>) -> Vec<String> {
         let note = "contact.normal.hooke: one stiffness for all sizes of grains";
-        (around.groups > 1).then(|| note.to_owned()).into_iter().collect()
+        note_if(context.groups > 1, note)
     }
 }
 

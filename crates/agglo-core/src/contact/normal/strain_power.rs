@@ -49,7 +49,7 @@ use serde::{Deserialize, Serialize};
 
 use super::NormalLaw;
 use crate::contact::{PairConstants, Touch};
-use crate::law::{Faults, Law, Needs, Surroundings};
+use crate::law::{Context, Faults, Law, Needs};
 use crate::math::{Pace, Real};
 use crate::particles::Property;
 use crate::particles::property::{CONTACT_STIFFNESS, SOFTENING};
@@ -80,7 +80,7 @@ impl Law for StrainPower {
         Needs::always(&[CONTACT_STIFFNESS])
     }
 
-    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+    fn faults(&self, faults: &mut Faults, _: &Context<'_>) {
         faults.exponent("exponent", self.exponent);
     }
 }

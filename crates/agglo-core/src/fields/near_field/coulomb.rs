@@ -49,7 +49,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{NearLaw, Source};
 use crate::constants::VACUUM_PERMITTIVITY;
-use crate::law::{Faults, Law, Surroundings};
+use crate::law::{Context, Faults, Law};
 
 /// Coulomb's law.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -65,7 +65,7 @@ fn one() -> f64 {
 }
 
 impl Law for Coulomb {
-    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+    fn faults(&self, faults: &mut Faults, _: &Context<'_>) {
         faults.above_zero("relative_permittivity", self.relative_permittivity);
     }
 }

@@ -51,8 +51,9 @@ pub use power_pair::{PowerPair, Scaling};
 pub use source::Source;
 pub use van_der_waals::VanDerWaals;
 
-use crate::law::{Chosen, Faults, Needs, Surroundings};
+use crate::law::{Chosen, Context, Faults, Law, Needs};
 use crate::math::Pace;
+use crate::pages::Page;
 use crate::particles::Property;
 use crate::text::{digits, told_apart};
 use crate::units::Length;
@@ -118,41 +119,46 @@ impl NearFieldLaw {
     }
 }
 
-impl Chosen for NearField {
-    fn key(&self) -> &'static str {
-        self.law.key()
-    }
+/// The table of the near field, which its law is within.
+const TABLE: &str = "fields.near_field";
 
+impl Law for NearField {
     fn reads(&self) -> &'static [Property] {
-        self.law.reads()
+        self.law.chosen().reads()
     }
 
     fn needs(&self) -> Needs {
-        self.law.needs()
+        self.law.chosen().needs()
     }
 
-    fn faults(&self, faults: &mut Faults, around: &Surroundings<'_>) {
-        faults.under("fields.near_field", |faults| {
-            if let Some(message) = self.fault_of_cutoff(around.largest_radius) {
-                faults.fail_with("cutoff", message, "it counts from center to center");
-            }
-            faults.above_zero("truncation", self.truncation);
-        });
-        self.law.faults(faults, around);
+    fn faults(&self, faults: &mut Faults, context: &Context<'_>) {
+        if let Some(message) = self.fault_of_cutoff(context.largest_radius) {
+            faults.fail_with("cutoff", message, "it counts from center to center");
+        }
+        faults.above_zero("truncation", self.truncation);
+        self.law.chosen().faults_within(TABLE, faults, context);
     }
 
-    fn notes(&self, around: &Surroundings<'_>) -> Vec<String> {
-        let mut notes = self.law.notes(around);
+    fn notes(&self, context: &Context<'_>) -> Vec<String> {
+        let mut notes = self.law.chosen().notes(context);
         notes.extend(self.note_of_cutoff());
         notes
     }
 
     fn warnings(&self) -> &'static [&'static str] {
-        self.law.warnings()
+        self.law.chosen().warnings()
     }
 }
 
 impl NearField {
+    /// The page of what all its laws share.
+    pub const PAGE: Page = Page::new("near_field", "fields/near_field", &[], include_str!("mod.rs"));
+
+    /// The law that is chosen.
+    pub fn chosen(&self) -> Chosen<'_> {
+        Chosen::new(self.law.chosen().key(), self).with_settings_in(TABLE)
+    }
+
     /// Repulsion [N] of two grains at a distance of centers [m]; 0 beyond the cut-off.
     #[inline]
     pub fn force(&self, a: &Source, b: &Source, distance: f64) -> f64 {

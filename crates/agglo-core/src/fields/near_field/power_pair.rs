@@ -54,7 +54,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{NearLaw, Source};
-use crate::law::{Faults, HIGHEST_EXPONENT, Law, Surroundings};
+use crate::law::{Context, Faults, HIGHEST_EXPONENT, Law};
 
 /// Two power laws; the coefficients are in SI units of whatever makes the force a force.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -121,7 +121,7 @@ impl PowerPair {
 }
 
 impl Law for PowerPair {
-    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+    fn faults(&self, faults: &mut Faults, _: &Context<'_>) {
         for (key, exponent) in [
             ("attraction_exponent", self.attraction_exponent),
             ("repulsion_exponent", self.repulsion_exponent),

@@ -46,7 +46,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{NearLaw, Source};
-use crate::law::{Faults, Law, Surroundings};
+use crate::law::{Context, Faults, Law};
 use crate::units::{Energy, Length};
 
 /// Hamaker's law.
@@ -68,7 +68,7 @@ fn products(a: &Source, b: &Source, gap: f64) -> (f64, f64, f64) {
 }
 
 impl Law for VanDerWaals {
-    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+    fn faults(&self, faults: &mut Faults, _: &Context<'_>) {
         faults.not_negative("hamaker", self.hamaker);
         faults.positive("smallest_gap", self.smallest_gap);
     }

@@ -40,7 +40,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Rebound, RestitutionLaw};
-use crate::law::{Faults, Law, Surroundings};
+use crate::law::{Context, Faults, Law};
 
 /// One restitution for all impacts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -51,7 +51,7 @@ pub struct Constant {
 }
 
 impl Law for Constant {
-    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+    fn faults(&self, faults: &mut Faults, _: &Context<'_>) {
         if self.restitution > 1.0 {
             let message = format!("found {}; a number from 0 to 1 is wanted", self.restitution);
             faults.fail_with("restitution", message, "an impact with more than 1 would create energy");

@@ -74,7 +74,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Rebound, RestitutionLaw};
 use crate::impact::contact_area::ContactArea;
-use crate::law::{Faults, Law, Needs, Surroundings};
+use crate::law::{Context, Faults, Law, Needs};
 use crate::particles::Property;
 use crate::particles::property::{ACTIVATION_ENERGY, HARDNESS, HEAT_CAPACITY};
 
@@ -129,7 +129,7 @@ impl Law for Hardness {
         Needs::always(&[HARDNESS])
     }
 
-    fn faults(&self, faults: &mut Faults, _: &Surroundings<'_>) {
+    fn faults(&self, faults: &mut Faults, _: &Context<'_>) {
         faults.above_zero("deformation", self.deformation);
         faults.zero_or_more("elastic_area", self.elastic_area);
         faults.above_zero("sticking_area", self.sticking_area);
@@ -142,7 +142,7 @@ impl Law for Hardness {
         }
     }
 
-    fn notes(&self, _: &Surroundings<'_>) -> Vec<String> {
+    fn notes(&self, _: &Context<'_>) -> Vec<String> {
         let mut notes = Vec::new();
         if self.force_over == ForceTime::Compression {
             notes.push("impact.restitution.hardness.force_over = compression: the published form; restitution is lower than the mean force over the whole impact gives".to_owned());

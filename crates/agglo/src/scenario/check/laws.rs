@@ -6,15 +6,15 @@ use crate::particles::Property;
 use crate::scenario::types::Scenario;
 
 pub(super) fn check(check: &mut Check, scenario: &Scenario) {
-    let around = scenario.surroundings();
+    let context = scenario.context();
     for law in scenario.laws() {
-        law.faults(check, &around);
+        law.faults(check, &context);
         needs(check, scenario, law);
     }
 }
 
 /// Asks every material in use for what a law needs.
-fn needs(check: &mut Check, scenario: &Scenario, law: &dyn Chosen) {
+fn needs(check: &mut Check, scenario: &Scenario, law: Chosen<'_>) {
     let needs = law.needs();
     let who = format!("{} {}", law.key(), needs.because);
     for property in needs.properties {

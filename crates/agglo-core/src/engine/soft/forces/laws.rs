@@ -27,6 +27,8 @@ pub struct Laws {
     pub pairs: PairTable,
     /// The materials, by number.
     pub materials: Vec<Material>,
+    /// Density of the medium over that of each material.
+    density_ratios: Vec<f64>,
     /// The flow of the medium, where it has one.
     flow: Option<Flow>,
 }
@@ -43,6 +45,7 @@ pub struct SingleLoad {
 impl Laws {
     /// The laws for these grains.
     pub fn new(settings: &Settings, grains: &Particles) -> Self {
+        let density_ratio = |material: &Material| settings.medium.density.si() / material.density.si();
         Self {
             contact: settings.contact.clone(),
             bonds: settings.bonds.clone(),
@@ -50,6 +53,7 @@ impl Laws {
             medium: settings.medium.clone(),
             pairs: PairTable::new(&settings.materials, &settings.mixtures, settings.contact.as_ref()),
             materials: settings.materials.values().cloned().collect(),
+            density_ratios: settings.materials.values().map(density_ratio).collect(),
             flow: flow_of(settings, grains),
         }
     }
@@ -99,15 +103,13 @@ impl Laws {
         (position, velocity): (Vec3, Vec3),
         time: f64,
     ) -> Grain {
-        let density = self.materials[grains.material[at] as usize].density.si();
         Grain {
             position,
             velocity,
             mass: grains.mass[at],
-            inertial_mass: self.inertial_mass(grains, at),
             radius: grains.radius[at],
             charge: grains.charge[at],
-            density_ratio: self.medium.density.si() / density,
+            density_ratio: self.density_ratios[grains.material[at] as usize],
             time,
         }
     }
@@ -156,9 +158,9 @@ impl Laws {
     }
 
     /// The laws that act.
-    pub fn chosen(&self) -> impl Iterator<Item = &dyn Chosen> {
+    pub fn chosen(&self) -> impl Iterator<Item = Chosen<'_>> {
         let contact = self.contact.iter().flat_map(ContactLaws::chosen);
-        let bonds = self.bonds.iter().map(|law| law as &dyn Chosen);
+        let bonds = self.bonds.iter().map(Bonds::chosen);
         contact.chain(bonds).chain(self.fields.chosen())
     }
 

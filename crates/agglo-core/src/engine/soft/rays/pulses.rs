@@ -9,7 +9,6 @@ use crate::acoustics::fresnel::Interface;
 use crate::acoustics::{ALLOWANCE, Acoustics, Beam, Flight, Impedance, Medium, PulseCount, Targets, Tracer};
 use crate::engine::validate::{Fault, ensure, length};
 use crate::engine::{Moment, SimError, Warnings};
-use crate::law::Chosen;
 use crate::math::Vec3;
 use crate::particles::Particles;
 use crate::units::Velocity;
@@ -318,7 +317,7 @@ impl Pulses {
 
     /// Warnings that hold for the whole run.
     pub fn standing_warnings(&self) -> &'static [&'static str] {
-        self.setup.as_ref().map_or(&[], |setup| setup.acoustics.force.warnings())
+        self.setup.as_ref().map_or(&[], |setup| setup.acoustics.force.chosen().warnings())
     }
 }
 

@@ -193,7 +193,7 @@ fn singles(system: &System, time: f64) -> Paces {
     };
     let of_fields = |at: usize| {
         let motion = (grains.position[at], grains.velocity[at]);
-        fields.paces(&laws.grain(grains, at, motion, time))
+        fields.paces(&laws.grain(grains, at, motion, time), mass(at))
     };
     Paces { drag: system.over_grains(drag), fields: system.over_grains_each(of_fields), ..Paces::default() }
 }
