@@ -22,7 +22,7 @@ pub const PLACED: &str = "grains.csv";
 pub const CHECKPOINTS: &str = "checkpoints";
 /// The run of the best candidate of a campaign.
 pub const BEST_RUN: &str = "best";
-/// Starts that ended, while a campaign goes on.
+/// Replicates that ended, while a campaign goes on.
 pub const JOURNAL: &str = "replicates.journal";
 /// Pictures of a campaign.
 pub const PICTURES: &str = "pictures";
@@ -49,7 +49,7 @@ pub const IMPACTS: &str = "series/impacts.csv";
 pub const SIZES: &str = "series/sizes.csv";
 /// Of hard spheres: who became part of whom.
 pub const GENEALOGY: &str = "genealogy.csv";
-/// Of hard spheres: how often grains meet, merge and break.
+/// Of hard spheres: how often grains collide, merge and break.
 pub const KERNELS: &str = "kernels.csv";
 /// Of hard spheres: how often grains break.
 pub const BREAKAGE: &str = "breakage.csv";

@@ -5,16 +5,20 @@ use agglo::scenario::Scenario;
 use agglo::search::Campaign;
 use toml::{Table, Value};
 
-const SOFT: &str = r#"
+const GRAINS: &str = r#"
 version = 1
 time.end = "1 ms"
-[engine.verlet]
 [materials.grain]
 density = "2500 kg/m3"
 [[grains]]
 material = "grain"
 size.constant.radius = "1 mm"
 placement.list.positions = [["0 m", "0 m", "0 m"], ["0 m", "0 m", "1 cm"]]
+"#;
+
+/// What makes them soft.
+const SOFT: &str = r#"
+[engine.verlet]
 [contact.normal.hooke]
 stiffness = "10 kN/m"
 "#;
@@ -33,19 +37,12 @@ rays = 10
 strength.power = "1 W"
 "#;
 
+/// What makes them hard.
 const HARD: &str = r#"
-version = 1
-time.end = "1 ms"
 [engine.event_driven]
 [volume]
 lower = ["-1 m", "-1 m", "-1 m"]
 upper = ["1 m", "1 m", "1 m"]
-[materials.grain]
-density = "2500 kg/m3"
-[[grains]]
-material = "grain"
-size.constant.radius = "1 mm"
-placement.list.positions = [["0 m", "0 m", "0 m"], ["0 m", "0 m", "1 cm"]]
 [impact.restitution.constant]
 restitution = 0.9
 "#;
@@ -85,7 +82,8 @@ fn place(whole: &mut Table, part: Table) {
 }
 
 fn whole_scenario(page: &Page, part: &str) -> String {
-    let mut whole = tree(if page.scope() == Scope::Hard { HARD } else { SOFT });
+    let mut whole = tree(GRAINS);
+    place(&mut whole, tree(if page.scope() == Scope::Hard { HARD } else { SOFT }));
     if page.group.starts_with("acoustics") {
         place(&mut whole, tree(ACOUSTICS));
     }

@@ -98,7 +98,7 @@ fn parallel_coordinates_hold_the_candidates_that_ran() {
 fn tables_show_the_best_and_what_failed() {
     let folder = search();
     let report = report(folder.path());
-    let table = |replicate: &str| report.tables.iter().find(|table| table.title.contains(replicate)).unwrap();
+    let table = |start: &str| report.tables.iter().find(|table| table.title.contains(start)).unwrap();
     assert_eq!(table("their parameters").rows, [["1", "4", "50", "400000"].map(str::to_owned)]);
     let outcomes = table("what they come to");
     let at = |name: &str| outcomes.head.iter().position(|head| head == name).unwrap();

@@ -15,7 +15,7 @@ pub struct RunFigures {
     pub version: String,
     /// The scenario's title.
     pub title: String,
-    /// Wall time [s], all sittings together.
+    /// Wall time [s], all sessions together.
     pub wall_s: f64,
     /// Simulated time [s].
     pub time_s: f64,
