@@ -8,6 +8,26 @@ use crate::particles::Particles;
 
 /// Places all groups in their order; tables are looked for below `base`. As [`agglo_core::packing::place`].
 ///
+/// # Example
+/// A simulation starts from them, and another one from what it leaves: here grains that a field draws together, and that then
+/// go on without it.
+/// ```
+/// use agglo::engine::soft::Simulation;
+/// use agglo::scenario::{Scenario, template};
+/// let text = template("acoustic-published").unwrap().text;
+/// let first = Scenario::with_overrides(text, &["grains.0.placement.random.count=50", "acoustics.beams.0.rays=100"])?;
+/// let grains = agglo::packing::place(&first, std::path::Path::new(""))?;
+/// let mut simulation = Simulation::start(&first, grains)?;
+/// for _ in 0..10 {
+///     simulation.step()?;
+/// }
+/// let mut second = first.clone();
+/// second.fields.near_field = None;
+/// let next = Simulation::start(&second, simulation.into_start())?;
+/// assert_eq!((next.clock().time, next.system.grains.len()), (0.0, 50));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// [`PackingError`]; a table that cannot be read is a [`super::TableError`] in it.
 pub fn place<'a>(groups: impl Into<Groups<'a>>, base: &Path) -> Result<Particles, PackingError> {

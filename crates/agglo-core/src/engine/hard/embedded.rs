@@ -9,48 +9,6 @@
 //! the macroscale code's: it changes velocities and temperatures between steps. A step is a pure function of scenario
 //! and state: boxes can be stepped in any order and on any thread. What an engine itself remembers (the time of each
 //! grain's last bounce) ends with the step.
-//!
-//! # Example
-//! ```
-//! use agglo::engine::hard::{MicroGrains, Microscale};
-//! use agglo::math::Vec3;
-//! use agglo::scenario::Scenario;
-//!
-//! let scenario = Scenario::from_toml(r#"
-//!     version = 1
-//!     time.end = "1 s"              # not used: the caller says how long
-//!     [engine.event_driven]
-//!     [volume]
-//!     lower = ["0 mm", "0 mm", "0 mm"]
-//!     upper = ["10 mm", "10 mm", "10 mm"]
-//!     [materials.clay]
-//!     density = "2000 kg/m3"
-//!     heat_capacity = "1000 J/kg/K"
-//!     [impact.restitution.constant]
-//!     restitution = 0.0             # all that touch stick
-//!     [[grains]]                    # not used: the caller says which grains
-//!     material = "clay"
-//!     size.constant.radius = "0.5 mm"
-//!     placement.fill.count = 1
-//! "#)?;
-//! let microscale = Microscale::try_from(&scenario)?;
-//! let mut state = microscale.state(&MicroGrains {
-//!     radii: vec![5e-4; 2],
-//!     velocities: vec![Vec3::new(1.0, 0.0, 0.0), Vec3::ZERO],
-//!     temperatures: vec![300.0; 2],
-//!     positions: vec![Vec3::new(2e-3, 5e-3, 5e-3), Vec3::new(4e-3, 5e-3, 5e-3)],
-//!     ..MicroGrains::default()
-//! })?;
-//! for _ in 0..2 {
-//!     let (next, means) = microscale.step(&state, 1e-3)?;
-//!     println!("{} grains, {} K", means.grains, means.mean_temperature);
-//!     state = next;
-//! }
-//! // They collided after 1 ms, at the end of the first step or in the second, and fly on as one at half the speed.
-//! assert_eq!((state.grains.len(), state.grown[0].primaries), (1, 2));
-//! assert!((state.grains.velocity[0].x - 0.5).abs() < 1e-12);
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
 
 use thiserror::Error;
 
