@@ -86,9 +86,10 @@ prepare_ffmpeg() {
 check_features() {
     run cargo check --locked --all-targets -p agglo-testing
     run cargo check --locked --all-targets -p agglo-core
+    run cargo check --locked --all-targets -p agglo
     local features
-    for features in "" render report; do
-        run cargo check --locked --all-targets -p agglo --no-default-features --features "$features"
+    for features in "" render report render,report; do
+        run cargo check --locked --all-targets -p agglo-view --no-default-features --features "$features"
     done
     run cargo test --locked -p agglo-cli --no-default-features --test program
 }

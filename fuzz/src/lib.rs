@@ -5,9 +5,9 @@ extern crate agglo_testing;
 
 use std::sync::LazyLock;
 
-#[path = "../../crates/agglo/tests/hostile/readers.rs"]
+#[path = "../../crates/agglo-view/tests/hostile/readers.rs"]
 pub mod readers;
-#[path = "../../crates/agglo/tests/hostile/seeds.rs"]
+#[path = "../../crates/agglo-view/tests/hostile/seeds.rs"]
 pub mod seeds;
 
 /// The folders that the readers work in.

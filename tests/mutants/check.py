@@ -34,14 +34,15 @@ FILES = [
     *(f"crates/agglo/src/record/{name}" for name in ("series.rs", "frames/*.rs")),
 ]
 
-# The crates that have such files.
+# The crates that have such files, and those whose tests look at what these files say.
 CRATES = ["agglo", "agglo-core"]
+LOOKING = [*CRATES, "agglo-view"]
 
 # By what a mutant is tried, until which share of the budget, the crates whose tests are run (all if there are none), what of them is
 # built, and the names of the tests.
 ROUNDS = [
     ("of its folder", 0.5, lambda mutant: [crate(mutant)], ["--lib"], lambda mutant: [f"{module(mutant)}::"]),
-    ("of the libraries", 0.7, lambda mutant: CRATES, ["--lib"], lambda mutant: []),
+    ("of the libraries", 0.7, lambda mutant: LOOKING, ["--lib"], lambda mutant: []),
     ("in Rust", 1.0, lambda mutant: [], ["--bins", "--tests"], lambda mutant: []),
 ]
 

@@ -4,10 +4,10 @@ use std::collections::BTreeSet;
 use std::io::{self, IsTerminal, Write};
 use std::time::{Duration, Instant};
 
-use agglo::render::AnimationProgress;
 use agglo::run::Progress;
 use agglo::search::campaign::CampaignProgress;
 use agglo::text::{readable, visible};
+use agglo_view::render::AnimationProgress;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 const BETWEEN_LINES: Duration = Duration::from_secs(10);

@@ -4,8 +4,10 @@ use std::ops::{ControlFlow, RangeInclusive};
 use std::path::PathBuf;
 
 use agglo::math::Vec3;
-use agglo::plot::Map;
-use agglo::render::{Animation, AnimationEnding, Background, Options, Output, Shots, Side, View, animate};
+use agglo_view::plot::Map;
+use agglo_view::render::{
+    Animation, AnimationEnding, Background, Options, Output, Shots, Side, View, animate,
+};
 use clap::{Args, ValueEnum};
 
 use crate::progress::Display;
@@ -112,8 +114,9 @@ impl RenderOptions {
 
 /// Draws a run.
 pub(crate) fn render(options: &RenderOptions) -> Result<(), Failure> {
-    let refused =
-        |error: agglo::render::RenderError| Failure::with_code(format!("error: {error}"), error.exit_code());
+    let refused = |error: agglo_view::render::RenderError| {
+        Failure::with_code(format!("error: {error}"), error.exit_code())
+    };
     let (folder, path) = (&options.folder, options.output.display());
     crate::read::folder(folder)?;
     let output = Output::of(&options.output).map_err(refused)?;

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use agglo::folder::RunFolder;
 use agglo::folder::names::REPORT;
-use agglo::report::{self, ReportError};
 use agglo::scenario::Scenario;
+use agglo_view::report::{self, ReportError};
 
 use crate::signals::Ear;
 use crate::{Failure, print, tell};

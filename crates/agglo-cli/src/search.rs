@@ -7,6 +7,7 @@ use agglo::folder::names::CAMPAIGN;
 use agglo::forecast::Plan;
 use agglo::search::campaign::{self, CampaignEnding, CampaignError, CampaignObserver, CampaignSummary};
 use agglo::search::{Axis, Campaign, CampaignForecast, Ensemble, Problem, Scale, Until};
+use agglo_view::pictures::campaign_pictures;
 
 use crate::arguments::{CommonOptions, ResumeOptions};
 use crate::progress::Display;
@@ -23,7 +24,9 @@ pub(crate) fn conduct(options: &CommonOptions, kind: Kind) -> Result<(), Failure
     let folder = options.output.clone().unwrap_or_else(|| default_folder(&options.scenario));
     refuse_occupied(&folder)?;
     let threads = threads(options.threads);
-    go(&folder, !options.no_report, |observer| campaign::run(&campaign, &base, &folder, threads, observer))
+    go(&folder, !options.no_report, |observer| {
+        campaign::run(&campaign, &base, &folder, threads, Some(&campaign_pictures), observer)
+    })
 }
 
 /// Goes on with the search or study in a folder.
@@ -40,7 +43,9 @@ pub(crate) fn resume(options: &ResumeOptions) -> Result<(), Failure> {
         return print(&format!("{}\nwhat is in {shown} has finished already", columns(&summary.table())));
     }
     let threads = threads(options.threads);
-    go(folder, !options.no_report, |observer| campaign::resume(folder, threads, observer))
+    go(folder, !options.no_report, |observer| {
+        campaign::resume(folder, threads, Some(&campaign_pictures), observer)
+    })
 }
 
 fn threads(wanted: Option<u32>) -> usize {

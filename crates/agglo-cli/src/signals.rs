@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use agglo::folder::Traces;
-use agglo::render::clear_at_exit;
+use agglo_view::render::clear_at_exit;
 
 use crate::{Failure, tell};
 

@@ -25,10 +25,3 @@ pub mod scenario;
 pub mod search;
 
 pub mod pages;
-
-pub mod plot;
-#[cfg(feature = "render")]
-pub mod render;
-#[cfg(feature = "report")]
-pub mod report;
-pub mod watch;

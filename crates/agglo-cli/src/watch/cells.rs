@@ -1,6 +1,6 @@
 //! A picture in the cells of a terminal: two pixels a cell, one above the other.
 
-use agglo::render::Image;
+use agglo_view::render::Image;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Color;

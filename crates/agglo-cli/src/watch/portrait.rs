@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use agglo::plot::{Map, Quantity};
-use agglo::render::{Background, FrameSequence, Image, Options, Renderer, Side};
+use agglo_view::plot::{Map, Quantity};
+use agglo_view::render::{Background, FrameSequence, Image, Options, Renderer, Side};
 
 /// Step of the camera for one press of an arrow.
 const TURN: f64 = 15.0_f64.to_radians();
@@ -77,7 +77,7 @@ impl Portrait {
         &mut self,
         sequence: FrameSequence,
         size: [u32; 2],
-    ) -> Result<Option<Shown>, agglo::render::RenderError> {
+    ) -> Result<Option<Shown>, agglo_view::render::RenderError> {
         let newest = sequence.len() - 1;
         let frame = sequence.read(newest)?;
         self.words = Quantity::all_in(&frame).map(|quantity| quantity.word).collect();

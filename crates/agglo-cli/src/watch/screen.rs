@@ -1,7 +1,7 @@
 //! How the dashboard looks.
 
 use agglo::text::{readable, visible};
-use agglo::watch::{Curve, Sight};
+use agglo_view::watch::{Curve, Sight};
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Color, Style, Stylize};

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use agglo::run::{Progress, Summary};
 use agglo::text::visible;
-use agglo::watch::{Follower, Sight, WatchError};
+use agglo_view::watch::{Follower, Sight, WatchError};
 use ratatui::DefaultTerminal;
 use ratatui::crossterm::event::{self, Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 

@@ -1,8 +1,8 @@
 //! The dashboard on a terminal that is a table of cells.
 
 use agglo::math::Vec3;
-use agglo::render::{Background, Camera, Scene, Side, Sphere};
-use agglo::watch::{Curve, Reading, Sight};
+use agglo_view::render::{Background, Camera, Scene, Side, Sphere};
+use agglo_view::watch::{Curve, Reading, Sight};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;

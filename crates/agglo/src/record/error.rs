@@ -89,7 +89,7 @@ pub enum RecordError {
 
 impl RecordError {
     /// For `map_err`: an error of the operating system while doing `action` to `path`.
-    pub(crate) fn file(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
+    pub fn file(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
         let path = path.to_owned();
         move |source| Self::File { action, path, source }
     }

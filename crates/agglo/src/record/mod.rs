@@ -11,7 +11,7 @@ pub mod frames;
 mod json;
 mod rows;
 mod series;
-pub(crate) mod sheet;
+pub mod sheet;
 
 pub use columns::{About, Cell, Column, Declared, Panel, Table};
 pub use error::RecordError;

@@ -71,7 +71,7 @@ impl Sheet {
 }
 
 /// The rows of a text, whatever the numbers of their entries; without `quotes` these are letters as any other.
-pub(crate) fn rows(text: &str, quotes: bool) -> impl Iterator<Item = StringRecord> {
+pub fn rows(text: &str, quotes: bool) -> impl Iterator<Item = StringRecord> {
     let mut reader = ReaderBuilder::new();
     let reader = reader.has_headers(false).flexible(true).quoting(quotes).from_reader(text.as_bytes());
     // Text has no rows that cannot be read.

@@ -27,8 +27,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 pub use error::RunError;
-#[cfg(feature = "report")]
-pub(crate) use hard::tables::FALSE_HEAT;
+pub use hard::tables::FALSE_HEAT;
 pub use hard::{CountFigures, Growth, GrowthFigures, HardSummary, MotionFigures, RunFigures, ScaleFigures};
 pub(crate) use origin::Origin;
 pub use quiet::quiet;
@@ -67,8 +66,7 @@ pub fn tables_at_the_end(is_hard: bool) -> columns::Tables {
 }
 
 /// The charts of such a run, in the order of the page.
-#[cfg(feature = "report")]
-pub(crate) fn panels(is_hard: bool) -> &'static [&'static columns::Panel] {
+pub fn panels(is_hard: bool) -> &'static [&'static columns::Panel] {
     if is_hard { hard::panels::ALL } else { soft::panels::ALL }
 }
 

@@ -4,9 +4,8 @@
 use std::path::Path;
 
 use super::{tables, tables_at_the_end};
-use crate::plot::Axis;
 use crate::record::{About, Declared};
-use crate::search::campaign;
+use crate::search::{analysis::Axis, campaign};
 
 /// A part of a page, between two comments that say what it is.
 struct Block {

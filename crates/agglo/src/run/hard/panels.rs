@@ -84,6 +84,5 @@ pub static STEP: Panel = Panel {
 };
 
 /// All of them, in the order of the page.
-#[cfg(feature = "report")]
 pub const ALL: &[&Panel] =
     &[&GRAINS, &GROWTH, &LARGEST, &TEMPERATURE, &IMPACTS, &ITERATIONS, &ENERGY, &HEAT, &SPEEDS, &STEP];

@@ -98,7 +98,6 @@ pub static STRAIN: Panel = Panel {
 };
 
 /// All of them, in the order of the page.
-#[cfg(feature = "report")]
 pub const ALL: &[&Panel] = &[
     &DISPERSION,
     &CLUSTERS,

@@ -30,7 +30,7 @@ pub struct Objective {
 
 /// What tables and pictures show of candidates: an objective with its own sign, or a measure that is none.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Target<'a> {
+pub struct Target<'a> {
     /// The quantity.
     pub axis: &'a Axis,
     source: Source,
@@ -106,7 +106,7 @@ impl EvaluationRow {
     }
 
     /// Values of a target in each replicate.
-    pub(super) fn values(&self, target: &Target<'_>) -> Vec<f64> {
+    pub fn values(&self, target: &Target<'_>) -> Vec<f64> {
         match target.source {
             Source::Objective(number, sign) => {
                 self.replicate_costs.iter().filter_map(|costs| Some(sign * costs.get(number)?)).collect()
@@ -145,7 +145,7 @@ impl Objective {
 
 impl Evaluations {
     /// Objectives, then the measures that are none of them.
-    pub(super) fn targets(&self) -> Vec<Target<'_>> {
+    pub fn targets(&self) -> Vec<Target<'_>> {
         let objectives = self.objectives.iter().enumerate().map(|(number, objective)| Target {
             axis: &objective.axis,
             source: Source::Objective(number, objective.sign()),
@@ -158,7 +158,7 @@ impl Evaluations {
     }
 
     /// Mean and standard error of a target for all rows; none for those that failed.
-    pub(super) fn target(&self, target: &Target<'_>) -> Vec<Option<[f64; 2]>> {
+    pub fn target(&self, target: &Target<'_>) -> Vec<Option<[f64; 2]>> {
         self.rows.iter().map(|row| row.target(target)).collect()
     }
 
@@ -167,7 +167,7 @@ impl Evaluations {
     /// Where the parameter rises (rays, grains) the size is 1 over it, where it falls (steps) the parameter itself; of words
     /// there are no sizes, and the order is then not known. Where levels share their replicates, only those count that all
     /// levels have, so that all have met the same luck.
-    pub(super) fn levels(&self, target: &Target<'_>) -> (Vec<Level>, Vec<f64>) {
+    pub fn levels(&self, target: &Target<'_>) -> (Vec<Level>, Vec<f64>) {
         let is_word = self.parameters.first().is_some_and(|axis| !axis.labels.is_empty());
         let fineness = |row: &EvaluationRow| row.values.first().copied().unwrap_or(f64::NAN);
         let ends = self.rows.first().zip(self.rows.last());

@@ -1,11 +1,11 @@
-//! What the evaluations of a search or study say: statistics, convergence, sensitivity, and pictures of all that.
+//! What the evaluations of a search or study say: statistics, convergence, sensitivity.
 
 mod axes;
+mod axis;
 mod evaluations;
 mod findings;
 mod moments;
 mod morris;
-mod pictures;
 mod refinement;
 #[cfg(test)]
 mod refinement_tests;
@@ -14,13 +14,12 @@ mod tables;
 #[cfg(test)]
 mod tests;
 
-pub use crate::plot::Axis;
 pub use axes::{parameter_axis, parameter_value};
-pub use evaluations::{EvaluationRow, Evaluations, Generation, Objective, Status};
+pub use axis::Axis;
+pub use evaluations::{EvaluationRow, Evaluations, Generation, Objective, Status, Target};
 pub use findings::findings;
 pub use moments::{Moments, varies};
 pub use morris::{ElementaryEffects, elementary_effects};
-pub use pictures::{search_pictures, study_pictures};
 pub use refinement::{
     Convergence, Difference, Level, Order, Replicates, Verdict, differences, observed_order, settled,
 };

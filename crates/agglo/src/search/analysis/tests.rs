@@ -281,26 +281,6 @@ fn front_is_beaten_by_none() {
     }
 }
 
-/// With `AGGLO_PICTURES` set to a folder, the pictures are left there to be looked at.
-fn with_folder(check: impl FnOnce(&std::path::Path)) {
-    let temporary = tempfile::tempdir().unwrap();
-    let kept = std::env::var_os("AGGLO_PICTURES").map(std::path::PathBuf::from);
-    check(kept.as_deref().unwrap_or(temporary.path()));
-}
-
-fn file_names(files: &[std::path::PathBuf]) -> Vec<&str> {
-    files.iter().map(|file| file.file_name().unwrap().to_str().unwrap()).collect()
-}
-
-#[test]
-fn searches_have_their_pictures() {
-    with_folder(|folder| {
-        let files = search_pictures(folder, &searched(2)).unwrap();
-        assert_eq!(file_names(&files), ["cost.svg", "parallel.svg", "pairs.svg", "front.svg"]);
-        assert_empty!(search_pictures(folder, &Evaluations::default()).unwrap());
-    });
-}
-
 /// Absorbed power against the number of rays, with an error of 40/rays and a little noise.
 fn refined() -> Evaluations {
     let mut stream = Stream::new(2, Purpose::Sampling, 0);
@@ -343,10 +323,6 @@ fn refinement_says_where_it_settled() {
     let wanted =
         "power [W] is settled from rays = 4000 on: within 1 % of the finest level, with 95 % confidence";
     assert_eq!(said, [wanted]);
-    with_folder(|folder| {
-        let files = study_pictures(folder, &plan, &evaluations, 1).unwrap();
-        assert_eq!(file_names(&files), ["refinement.svg", "histograms.svg"]);
-    });
 }
 
 /// An objective that is a column too is one thing, and stands with the sign of the column.
@@ -363,13 +339,6 @@ fn an_objective_that_is_a_column_stands_once_with_its_own_sign() {
     let plan = Plan::Refinement(Refinement { tolerance: 0.01 });
     assert_eq!(study_tables(&plan, &evaluations, 1), study_tables(&plan, &refined(), 1));
     assert_eq!(findings(&plan, &evaluations, 1), findings(&plan, &refined(), 1));
-    with_folder(|folder| {
-        let pictures = |evaluations: &Evaluations| -> Vec<String> {
-            let files = study_pictures(folder, &plan, evaluations, 1).unwrap();
-            files.iter().map(|file| std::fs::read_to_string(file).unwrap()).collect()
-        };
-        assert_eq!(pictures(&evaluations), pictures(&refined()));
-    });
 }
 
 #[test]
@@ -393,11 +362,6 @@ fn what_there_is_nothing_to_say_of_is_said() {
             let known = row.iter().filter(is_number).count();
             assert_eq!(known, if matches!(plan, Plan::Morris(_)) { 1 } else { 2 }, "{row:?}");
         }
-        with_folder(|folder| {
-            let files = study_pictures(folder, &plan, &constant, 1).unwrap();
-            let svg = std::fs::read_to_string(&files[0]).unwrap();
-            assert!(svg.contains("which does not vary") && !svg.contains("NaN"), "{svg}");
-        });
         let mut failed = studied(&plan);
         failed.rows.iter_mut().for_each(|row| row.status = Status::Failed);
         assert_contains!(findings(&plan, &failed, 1)[0], "not known for any candidate");
@@ -431,7 +395,7 @@ fn studied(plan: &Plan) -> Evaluations {
 }
 
 #[test]
-fn sensitivity_has_its_table_and_picture() {
+fn sensitivity_has_its_table() {
     for (plan, second) in [
         (Plan::Morris(Morris::default()), "target,parameter,mean_effect,"),
         (Plan::SobolIndices(SobolIndices::default()), "target,parameter,first,"),
@@ -444,12 +408,6 @@ fn sensitivity_has_its_table_and_picture() {
         );
         let columns = |line: &str| line.split(',').count();
         assert!(table.lines().all(|line| columns(line) == columns(table.lines().next().unwrap())), "{table}");
-        with_folder(|folder| {
-            assert_eq!(
-                file_names(&study_pictures(folder, &plan, &evaluations, 1).unwrap()),
-                ["sensitivity.svg"]
-            );
-        });
     }
 }
 

@@ -27,6 +27,7 @@ pub(crate) use columns::is_taken;
 pub use conduct::conduct;
 pub use course::{Ask, Closing, Course, Polish, Results};
 pub use error::CampaignError;
+pub use pictures::Draw;
 pub use progress::{CampaignObserver, CampaignProgress};
 pub use summary::{Best, CampaignSummary, FrontPoint, Goal, LimitKept, Named, Noise, Spent};
 pub use verbs::{planned, refuse_too_large, resume, run, way_of};

@@ -1,4 +1,4 @@
-//! What all evaluations together say: tables of a study, sentences, pictures.
+//! What all evaluations together say: tables of a study, sentences; and where pictures of them come in.
 
 use std::path::Path;
 
@@ -8,24 +8,35 @@ use crate::folder::names;
 use crate::record::{RecordError, atomic};
 use crate::search::analysis::{
     self, EvaluationRow, Evaluations, Objective, Replicates, measures_table, parameter_axis, parameter_value,
-    search_pictures, study_pictures, study_tables,
+    study_tables,
 };
 use crate::search::{Axis, Campaign, Model, Problem};
 
-/// Writes the tables of a study, and pictures.
-pub fn write(campaign: &Campaign, problem: &Problem, results: &Results<'_>) -> Result<(), RecordError> {
+/// Draws what all evaluations of a search or study say into a folder that is there and empty. It is asked when they are all
+/// there and before the summary is: what is killed in between draws them anew. The crate `agglo-view` has the one of the
+/// program.
+pub type Draw<'a> = dyn Fn(&Path, &Campaign, &Evaluations) -> Result<(), RecordError> + 'a;
+
+/// Writes the tables of a study, and lets pictures be drawn where someone draws.
+pub fn write(
+    campaign: &Campaign,
+    problem: &Problem,
+    results: &Results<'_>,
+    draw: Option<&Draw<'_>>,
+) -> Result<(), RecordError> {
     let evaluations = evaluations(campaign, problem, results.evaluations);
-    let (root, pictures) = (results.folder.root(), results.folder.pictures());
-    std::fs::create_dir_all(&pictures).map_err(RecordError::file("make the folder", &pictures))?;
-    let Some(plan) = &campaign.plan else {
-        return search_pictures(&pictures, &evaluations).map(drop);
-    };
-    let keep = |name: &str, text: &str| atomic::write(&root.join(name), text.as_bytes());
-    keep(names::MEASURES, &measures_table(&evaluations))?;
-    for (name, text) in study_tables(plan, &evaluations, campaign.seed) {
-        keep(name, &text)?;
+    if let Some(plan) = &campaign.plan {
+        let root = results.folder.root();
+        let keep = |name: &str, text: &str| atomic::write(&root.join(name), text.as_bytes());
+        keep(names::MEASURES, &measures_table(&evaluations))?;
+        for (name, text) in study_tables(plan, &evaluations, campaign.seed) {
+            keep(name, &text)?;
+        }
     }
-    study_pictures(&pictures, plan, &evaluations, campaign.seed).map(drop)
+    let Some(draw) = draw else { return Ok(()) };
+    let pictures = results.folder.pictures();
+    std::fs::create_dir_all(&pictures).map_err(RecordError::file("make the folder", &pictures))?;
+    draw(&pictures, campaign, &evaluations)
 }
 
 /// What a study says, in sentences.

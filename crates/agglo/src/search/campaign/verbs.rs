@@ -8,7 +8,7 @@ use super::conduct::conduct;
 use super::course::{Ask, Course, Polish, Results};
 use super::progress::CampaignObserver;
 use super::summary::Goal;
-use super::{CampaignEnding, CampaignError, pictures};
+use super::{CampaignEnding, CampaignError, Draw, pictures};
 use crate::engine::SimError;
 use crate::folder::{CampaignFolder, FolderError, names};
 use crate::record::{RecordError, door};
@@ -17,7 +17,8 @@ use crate::scenario::{LoadError, Scenario};
 use crate::search::optimizer::{Method, NelderMead, Optimizer};
 use crate::search::{Base, Campaign, Confirm, Problem, Range, Scalar};
 
-/// Conducts a campaign on `threads` threads in the folder `dir`; `base` is the folder that its files are relative to.
+/// Conducts a campaign on `threads` threads in the folder `dir`; `base` is the folder that its files are relative to. What it
+/// comes to is drawn by `draw`; without one there are no pictures.
 ///
 /// # Errors
 /// [`CampaignError`] where the folder is in use, nothing can be evaluated, or a file cannot be written.
@@ -26,6 +27,7 @@ pub fn run(
     base: &Path,
     dir: &Path,
     threads: usize,
+    draw: Option<&Draw<'_>>,
     observer: &mut CampaignObserver<'_>,
 ) -> Result<CampaignEnding, CampaignError> {
     let problem = Problem::new(campaign, base)?;
@@ -40,7 +42,7 @@ pub fn run(
     let scenario = head("Scenario that is varied by a search or study") + &scenario.to_toml()?;
     let campaign = head("Resolved search or study") + &resolved.to_toml()?;
     folder.put(&campaign, &scenario)?;
-    go_on(&folder, threads, observer)
+    go_on(&folder, threads, draw, observer)
 }
 
 /// Refuses simulations that the memory cannot hold, so many at a time as there are threads.
@@ -75,7 +77,7 @@ fn with_tables(
     Ok((scenario, campaign))
 }
 
-/// Goes on with the campaign in `dir`, on any number of threads.
+/// Goes on with the campaign in `dir`, on any number of threads; what it comes to is drawn by `draw`.
 ///
 /// A campaign that has finished is left as it is, and its summary given again.
 ///
@@ -84,6 +86,7 @@ fn with_tables(
 pub fn resume(
     dir: &Path,
     threads: usize,
+    draw: Option<&Draw<'_>>,
     observer: &mut CampaignObserver<'_>,
 ) -> Result<CampaignEnding, CampaignError> {
     let finished = || super::finished(dir).map(|summary| CampaignEnding::Finished(Box::new(summary)));
@@ -94,7 +97,7 @@ pub fn resume(
     // Another process may have finished it in between.
     match finished() {
         Some(ending) => Ok(ending),
-        None => go_on(&folder, threads, observer),
+        None => go_on(&folder, threads, draw, observer),
     }
 }
 
@@ -102,6 +105,7 @@ pub fn resume(
 fn go_on(
     folder: &CampaignFolder,
     threads: usize,
+    draw: Option<&Draw<'_>>,
     observer: &mut CampaignObserver<'_>,
 ) -> Result<CampaignEnding, CampaignError> {
     let dir = folder.root();
@@ -139,7 +143,7 @@ fn go_on(
         findings: &|known| pictures::findings(&campaign, &problem, known),
         closing: &mut |results, ask| {
             pictures::clear(&results.folder.pictures())?;
-            pictures::write(&campaign, &problem, results)?;
+            pictures::write(&campaign, &problem, results, draw)?;
             if is_search { run_best(&problem, results, ask) } else { Ok(ControlFlow::Continue(())) }
         },
     };

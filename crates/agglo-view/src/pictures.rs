@@ -1,0 +1,473 @@
+//! Pictures of searches and studies, as SVG files.
+
+use std::path::{Path, PathBuf};
+
+use agglo::folder::names::picture;
+use agglo::record::{RecordError, atomic};
+use agglo::search::analysis::{
+    Convergence, EvaluationRow, Evaluations, Generation, Moments, Objective, Status, Target, Verdict,
+    differences, elementary_effects, observed_order, settled, variance_shares, varies,
+};
+use agglo::search::{Campaign, Plan};
+
+use crate::plot::{
+    Axis, Bars, Front, FrontPoint, Histogram, Histograms, Line, LinePanel, Lines, Pairs, Parallel, Series,
+    Settled, Staircase,
+};
+
+/// Most panels of a picture that has one for each measure.
+const PANELS: usize = 6;
+/// Most parameters of a picture of pairs: with more, names and marks run into each other.
+const PAIRED: usize = 6;
+/// Most histograms in a picture.
+const HISTOGRAMS: usize = 24;
+
+/// Draws a search or study, as [`agglo::search::campaign::run`] asks for it: [`search_pictures`] or [`study_pictures`].
+///
+/// # Errors
+/// [`RecordError::File`].
+pub fn campaign_pictures(
+    folder: &Path,
+    campaign: &Campaign,
+    evaluations: &Evaluations,
+) -> Result<(), RecordError> {
+    match &campaign.plan {
+        Some(plan) => study_pictures(folder, plan, evaluations, campaign.seed).map(drop),
+        None => search_pictures(folder, evaluations).map(drop),
+    }
+}
+
+/// Writes `cost.svg`, `parallel.svg`, `pairs.svg` and, for two objectives, `front.svg` into a folder that exists; gives the
+/// files written. What there is nothing to show of is left out.
+///
+/// # Errors
+/// [`RecordError::File`].
+pub fn search_pictures(folder: &Path, evaluations: &Evaluations) -> Result<Vec<PathBuf>, RecordError> {
+    let mut files = Vec::new();
+    if evaluations.ranked().is_empty() {
+        return Ok(files);
+    }
+    let mut keep = |name: &str, svg: String| write(folder, name, &svg).map(|file| files.push(file));
+    keep("cost", costs(evaluations))?;
+    keep("parallel", parallel(evaluations))?;
+    keep("pairs", pairs(evaluations))?;
+    if evaluations.objectives.len() == 2 {
+        keep("front", front(evaluations))?;
+    }
+    Ok(files)
+}
+
+/// Writes what a study shows into a folder that exists: `refinement.svg`, `sensitivity.svg`, or `outcomes.svg` with the
+/// measures over the first parameter, or `parallel.svg`; and `histograms.svg` where candidates have several replicates. Gives the
+/// files written.
+///
+/// # Errors
+/// [`RecordError::File`].
+pub fn study_pictures(
+    folder: &Path,
+    plan: &Plan,
+    evaluations: &Evaluations,
+    seed: u64,
+) -> Result<Vec<PathBuf>, RecordError> {
+    let mut files = Vec::new();
+    if evaluations.rows.is_empty() || evaluations.targets().is_empty() {
+        return Ok(files);
+    }
+    let mut keep = |name: &str, svg: String| write(folder, name, &svg).map(|file| files.push(file));
+    match plan {
+        Plan::Refinement(refinement) => keep("refinement", staircase(evaluations, refinement.tolerance))?,
+        Plan::Morris(_) => keep("sensitivity", effects(evaluations))?,
+        Plan::SobolIndices(indices) => {
+            keep("sensitivity", shares(evaluations, indices.bootstraps, indices.level, seed))?;
+        }
+        Plan::Grid(_) if evaluations.parameters.len() > 1 => keep("parallel", parallel(evaluations))?,
+        Plan::Grid(_) | Plan::List(_) => keep("outcomes", outcomes(evaluations))?,
+    }
+    if evaluations.rows.iter().any(|row| row.replicates.len() >= 8) && !evaluations.measures.is_empty() {
+        keep("histograms", histograms(evaluations))?;
+    }
+    Ok(files)
+}
+
+fn write(folder: &Path, name: &str, svg: &str) -> Result<PathBuf, RecordError> {
+    let path = folder.join(picture(name));
+    atomic::write(&path, svg.as_bytes())?;
+    Ok(path)
+}
+
+fn titled(evaluations: &Evaluations, what: &str) -> String {
+    if evaluations.title.is_empty() { what.to_owned() } else { format!("{}: {what}", evaluations.title) }
+}
+
+fn cost_axis(evaluations: &Evaluations) -> Axis {
+    evaluations.objectives.first().map_or_else(|| Axis::new("cost", ""), |first| first.axis.clone())
+}
+
+/// What a value of the first objective is times its cost: 1, or -1 where it was to be large.
+fn sign(evaluations: &Evaluations) -> f64 {
+    evaluations.objectives.first().map_or(1.0, Objective::sign)
+}
+
+fn is_to_be_large(evaluations: &Evaluations) -> bool {
+    sign(evaluations) < 0.0
+}
+
+/// The first objective over the generations, and below the measures of the best candidate so far.
+fn costs(evaluations: &Evaluations) -> String {
+    let generations = evaluations.generations();
+    let sign = sign(evaluations);
+    let at = |g: &Generation, cost: f64| [f64::from(g.number), sign * cost];
+    let with_costs = || generations.iter().filter(|g| g.mean.is_finite());
+    let best_row = |g: &Generation| Some((f64::from(g.number), &evaluations.rows[g.best?]));
+    let best = || generations.iter().filter_map(best_row);
+    let range = Line {
+        name: "mean, least to largest".to_owned(),
+        points: with_costs().map(|g| at(g, g.mean)).collect(),
+        band: with_costs().map(|g| [sign * g.costs[0], sign * g.costs[2]]).collect(),
+    };
+    let lines = vec![
+        Line {
+            name: "best so far ± standard error".to_owned(),
+            points: best().map(|(number, row)| [number, sign * row.costs[0]]).collect(),
+            band: best().map(|(_, row)| around(sign * row.costs[0], row.standard_errors.first())).collect(),
+        },
+        range,
+        Line {
+            name: "median".to_owned(),
+            points: with_costs().map(|g| at(g, g.costs[1])).collect(),
+            band: Vec::new(),
+        },
+    ];
+    let mut panels = vec![LinePanel { y: cost_axis(evaluations), lines }];
+    let has_replicates = best().all(|(_, row)| !row.replicates.is_empty());
+    // A measure that is the objective itself is in the first panel already.
+    let is_new =
+        |axis: &Axis| evaluations.objectives.iter().all(|objective| objective.axis.name != axis.name);
+    let measures = evaluations.measures.iter().enumerate().filter(|(_, axis)| has_replicates && is_new(axis));
+    for (number, axis) in measures.take(PANELS - 1) {
+        let moments = || best().map(|(generation, row)| (generation, row.measure(number)));
+        let line = Line {
+            name: "of the best so far".to_owned(),
+            points: moments().map(|(generation, m)| [generation, m.mean]).collect(),
+            band: moments().map(|(_, m)| around(m.mean, Some(&m.standard_error()))).collect(),
+        };
+        panels.push(LinePanel { y: axis.clone(), lines: vec![line] });
+    }
+    let (first, last) = (best().next(), best().next_back());
+    let cost = |row: Option<(f64, &EvaluationRow)>| row.map_or(f64::NAN, |(_, row)| sign * row.costs[0]);
+    Lines {
+        title: titled(evaluations, "cost by generation"),
+        description: format!(
+            "In {} generations the best goes from {} to {}.",
+            generations.len(),
+            cost(first),
+            cost(last)
+        ),
+        x: Axis::new("generation", ""),
+        panels,
+    }
+    .svg()
+}
+
+fn around(value: f64, error: Option<&f64>) -> [f64; 2] {
+    let error = known(error);
+    [value - error, value + error]
+}
+
+/// Every candidate across its parameters and its first objective, or its first measure in a study without objectives.
+fn parallel(evaluations: &Evaluations) -> String {
+    let targets = evaluations.targets();
+    let Some(target) = targets.first() else { return String::new() };
+    let outcomes = evaluations.target(target);
+    let rows: Vec<Vec<f64>> = evaluations
+        .rows
+        .iter()
+        .zip(&outcomes)
+        .filter(|(row, _)| row.status == Status::Feasible)
+        .filter_map(|(row, outcome)| Some([row.values.as_slice(), &[(*outcome)?[0]]].concat()))
+        .collect();
+    let is_large_first = is_to_be_large(evaluations);
+    let extreme = if is_large_first { "largest" } else { "smallest" };
+    Parallel {
+        title: titled(evaluations, "all candidates"),
+        description: format!(
+            "Each of {} lines is a candidate that keeps all limits; those with the {extreme} {} are thick and on top.",
+            rows.len(),
+            target.axis.name
+        ),
+        axes: evaluations.parameters.iter().cloned().chain([target.axis.clone()]).collect(),
+        rows,
+        is_large_first,
+    }
+    .svg()
+}
+
+/// The best quarter of the candidates, but at least 50, in all pairs of the parameters that it narrows most.
+fn pairs(evaluations: &Evaluations) -> String {
+    let ranked = evaluations.ranked();
+    let good = &ranked[..ranked.len().min((ranked.len() / 4).max(50))];
+    let shown = narrowed(evaluations, good);
+    let which = if shown.len() < evaluations.parameters.len() {
+        "the parameters narrowed most"
+    } else {
+        "parameters"
+    };
+    let values = |row: &EvaluationRow| shown.iter().map(|&axis| row.values[axis]).collect();
+    let is_large_first = is_to_be_large(evaluations);
+    Pairs {
+        title: titled(evaluations, "the good region"),
+        description: format!(
+            "The best {} of {} candidates that keep all limits, in all pairs of {which}; the best are {} and on top.",
+            good.len(),
+            ranked.len(),
+            if is_large_first { "bright" } else { "dark" }
+        ),
+        axes: shown.iter().map(|&axis| evaluations.parameters[axis].clone()).collect(),
+        rows: good.iter().map(|&(row, _)| values(&evaluations.rows[row])).collect(),
+        shade: cost_axis(evaluations),
+        shades: good.iter().map(|&(_, cost)| sign(evaluations) * cost).collect(),
+        is_large_first,
+    }
+    .svg()
+}
+
+/// The parameters, at most so many that names and marks stay readable, whose good values scatter least in the cube.
+fn narrowed(evaluations: &Evaluations, good: &[(usize, f64)]) -> Vec<usize> {
+    let spread = |axis: usize| {
+        let places: Vec<f64> =
+            good.iter().filter_map(|&(row, _)| evaluations.rows[row].point.get(axis).copied()).collect();
+        Moments::of(&places).standard_deviation
+    };
+    let mut axes: Vec<usize> = (0..evaluations.parameters.len()).collect();
+    axes.sort_by(|&a, &b| spread(a).total_cmp(&spread(b)));
+    axes.truncate(PAIRED);
+    axes.sort_unstable();
+    axes
+}
+
+fn front(evaluations: &Evaluations) -> String {
+    let best = evaluations.front();
+    let shown = evaluations
+        .rows
+        .iter()
+        .enumerate()
+        .filter(|(_, row)| row.feasible_cost().is_some() && row.costs.len() == 2);
+    let [x, y] = [&evaluations.objectives[0], &evaluations.objectives[1]];
+    let points = shown.map(|(number, row)| FrontPoint {
+        costs: [x.sign() * row.costs[0], y.sign() * row.costs[1]],
+        standard_errors: [0, 1].map(|cost| known(row.standard_errors.get(cost))),
+        is_on_front: best.contains(&number),
+    });
+    Front {
+        title: titled(evaluations, "two costs"),
+        description: format!("{} candidates are beaten by no other in both costs.", best.len()),
+        x: x.axis.clone(),
+        y: y.axis.clone(),
+        points: points.collect(),
+        is_large_right: x.is_to_be_large,
+    }
+    .svg()
+}
+
+/// Each target over the levels of refinement.
+fn staircase(evaluations: &Evaluations, tolerance: f64) -> String {
+    let mut words = Vec::new();
+    let mut x = evaluations.parameters[0].clone();
+    x.is_log = x.labels.is_empty()
+        && evaluations.rows.iter().all(|row| row.values.first().is_some_and(|v| *v > 0.0));
+    let panel = |target: Target<'_>| {
+        let (levels, fineness) = evaluations.levels(&target);
+        let (from, verdict) = settled(&differences(&levels, tolerance, evaluations.replicates));
+        let from = from.map(|level| fineness[level]);
+        let order = observed_order(&levels, evaluations.replicates);
+        let limit = if let Convergence::Converging(order) = order { Some(order.limit) } else { None };
+        words.push(format!("{}: {}", target.axis.name, said(order, from.map(|from| x.cell(from)), verdict)));
+        let value = levels.last().map_or(f64::NAN, |level| level.moments().mean);
+        let plotted = levels.iter().zip(&fineness).map(|(level, &fineness)| crate::plot::Level {
+            fineness,
+            mean: level.moments().mean,
+            standard_error: known(Some(&level.moments().standard_error())),
+        });
+        let settled = Settled { value, tolerance: tolerance * value.abs(), from, limit };
+        (target.axis.clone(), plotted.collect(), settled)
+    };
+    let panels = evaluations.targets().into_iter().take(PANELS).map(panel).collect();
+    let title = titled(evaluations, "convergence");
+    Staircase { title, description: words.join(" "), x: x.clone(), panels }.svg()
+}
+
+/// An error, or 0, which is not drawn, where it is not known.
+fn known(error: Option<&f64>) -> f64 {
+    error.copied().filter(|error| error.is_finite()).unwrap_or(0.0)
+}
+
+fn said(order: Convergence, from: Option<String>, verdict: Verdict) -> String {
+    let settled = match (from, verdict) {
+        (Some(from), _) => format!("settled from {from} on"),
+        (None, Verdict::NotSettled) => "it has not settled".to_owned(),
+        (None, _) => "it is not shown to have settled".to_owned(),
+    };
+    let order = match order {
+        Convergence::TooFewLevels => "too few levels for an order".to_owned(),
+        Convergence::WithinNoise => "differences are within the noise, so there is no order".to_owned(),
+        Convergence::Oscillating | Convergence::Diverging => "not in the asymptotic range".to_owned(),
+        Convergence::Converging(order) => {
+            let range = if order.is_asymptotic == Some(false) { ", not in the asymptotic range" } else { "" };
+            let error = order.order_standard_error;
+            let error = if error.is_finite() { format!(" ± {error:.2}") } else { String::new() };
+            format!("order {:.2}{error}{range}", order.order)
+        }
+    };
+    format!("{settled}; {order}.")
+}
+
+fn points_of(evaluations: &Evaluations) -> Vec<Vec<f64>> {
+    evaluations.rows.iter().map(|row| row.point.clone()).collect()
+}
+
+fn names(evaluations: &Evaluations) -> Vec<String> {
+    evaluations.parameters.iter().map(|axis| axis.name.clone()).collect()
+}
+
+/// Says in the title that a target does not vary, so that a picture without bars explains itself.
+fn of_target(evaluations: &Evaluations, what: &str, target: &Target<'_>) -> String {
+    let outcomes = evaluations.target(target);
+    let does_vary = varies(outcomes.iter().flatten().map(|outcome| outcome[0]));
+    let still = if does_vary { "" } else { ", which does not vary" };
+    titled(evaluations, &format!("{what} {}{still}", target.axis.name))
+}
+
+/// Elementary effects on the first target.
+fn effects(evaluations: &Evaluations) -> String {
+    let target = evaluations.targets()[0];
+    let effects = elementary_effects(&points_of(evaluations), &evaluations.target(&target));
+    let sizes = Series {
+        name: "mean size of effects ± standard error".to_owned(),
+        values: effects.iter().map(|effect| effect.mean_size).collect(),
+        intervals: effects
+            .iter()
+            .map(|effect| around(effect.mean_size, Some(&effect.standard_error)))
+            .collect(),
+    };
+    let spreads = Series {
+        name: "standard deviation of effects".to_owned(),
+        values: effects.iter().map(|effect| effect.standard_deviation).collect(),
+        intervals: Vec::new(),
+    };
+    let noise = effects.iter().map(|effect| effect.noise).fold(f64::NAN, f64::max);
+    let noise = if noise.is_nan() {
+        "how much of them is noise is not known".to_owned()
+    } else {
+        format!("effects below {noise:.2e} are within the noise")
+    };
+    Bars {
+        title: of_target(evaluations, "effects on", &target),
+        description: format!("Change of {} per whole range of each parameter; {noise}.", target.axis.name),
+        axis: Axis::new(
+            &format!("change of {} over the parameter's range", target.axis.name),
+            &target.axis.unit,
+        ),
+        names: names(evaluations),
+        series: vec![sizes, spreads],
+    }
+    .svg()
+}
+
+/// Shares in the variance of the first target.
+fn shares(evaluations: &Evaluations, bootstraps: u32, level: f64, seed: u64) -> String {
+    let target = evaluations.targets()[0];
+    let outcomes = evaluations.target(&target);
+    let shares = variance_shares(evaluations.parameters.len(), &outcomes, bootstraps, level, seed);
+    let all = &shares.parameters;
+    let alone = Series {
+        name: "alone".to_owned(),
+        values: all.iter().map(|share| share.first).collect(),
+        intervals: all.iter().map(|share| share.first_interval).collect(),
+    };
+    let total = Series {
+        name: "with all others".to_owned(),
+        values: all.iter().map(|share| share.total).collect(),
+        intervals: all.iter().map(|share| share.total_interval).collect(),
+    };
+    let noise = if shares.noise_share.is_nan() {
+        "how much of the variance is noise of the replicates is not known".to_owned()
+    } else {
+        format!("noise of the replicates has up to {:.1} % of the variance", 100.0 * shares.noise_share)
+    };
+    Bars {
+        title: of_target(evaluations, "shares in the variance of", &target),
+        description: format!(
+            "Share of each parameter, with {:.0} % confidence intervals; {noise}.",
+            100.0 * level
+        ),
+        axis: Axis::new(&format!("share in the variance of {}", target.axis.name), ""),
+        names: names(evaluations),
+        series: vec![alone, total],
+    }
+    .svg()
+}
+
+/// Each target over the first parameter, or over the number of the candidate where words are listed.
+fn outcomes(evaluations: &Evaluations) -> String {
+    let panel = |target: Target<'_>| {
+        let outcomes = evaluations.target(&target);
+        let mut known: Vec<(f64, [f64; 2])> = evaluations
+            .rows
+            .iter()
+            .zip(&outcomes)
+            .filter_map(|(row, outcome)| Some((row.values.first().copied()?, (*outcome)?)))
+            .collect();
+        known.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let line = Line {
+            name: "mean ± standard error".to_owned(),
+            points: known.iter().map(|(x, [mean, _])| [*x, *mean]).collect(),
+            band: known.iter().map(|(_, [mean, error])| around(*mean, Some(error))).collect(),
+        };
+        LinePanel { y: target.axis.clone(), lines: vec![line] }
+    };
+    let x = evaluations.parameters.first().cloned().unwrap_or_default();
+    Lines {
+        title: titled(evaluations, "outcomes"),
+        description: format!(
+            "Means and standard errors over {} for {} candidates.",
+            x.name,
+            evaluations.rows.len()
+        ),
+        x,
+        panels: evaluations.targets().into_iter().take(PANELS).map(panel).collect(),
+    }
+    .svg()
+}
+
+/// Replicates of each candidate, for each measure, as long as there is room.
+fn histograms(evaluations: &Evaluations) -> String {
+    let mut panels = Vec::new();
+    for (number, row) in evaluations.rows.iter().enumerate().filter(|(_, row)| row.replicates.len() >= 8) {
+        let candidate = match (evaluations.parameters.as_slice(), row.values.as_slice()) {
+            ([parameter], [value]) => format!("{} = {}", parameter.name, parameter.cell(*value)),
+            _ => format!("candidate {number}"),
+        };
+        for (measure, axis) in evaluations.measures.iter().enumerate() {
+            let values: Vec<f64> =
+                row.replicates.iter().filter_map(|replicate| replicate.get(measure).copied()).collect();
+            let moments = row.measure(measure);
+            let named = Axis { name: format!("{}, {candidate}", axis.name), ..axis.clone() };
+            let mean = Some([moments.mean, moments.standard_error()]);
+            panels.push(Histogram { mean, ..Histogram::of(named, &values) });
+        }
+    }
+    panels.truncate(HISTOGRAMS);
+    Histograms {
+        title: titled(evaluations, "distributions"),
+        description: format!(
+            "Values of single replicates, {} histograms, with mean and standard error.",
+            panels.len()
+        ),
+        panels,
+    }
+    .svg()
+}
+
+#[cfg(test)]
+#[path = "pictures_tests.rs"]
+mod tests;
