@@ -3,6 +3,8 @@
 use crate::packing::{Groups, PackingError};
 use crate::particles::Particles;
 
+#[path = "../../agglo/src/scenario/file.rs"]
+mod file;
 #[path = "../../agglo/src/scenario/spheres.rs"]
 mod spheres;
 #[path = "../../agglo/src/scenario/types.rs"]

@@ -139,7 +139,7 @@ fn good_files_of_hard_spheres_can_be_placed() {
     let mut placed = 0;
     for path in shipped_and_good().into_iter().filter(|path| !is_campaign(path)) {
         let scenario = Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"));
-        if scenario.engine.is_hard() {
+        if scenario.is_hard() {
             let grains = agglo::packing::place(&scenario, &base)
                 .unwrap_or_else(|error| panic!("{}: {error}", path.display()));
             // Lattice points are counted by volume where they are not placed, and one by one here.
@@ -235,6 +235,7 @@ fn settings_replace_values_of_searches_too() {
 fn spoiled_files_do_no_harm() {
     spoil(include_str!("scenario/good/every_choice.toml"));
     spoil(include_str!("scenario/good/hard_every_choice.toml"));
+    spoil(include_str!("../../../scenarios/acoustic-dispersal-published.toml"));
     spoil_with(agglo::scenario::template("study-rays").unwrap().text, &|text| {
         if let Err(faults) = Campaign::from_toml(text) {
             assert_filled!(faults);

@@ -18,11 +18,15 @@ fn next(scenario: &str) -> String {
     let text = format!("{before}{}\n", lines[at..].join("\n"));
     let text: String =
         text.lines().filter(|line| !line.starts_with("title")).flat_map(|line| [line, "\n"]).collect();
-    let extra = "[materials.aaa]\ndensity = \"1 g/cm3\"\nsound_speed = \"1 km/s\"\nyoungs_modulus = \"1 GPa\"\n\
-                 poisson_ratio = 0.2\nhardness = \"1 MPa\"\nactivation_energy = \"1 kJ\"\nheat_capacity = \"1 J/(kg K)\"\n\
-                 reaction_heat = \"1 J/m2\"\nsurface_energy = \"1 J/m2\"\nemissivity = 0.5\n\
-                 thermal_conductivity = \"1 W/(m K)\"\n";
-    format!("title = \"the next\"\n{text}{extra}")
+    format!("title = \"the next\"\n{text}[materials.aaa]\n{}", another_material(scenario))
+}
+
+/// What the first material of a scenario says, with another density.
+fn another_material(scenario: &str) -> String {
+    let (_, rest) = scenario.split_once("[materials.").unwrap();
+    let own = rest.lines().skip(1).take_while(|line| !line.starts_with('['));
+    let others = own.filter(|line| !line.starts_with("density")).flat_map(|line| [line, "\n"]);
+    others.chain(["density = \"1 g/cm3\"\n"]).collect()
 }
 
 /// A folder with the scenario that goes on, and where its run goes.

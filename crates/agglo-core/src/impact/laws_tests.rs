@@ -9,11 +9,12 @@ use crate::testing::Scenario;
 /// Laws of two materials, "a" (number 0) and "b" (number 1), with more lines for the file and for materials.
 pub(super) fn laws(impact: &str, [a, b]: [&str; 2]) -> ImpactLaws {
     let text = format!(
-        "version = 1\ngrains = []\n[time]\nend = \"1 s\"\n[engine.event_driven]\n{impact}\n\
+        "version = 1\ngrains = []\n[time]\nend = \"1 s\"\n[engine.event_driven]\n[volume]\n\
+         lower = [\"0 m\", \"0 m\", \"0 m\"]\nupper = [\"1 m\", \"1 m\", \"1 m\"]\n{impact}\n\
          [materials.a]\ndensity = \"2000 kg/m3\"\n{a}\n[materials.b]\ndensity = \"3000 kg/m3\"\n{b}\n"
     );
     let scenario: Scenario = toml::from_str(&text).unwrap();
-    ImpactLaws::new(&scenario.impact.unwrap(), &scenario.materials, &scenario.mixtures)
+    ImpactLaws::new(&scenario.hard().unwrap().impact, &scenario.materials, &scenario.mixtures)
 }
 
 pub(super) const REACTIVE: &str =

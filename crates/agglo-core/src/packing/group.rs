@@ -19,19 +19,29 @@ pub struct Groups<'a> {
     pub materials: &'a BTreeMap<String, Material>,
     /// Seed of all random numbers.
     pub seed: u64,
-    /// The control volume.
-    pub volume: Option<&'a Volume>,
     /// What kind of spheres the grains are.
-    pub spheres: Spheres,
+    pub kind: SphereKind<'a>,
+}
+
+impl<'a> Groups<'a> {
+    /// The control volume, where there is one.
+    pub fn volume(&self) -> Option<&'a Volume> {
+        match self.kind {
+            SphereKind::Soft => None,
+            SphereKind::Hard { volume, .. } => Some(volume),
+        }
+    }
 }
 
 /// What kind of spheres grains are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Spheres {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SphereKind<'a> {
     /// They may overlap and be anywhere.
     Soft,
     /// They may not overlap, and lie in the control volume.
     Hard {
+        /// The control volume.
+        volume: &'a Volume,
         /// Whether grains of an earlier run may have left a volume with antipodal faces, on their way back in.
         may_leave: bool,
     },

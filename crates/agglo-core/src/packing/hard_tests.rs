@@ -3,13 +3,11 @@
 use super::tests::{cube, group, lattice, radius, random, scenario};
 use super::*;
 use crate::domain::{Block, Boundary, Region, Volume};
-use crate::engine::Engine;
-use crate::engine::hard::EventDriven;
 use crate::math::Vec3;
 use crate::math::rng::{Purpose, Stream};
 use crate::packing::GrainGroup;
 use crate::particles::{Particles, Row};
-use crate::testing::{Scenario, place};
+use crate::testing::place;
 use crate::units::Quantity;
 
 const BOUNDARIES: [Boundary; 4] =
@@ -21,12 +19,9 @@ fn volume(edges: [f64; 3], boundary: Boundary) -> Volume {
     Volume { lower: lower.map(Quantity), upper, boundary }
 }
 
-fn hard(volume: Option<Volume>, grains: Vec<GrainGroup>) -> Scenario {
-    Scenario { engine: Engine::EventDriven(EventDriven::default()), volume, ..scenario(grains) }
-}
-
 fn started(volume: &Volume, grains: Vec<GrainGroup>) -> Result<Particles, PackingError> {
-    place(&hard(Some(volume.clone()), grains))
+    let kind = SphereKind::Hard { volume, may_leave: false };
+    place(Groups { kind, ..Groups::from(&scenario(grains)) })
 }
 
 fn fill(count: Option<u32>, solid_fraction: Option<f64>, gap: f64) -> Placement {
@@ -164,7 +159,7 @@ fn later_groups_keep_clear_of_images() {
 #[test]
 fn what_cannot_be_filled_is_refused() {
     let request = || vec![group("ink", radius(0.1), fill(Some(1), None, 0.0))];
-    let message = place(&hard(None, request())).unwrap_err().to_string();
+    let message = place(&scenario(request())).unwrap_err().to_string();
     assert!(message.contains("grains[0].placement: `fill` needs the control volume [volume]"), "{message}");
     let unit = volume([1.0; 3], Boundary::Periodic);
     for (count, fraction, gap) in
@@ -253,7 +248,7 @@ fn rows_with_velocities_and_temperatures_of_their_own_keep_them() {
         ..group("ink", radius(0.1), Placement::List(given))
     };
     let grains =
-        super::place(&hard(None, vec![table("own.csv"), table("bare.csv"), given]), &mut read).unwrap();
+        super::place(&scenario(vec![table("own.csv"), table("bare.csv"), given]), &mut read).unwrap();
     assert_eq!(grains.velocity[..2], [Vec3::new(7.0, 0.0, 0.0), Vec3::new(0.0, 8.0, 0.0)]);
     assert_eq!(grains.velocity[4], Vec3::new(0.0, 0.0, 9.0));
     assert_eq!(grains.temperature, [450.0, 700.0, 600.0, 600.0, 600.0]);

@@ -14,7 +14,7 @@ mod velocity;
 mod watch;
 
 pub use error::{PackingError, SATURATION};
-pub use group::{GrainGroup, Groups, Spheres};
+pub use group::{GrainGroup, Groups, SphereKind};
 pub use overlap::{Overlap, first_overlap};
 pub use place::{make_ready, place, place_groups, place_groups_watched};
 pub use placement::{Fill, GrainList, Lattice, LatticeKind, Placement, RandomAddition, Table, TableGrain};

@@ -7,7 +7,7 @@ use super::overlap::{first_outside, first_overlap};
 use super::random::{self, Request};
 use super::room::Room;
 use super::watch::{PlaceWatch, ReadTable};
-use super::{GrainGroup, GrainList, Groups, Placement, Spheres, TableGrain, lattice};
+use super::{GrainGroup, GrainList, Groups, Placement, SphereKind, TableGrain, lattice};
 use crate::domain::{Boundary, Volume, resolution};
 use crate::math::Vec3;
 use crate::math::rng::{Purpose, Stream};
@@ -69,7 +69,7 @@ fn place_all(
         if let Some(reason) = request.size.fault() {
             return Err(PackingError::Value { group, key: "size", reason });
         }
-        let group_of = Group { request, seed: asked.seed, number: group, volume: asked.volume };
+        let group_of = Group { request, seed: asked.seed, number: group, volume: asked.volume() };
         let mut spots = group_of.spots(&grains, read, watch)?;
         scatter(request, asked.seed, group, &mut spots);
         for spot in spots {
@@ -90,10 +90,10 @@ fn place_all(
 pub fn make_ready(asked: &Groups<'_>, grains: &mut Particles, may_overlap: bool) -> Result<(), PackingError> {
     refuse_far(grains)?;
     refuse_coincident(grains)?;
-    if let Spheres::Hard { may_leave } = asked.spheres {
-        bring_inside(asked.volume, grains, may_overlap && may_leave, may_overlap)?;
+    if let SphereKind::Hard { volume, may_leave } = asked.kind {
+        bring_inside(volume, grains, may_overlap && may_leave, may_overlap)?;
         if !may_overlap {
-            refuse_overlapping(grains, asked.volume)?;
+            refuse_overlapping(grains, volume)?;
         }
     }
     Ok(())
@@ -200,12 +200,11 @@ fn scatter(request: &GrainGroup, seed: u64, group: usize, spots: &mut [Spot]) {
 
 /// Hard spheres start within the faces; of the images of a grain, the one inside counts.
 fn bring_inside(
-    volume: Option<&Volume>,
+    volume: &Volume,
     grains: &mut Particles,
     may_leave: bool,
     may_reach_in: bool,
 ) -> Result<(), PackingError> {
-    let Some(volume) = volume else { return Ok(()) };
     if may_leave && volume.boundary == Boundary::Antipodal {
         // A step leaves grains outside, on their way in; from event to event none are.
         return Ok(());
@@ -220,8 +219,8 @@ fn bring_inside(
 }
 
 /// Hard spheres start apart from one another.
-fn refuse_overlapping(grains: &Particles, volume: Option<&Volume>) -> Result<(), PackingError> {
-    match first_overlap(grains, volume) {
+fn refuse_overlapping(grains: &Particles, volume: &Volume) -> Result<(), PackingError> {
+    match first_overlap(grains, Some(volume)) {
         None => Ok(()),
         Some(found) => {
             let [first, second] = found.ids;

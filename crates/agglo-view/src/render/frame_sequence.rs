@@ -84,7 +84,7 @@ impl FrameSequence {
 
     /// The control volume, where there is one.
     pub(super) fn volume(&self) -> Option<&Volume> {
-        self.scenario()?.volume.as_ref()
+        self.scenario()?.volume()
     }
 
     /// Reads a frame of grains.

@@ -12,7 +12,7 @@ use agglo::run;
 /// The charts of a run; those without data are left out.
 pub fn charts(folder: &Folder) -> Vec<Chart> {
     let is_hard = match &folder.scenario {
-        Some(scenario) => scenario.engine.is_hard(),
+        Some(scenario) => scenario.is_hard(),
         None => folder.table("grains").is_some() || folder.table("impacts").is_some(),
     };
     let wanted = lines(is_hard, is_published(folder));
@@ -46,7 +46,7 @@ fn lines(is_hard: bool, is_published: bool) -> Vec<Lines> {
 
 /// Whether heat follows the published balance.
 fn is_published(folder: &Folder) -> bool {
-    let impact = folder.scenario.as_ref().and_then(|scenario| scenario.impact.as_ref());
+    let impact = folder.scenario.as_ref().and_then(|scenario| scenario.impact());
     impact.is_some_and(|impact| impact.heat.balance == Balance::Published)
 }
 

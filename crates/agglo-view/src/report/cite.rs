@@ -85,7 +85,7 @@ pub fn citations(scenario: &Scenario) -> Vec<Citation> {
     }
     let mut always = laws_of_every_impact(scenario);
     // How much of a ray is reflected no key chooses.
-    always.extend(scenario.acoustics.as_ref().map(|_| "fresnel"));
+    always.extend(scenario.acoustics().map(|_| "fresnel"));
     pages::all()
         .filter(|page| paths.iter().any(|path| names(path, page)) || always.contains(&page.name))
         .filter_map(citation)
@@ -128,9 +128,7 @@ fn names(path: &[String], page: &Page) -> bool {
 
 /// Laws of impact that no key chooses; the work of an impact is part of the published balance of heat alone.
 fn laws_of_every_impact(scenario: &Scenario) -> Vec<&'static str> {
-    let Some(impact) = scenario.impact.as_ref().filter(|_| scenario.engine.is_hard()) else {
-        return Vec::new();
-    };
+    let Some(impact) = scenario.impact() else { return Vec::new() };
     let mut laws = vec!["contact_area", "contact_time", "heat"];
     laws.extend((impact.heat.balance == Balance::Published).then_some("work"));
     laws

@@ -16,9 +16,9 @@ const MOST_NAMES: usize = 5;
 pub fn notes(folder: &Folder) -> Vec<String> {
     let mut notes = Vec::new();
     if let Some(scenario) = &folder.scenario {
-        let is_hard = scenario.engine.is_hard();
+        let is_hard = scenario.is_hard();
         for due in tables(is_hard) {
-            if due.file() != names::RAYS || scenario.acoustics.is_some() {
+            if due.file() != names::RAYS || scenario.acoustics().is_some() {
                 notes.extend(table(folder, *due));
             }
         }
@@ -104,8 +104,11 @@ fn frames(folder: &Folder) -> Vec<String> {
 fn is_due(folder: &Folder, kind: &str) -> bool {
     folder.scenario.as_ref().is_some_and(|scenario| match kind {
         // Of bonds that have no memory there is nothing to draw.
-        "bonds" => matches!(scenario.bonds, Some(Bonds::Beam(_))) && scenario.output.bonds,
-        "rays" => scenario.acoustics.is_some() && scenario.output.rays,
+        "bonds" => {
+            let bonds = scenario.soft().and_then(|soft| soft.bonds.as_ref());
+            matches!(bonds, Some(Bonds::Beam(_))) && scenario.output.bonds
+        }
+        "rays" => scenario.acoustics().is_some() && scenario.output.rays,
         _ => true,
     })
 }
@@ -186,7 +189,7 @@ mod tests {
         let with =
             |scenario: &Scenario| notes(&Folder { scenario: Some(scenario.clone()), ..Folder::default() });
         assert_any!(with(&scenario).iter(), |note| note.contains("series/rays.csv is missing"));
-        scenario.acoustics = None;
+        scenario.soft_mut().unwrap().acoustics = None;
         assert_no!(with(&scenario).iter(), |note| note.contains("rays"));
     }
 }

@@ -169,7 +169,7 @@ fn noting(folder: &Folder, notes: &mut Vec<String>) -> Option<Replay> {
 
 fn kind(folder: &Folder) -> &'static str {
     match &folder.scenario {
-        Some(scenario) if scenario.engine.is_hard() => "A run of hard spheres",
+        Some(scenario) if scenario.is_hard() => "A run of hard spheres",
         Some(_) => "A run of soft spheres",
         None => "A run",
     }

@@ -80,12 +80,12 @@ impl Follower {
         let text = door::read_text(&path, door::MOST_OF_A_TEXT).map_err(RecordError::file("read", &path))?;
         let scenario = Scenario::from_toml(&text)
             .map_err(|faults| WatchError::Scenario { path, reason: faults.to_string() })?;
-        let is_hard = scenario.engine.is_hard();
-        let counts_events = matches!(scenario.engine, agglo::engine::Engine::EventDriven(_));
+        let is_hard = scenario.is_hard();
+        let is_stepped = scenario.is_stepped();
         Ok(Self {
             title: scenario.title,
             end: scenario.time.end.si(),
-            steps_are: if counts_events { "events" } else { "steps" },
+            steps_are: if is_stepped { "steps" } else { "events" },
             tables: quantities::Tables::new(dir, is_hard),
             dir: dir.to_owned(),
         })

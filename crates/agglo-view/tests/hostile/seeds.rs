@@ -53,7 +53,7 @@ pub fn make(place: &Path) {
     for (name, scenario) in [("begun", &scenario), ("begun-hard", &hard)] {
         let mut next = scenario.clone();
         next.grains.clear();
-        next.start.from = Some("state.agglo".into());
+        next.from = Some("state.agglo".into());
         fs::create_dir_all(place.join(name)).expect("a folder");
         fs::write(place.join(name).join("scenario.toml"), next.to_toml().expect("a text")).expect("a file");
         fs::write(place.join(name).join("state.agglo"), "").expect("a file");

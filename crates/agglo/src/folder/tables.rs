@@ -33,7 +33,7 @@ impl<'a> Tables<'a> {
                 table.file = self.adopt(&base.join(&table.file))?;
             }
         }
-        if let Some(from) = &mut scenario.start.from {
+        if let Some(from) = &mut scenario.from {
             *from = self.adopt_state(&base.join(&*from))?;
         }
         Ok(scenario)

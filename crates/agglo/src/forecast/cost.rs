@@ -2,7 +2,7 @@
 
 use super::push::Push;
 use super::{Plan, counts};
-use crate::engine::Engine;
+use crate::engine::soft::Scheme;
 use crate::run::{Rehearsal, Stretches};
 use crate::scenario::{Output, Scenario};
 
@@ -17,7 +17,7 @@ const BYTES_PER_SHOWN_RAY: f64 = 14.0;
 
 /// Why the first steps are not tried, if they are not.
 pub(super) fn too_much_to_try(scenario: &Scenario, grains: usize) -> Option<String> {
-    let field = scenario.fields.near_field.as_ref()?;
+    let field = scenario.soft()?.fields.near_field.as_ref()?;
     let pairs = (grains as f64).powi(2);
     (field.cutoff.is_none() && pairs > MOST_PAIRS)
         .then(|| format!("fields.near_field has no cutoff, and {pairs:.1e} pairs act in every step"))
@@ -81,15 +81,15 @@ fn rates(scenario: &Scenario, tried: &Rehearsal, pushes: &[Push]) -> Option<[Rat
 
 /// Steps a second that the scheme takes where nothing happens, if it says.
 fn without_rays(scenario: &Scenario) -> Option<f64> {
-    match &scenario.engine {
-        Engine::Staggered(scheme) => Some(1.0 / scheme.largest_step.si()),
-        _ => None,
+    match &scenario.soft()?.scheme {
+        Scheme::Staggered(scheme) => Some(1.0 / scheme.largest_step.si()),
+        Scheme::Verlet(_) => None,
     }
 }
 
 /// Steps a second that the law of the rays' force asks for, if it does.
 fn with_rays(pushes: &[Push], scenario: &Scenario) -> Option<f64> {
-    let is_stepped = scenario.acoustics.as_ref().is_some_and(|acoustics| !acoustics.force.is_impulse());
+    let is_stepped = scenario.acoustics().is_some_and(|acoustics| !acoustics.force.is_impulse());
     pushes.first().filter(|_| is_stepped).map(|push| 1.0 / push.duration)
 }
 

@@ -42,7 +42,7 @@ pub(super) fn grains(plan: &mut Plan, scenario: &Scenario, base: &Path) -> Vec<u
                 plan.notes.push(format!("grains.{index}: cannot count the rows of {file}: {reason}"));
                 0
             }),
-            _ => count_of(group, scenario.volume.as_ref()),
+            _ => count_of(group, scenario.volume()),
         };
         counts.push(count);
     }
@@ -55,7 +55,7 @@ pub(super) fn memory(plan: &mut Plan, scenario: &Scenario, flights: f64) {
     let [shown_grains, shown_rays] = shown(plan, scenario, flights);
     let report = BYTES_OF_REPORT + shown_grains * BYTES_PER_SHOWN_GRAIN + shown_rays * BYTES_PER_SHOWN_RAY;
     let [grains, rays] = [plan.grains, plan.rays_per_pulse].map(|count| count as f64);
-    plan.memory = BYTES_OF_PROGRAM + of_state(grains, rays, scenario.engine.is_hard()) + report;
+    plan.memory = BYTES_OF_PROGRAM + of_state(grains, rays, scenario.is_hard()) + report;
 }
 
 /// Memory of grains, with the contacts of soft ones, and of rays [B].
@@ -91,7 +91,7 @@ fn frames(scenario: &Scenario, flights: f64) -> [f64; 2] {
 }
 
 pub(super) fn pulses(plan: &mut Plan, scenario: &Scenario) {
-    for beam in scenario.acoustics.iter().flat_map(|acoustics| &acoustics.beams) {
+    for beam in scenario.acoustics().into_iter().flat_map(|acoustics| &acoustics.beams) {
         plan.rays_per_pulse += u64::from(beam.rays);
         plan.pulses += u64::from(pulses_before(beam, scenario.time.end.si()));
     }
@@ -136,7 +136,7 @@ pub(super) fn expected(group: &GrainGroup, volume: Option<&Volume>, base: &Path)
 
 /// Grains that another run brings, by the size of its newest checkpoint; 0 where none is asked for, or found.
 pub(super) fn of_earlier_run(scenario: &Scenario, base: &Path) -> f64 {
-    let Some(from) = &scenario.start.from else { return 0.0 };
+    let Some(from) = &scenario.from else { return 0.0 };
     let state = RunFolder::newest_state(&base.join(from));
     let bytes = std::fs::metadata(state).map_or(0, |found| found.len());
     bytes as f64 / BYTES_PER_SAVED_GRAIN

@@ -52,7 +52,7 @@ impl Gas {
     /// The gas that a scenario of hard spheres starts from; `counts` are the grains of each group, and `placed` all of
     /// them, group after group, where they were placed.
     pub fn at_start(scenario: &Scenario, counts: &[u64], placed: Option<&Particles>) -> Option<Self> {
-        let volume = scenario.volume.as_ref()?.volume();
+        let volume = scenario.volume()?.volume();
         let mut first = 0_usize;
         let mut kinds = Vec::new();
         for (group, &count) in scenario.grains.iter().zip(counts) {

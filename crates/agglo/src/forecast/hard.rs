@@ -4,8 +4,7 @@ use super::gas::Gas;
 use super::mean_field::{Forecast, MeanField, Now};
 use super::{Plan, about};
 use crate::domain::Boundary;
-use crate::engine::Engine;
-use crate::engine::hard::{Distance, Pairs, TimeStepped};
+use crate::engine::hard::{Distance, Driver, Pairs, TimeStepped};
 use crate::impact::fragmentation::{BreakingEnergy, surface};
 use crate::impact::restitution::Hardness;
 use crate::impact::{Impact, Sticking, softening};
@@ -56,9 +55,9 @@ pub(super) fn estimate(plan: &mut Plan, scenario: &Scenario, gas: &Gas, tried: O
 
 /// What becomes of the means until `end` [s]; nothing where that is beyond numbers.
 pub(super) fn means(scenario: &Scenario, gas: &Gas, grains: f64, end: f64) -> Option<Forecast> {
-    let stepped = match &scenario.engine {
-        Engine::TimeStepped(law) => Some(law),
-        _ => None,
+    let stepped = match &scenario.hard()?.driver {
+        Driver::TimeStepped(law) => Some(law),
+        Driver::EventDriven(_) => None,
     };
     let length = |now: &Now| stepped.map_or(f64::INFINITY, |law| step(law, now).min(end));
     if let Some(field) = MeanField::new(scenario, gas, grains) {
@@ -128,7 +127,7 @@ fn describe(plan: &mut Plan, scenario: &Scenario, gas: &Gas, grains: f64) {
         let way = format!("{}, {}", readable(gas.free_path, "m"), readable(gas.free_time, "s"));
         plan.quantities.push(("from impact to impact".to_owned(), format!("{way} at the start")));
     }
-    let Some(laws) = &scenario.impact else { return };
+    let Some(laws) = scenario.impact() else { return };
     if let Some(law) = laws.restitution.hardness() {
         let unbreakable = is_unbreakable(scenario, laws, gas);
         for (index, group) in scenario.grains.iter().enumerate() {
@@ -198,11 +197,9 @@ impl Threshold {
 
 /// Laws that do not converge, and what has no effect.
 pub(super) fn notes(notes: &mut Vec<String>, scenario: &Scenario) {
-    if !scenario.engine.is_hard() {
-        return;
-    }
+    let Some(hard) = scenario.hard() else { return };
     let mut note = |words: &str| notes.push(words.to_owned());
-    if let Engine::TimeStepped(law) = &scenario.engine {
+    if let Driver::TimeStepped(law) = &hard.driver {
         if law.pairs == Pairs::Nearest {
             note(
                 "engine.time_stepped.pairs = nearest: grains that touch others than their nearest neighbor pass into them; all does not",
@@ -214,23 +211,21 @@ pub(super) fn notes(notes: &mut Vec<String>, scenario: &Scenario) {
             );
         }
     }
-    if let Engine::EventDriven(law) = &scenario.engine
+    if let Driver::EventDriven(law) = &hard.driver
         && law.contact_duration.is_some_and(|duration| duration.si() == 0.0)
     {
         note("engine.event_driven.contact_duration is 0: inelastic collapse may bring the clock to a halt");
     }
-    match scenario.volume.as_ref().map(|volume| volume.boundary) {
-        Some(Boundary::Antipodal) => note(
+    match hard.volume.boundary {
+        Boundary::Antipodal => note(
             "volume.boundary = antipodal: grains on two sides of a face do not see one another, and may enter into others; periodic is consistent",
         ),
-        Some(Boundary::Open) => {
+        Boundary::Open => {
             note("volume.boundary = open: grains that leave the volume do not come back");
         }
         _ => {}
     }
-    if let Some(laws) = &scenario.impact {
-        idle(&mut note, scenario, laws);
-    }
+    idle(&mut note, scenario, &hard.impact);
     without_effect(&mut note, scenario);
 }
 

@@ -86,9 +86,9 @@ impl<'a> MeanField<'a> {
             return None;
         }
         Some(Self {
-            laws: ImpactLaws::new(scenario.impact.as_ref()?, &scenario.materials, &scenario.mixtures),
+            laws: ImpactLaws::new(scenario.impact()?, &scenario.materials, &scenario.mixtures),
             gas,
-            volume: scenario.volume.as_ref()?.volume(),
+            volume: scenario.volume()?.volume(),
             start: grains,
             mass: gas.mass,
             heat_capacity: gas.mass * material.specific_heat(),

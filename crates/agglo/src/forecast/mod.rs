@@ -97,7 +97,7 @@ impl Plan {
         let counts = counts::grains(&mut plan, scenario, base);
         counts::pulses(&mut plan, scenario);
         let began = Instant::now();
-        let is_known = scenario.start.from.is_some() || plan.grains <= effort.most_grains;
+        let is_known = scenario.from.is_some() || plan.grains <= effort.most_grains;
         let origin =
             is_known.then(|| Origin::of(scenario, base, &mut || ControlFlow::Continue(()))).transpose()?;
         let placed_s = began.elapsed().as_secs_f64();
@@ -109,7 +109,7 @@ impl Plan {
             plan.starts_from(origin);
         }
         let gas = match &origin {
-            _ if !scenario.engine.is_hard() => None,
+            _ if !scenario.is_hard() => None,
             Some(origin) => Gas::at_start(scenario, &origin.counts, Some(&origin.by_groups())),
             None => Gas::at_start(scenario, &counts, None),
         };
@@ -181,7 +181,8 @@ impl Plan {
             self.notes.push(format!("steps and time are not known: {reason}"));
             return None;
         }
-        let may_try_again = scenario.start.relax.is_some() || scenario.acoustics.is_some();
+        let may_try_again =
+            scenario.soft().is_some_and(|soft| soft.relax.is_some() || soft.acoustics.is_some());
         let again = may_try_again.then(|| start.clone());
         let mut tried = rehearse(scenario, start, budget);
         if matches!(tried, Err(RunError::Start(SimError::StoppedAtRest)))
@@ -190,7 +191,9 @@ impl Plan {
             let what = "start.relax takes long: how long is not known; steps and time are without it";
             self.notes.push(what.to_owned());
             let mut hasty = scenario.clone();
-            hasty.start.relax = None;
+            if let Some(soft) = hasty.soft_mut() {
+                soft.relax = None;
+            }
             tried = rehearse(&hasty, again.clone(), budget);
         }
         let mut tried =
@@ -200,7 +203,9 @@ impl Plan {
             && let Some(again) = again
         {
             let mut calm = scenario.clone();
-            (calm.acoustics, calm.start.relax) = (None, None);
+            if let Some(soft) = calm.soft_mut() {
+                (soft.acoustics, soft.relax) = (None, None);
+            }
             tried.calm = rehearse(&calm, again, budget / 2).ok().map(|calm| calm.quiet);
         }
         Some(tried)

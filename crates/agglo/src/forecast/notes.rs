@@ -6,12 +6,8 @@ use super::counts::{SLOW_FRACTION, asked_fraction, pulses_before};
 use super::push::Push;
 use super::{Plan, hard};
 use crate::acoustics::Beam;
-use crate::catalog;
-use crate::law::Chosen;
 use crate::math::Vec3;
 use crate::packing::{GrainGroup, Placement};
-use crate::particles::Property;
-use crate::particles::property::PROPERTIES;
 use crate::scenario::Scenario;
 use crate::text::{digits, readable};
 use crate::units::vector;
@@ -33,7 +29,7 @@ pub(super) fn collect(plan: &mut Plan, scenario: &Scenario, pushes: &[Push], sma
 }
 
 fn wavelengths(notes: &mut Vec<String>, scenario: &Scenario, smallest: f64) {
-    let Some(acoustics) = &scenario.acoustics else { return };
+    let Some(acoustics) = scenario.acoustics() else { return };
     let sound = scenario.medium.sound_speed.si();
     let needed = readable(SMALLEST_KA * sound / (TAU * smallest), "Hz");
     for (index, beam) in acoustics.beams.iter().enumerate() {
@@ -66,14 +62,15 @@ fn of_laws(notes: &mut Vec<String>, scenario: &Scenario) {
     for law in scenario.laws() {
         notes.extend(law.notes(&context));
     }
-    if scenario.contact.is_none() && !scenario.engine.is_hard() {
+    if scenario.soft().is_some_and(|soft| soft.contact.is_none()) {
         notes.push("there is no [contact]: grains pass through one another".to_owned());
     }
 }
 
 fn motion(notes: &mut Vec<String>, scenario: &Scenario, pushes: &[Push]) {
-    let validity = scenario.fields.drag.as_ref().map(|drag| drag.law.validity());
-    let limit = scenario.limits.strain;
+    let Some(soft) = scenario.soft() else { return };
+    let validity = soft.fields.drag.as_ref().map(|drag| drag.law.validity());
+    let limit = soft.limits.strain;
     for push in pushes {
         let (beam, reynolds) = (push.beam, digits(push.reynolds));
         if let Some(validity) = validity.filter(|validity| push.reynolds > validity.reynolds) {
@@ -92,7 +89,7 @@ fn motion(notes: &mut Vec<String>, scenario: &Scenario, pushes: &[Push]) {
 
 fn without_effect(notes: &mut Vec<String>, scenario: &Scenario) {
     let end = scenario.time.end.si();
-    for (index, beam) in scenario.acoustics.iter().flat_map(|acoustics| &acoustics.beams).enumerate() {
+    for (index, beam) in scenario.acoustics().into_iter().flat_map(|acoustics| &acoustics.beams).enumerate() {
         let (fired, wanted) = (pulses_before(beam, end), beam.pulses.count);
         if fired < wanted {
             notes.push(format!("beam {index}: only {fired} of {wanted} pulses start before the end"));
@@ -100,10 +97,9 @@ fn without_effect(notes: &mut Vec<String>, scenario: &Scenario) {
     }
     aims(notes, scenario);
     trains(notes, scenario);
-    if !scenario.context().is_charged && scenario.fields.are_by_charge() {
+    if !scenario.context().is_charged && scenario.soft().is_some_and(|soft| soft.fields.are_by_charge()) {
         notes.push("no grain carries a charge: fields that act on charges do nothing".to_owned());
     }
-    unread(notes, scenario);
     for name in scenario.materials.keys() {
         if !scenario.grains.iter().any(|group| group.material == *name) {
             notes.push(format!("no grain is made of {name}"));
@@ -111,26 +107,10 @@ fn without_effect(notes: &mut Vec<String>, scenario: &Scenario) {
     }
 }
 
-/// Properties of materials that no chosen law reads, and the laws that would.
-fn unread(notes: &mut Vec<String>, scenario: &Scenario) {
-    let read: Vec<&Property> = scenario.laws().flat_map(Chosen::reads).collect();
-    for property in PROPERTIES.iter().filter(|property| !read.contains(property)) {
-        let has = |name: &&String| property.is_given(&scenario.materials[*name]);
-        let Some(name) = scenario.materials.keys().find(has) else { continue };
-        let readers: Vec<&str> =
-            catalog::all().filter(|law| law.reads.contains(property)).map(|law| law.key).collect();
-        notes.push(format!(
-            "materials.{name}.{}: no law of the scenario reads it; {} would",
-            property.key,
-            readers.join(", ")
-        ));
-    }
-}
-
 /// Beams that miss all grains, reach them too late, or start where grains may be.
 fn aims(notes: &mut Vec<String>, scenario: &Scenario) {
     let (sound, end) = (scenario.medium.sound_speed.si(), scenario.time.end.si());
-    for (index, beam) in scenario.acoustics.iter().flat_map(|acoustics| &acoustics.beams).enumerate() {
+    for (index, beam) in scenario.acoustics().into_iter().flat_map(|acoustics| &acoustics.beams).enumerate() {
         let ways: Vec<Option<f64>> = scenario.grains.iter().map(|group| way_to(beam, group)).collect();
         let Some(shortest) = ways.iter().copied().flatten().min_by(f64::total_cmp) else {
             notes.push(format!("beam {index} misses all grains: it passes by or flies away from them"));
@@ -177,7 +157,7 @@ fn way_to(beam: &Beam, group: &GrainGroup) -> Option<f64> {
 
 /// Pulses that overlap in time, or are too short to have a frequency.
 fn trains(notes: &mut Vec<String>, scenario: &Scenario) {
-    let Some(acoustics) = &scenario.acoustics else { return };
+    let Some(acoustics) = scenario.acoustics() else { return };
     if !acoustics.force.is_impulse() {
         return;
     }
@@ -203,7 +183,7 @@ fn trains(notes: &mut Vec<String>, scenario: &Scenario) {
 
 fn packing(notes: &mut Vec<String>, scenario: &Scenario) {
     for (index, group) in scenario.grains.iter().enumerate() {
-        if let Some(fraction) = asked_fraction(group, scenario.volume.as_ref())
+        if let Some(fraction) = asked_fraction(group, scenario.volume())
             && fraction > SLOW_FRACTION
         {
             let fraction = digits(fraction);

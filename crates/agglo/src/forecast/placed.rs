@@ -17,14 +17,15 @@ pub(super) fn notes(notes: &mut Vec<String>, scenario: &Scenario, start: &Start)
 
 /// Bonds that find no neighbors.
 fn bonds(scenario: &Scenario, start: &Start) -> Option<String> {
-    let Some(Bonds::Beam(law)) = &scenario.bonds else { return None };
+    let bonds = scenario.soft()?.bonds.as_ref();
+    let Some(Bonds::Beam(law)) = bonds else { return None };
     let network = Network::start(Some(law), start.bonds.clone(), &start.grains);
-    warning_of_bonds(scenario.bonds.as_ref(), &network).map(str::to_owned)
+    warning_of_bonds(bonds, &network).map(str::to_owned)
 }
 
 /// Grains that lie outside the region of rays.
 fn region(scenario: &Scenario, grains: &Particles) -> Option<String> {
-    let region = scenario.acoustics.as_ref()?.region.as_ref()?;
+    let region = scenario.acoustics()?.region.as_ref()?;
     let is_outside = |at: &usize| !region.contains(grains.position[*at], grains.radius[*at]);
     let (outside, all) = ((0..grains.len()).filter(is_outside).count(), grains.len());
     (outside > 0).then(|| {
@@ -37,7 +38,7 @@ fn region(scenario: &Scenario, grains: &Particles) -> Option<String> {
 
 /// What the cut-off of the near field leaves out.
 fn cutoff(scenario: &Scenario, grains: &Particles) -> Option<String> {
-    let law = scenario.fields.near_field.as_ref()?;
+    let law = scenario.soft()?.fields.near_field.as_ref()?;
     let found = truncation(law, grains)?;
     let part = digits(100.0 * found.forces);
     let verdict = if found.forces > law.truncation { "the run will refuse it" } else { "that is allowed" };

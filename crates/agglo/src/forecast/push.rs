@@ -52,7 +52,7 @@ pub(super) struct Push {
 
 /// One push for each beam.
 pub(super) fn all(scenario: &Scenario, grains: &Particles) -> Vec<Push> {
-    let Some(acoustics) = &scenario.acoustics else { return Vec::new() };
+    let Some(acoustics) = scenario.acoustics() else { return Vec::new() };
     let Ok(settings) = Settings::try_from(scenario) else { return Vec::new() };
     // Each beam meets the same grains, which no pulse moves.
     let mut still = grains.clone();
@@ -137,7 +137,7 @@ impl Push {
 
 /// Time [s] in which drag takes a grain's speed, in the mean over the grains: by Stokes' law, the weakest of all.
 fn stopping(scenario: &Scenario, grains: &Particles) -> f64 {
-    let Some(drag) = &scenario.fields.drag else { return f64::INFINITY };
+    let Some(drag) = scenario.soft().and_then(|soft| soft.fields.drag.as_ref()) else { return f64::INFINITY };
     let of = |(mass, radius): (&f64, &f64)| {
         let moved = mass + drag.added_mass(&scenario.medium, *radius);
         moved / drag.coefficient(&scenario.medium, *radius, Vec3::ZERO)
@@ -147,7 +147,7 @@ fn stopping(scenario: &Scenario, grains: &Particles) -> f64 {
 
 /// Largest overlap strain of all materials, for grains as they are in the mean.
 fn deepest(scenario: &Scenario, grains: &Particles, speed: f64) -> Option<f64> {
-    let laws = scenario.contact.as_ref()?;
+    let laws = scenario.soft()?.contact.as_ref()?;
     let pairs = PairTable::new(&scenario.materials, &scenario.mixtures, Some(laws));
     let of = |material: usize| {
         let all = || (0..grains.len()).filter(|&at| grains.material[at] as usize == material);

@@ -6,10 +6,11 @@
 use std::path::{Path, PathBuf};
 
 use super::counts;
-use crate::engine::Engine;
+use crate::engine::hard::Driver;
+use crate::engine::soft::Scheme;
 use crate::packing::StartError;
 use crate::record::door;
-use crate::scenario::Scenario;
+use crate::scenario::{Engine, Scenario};
 use crate::text::{digits, readable, two_digits};
 
 /// A pulse that is due, and its books once it has flown.
@@ -53,7 +54,7 @@ impl Demand {
     pub fn of(scenario: &Scenario, base: &Path) -> Self {
         let groups = scenario.grains.iter();
         let end = scenario.time.end.si();
-        let beams = || scenario.acoustics.iter().flat_map(|acoustics| &acoustics.beams);
+        let beams = || scenario.acoustics().into_iter().flat_map(|acoustics| &acoustics.beams);
         let output = scenario.resolved().output;
         let pulses = beams().map(|beam| f64::from(counts::pulses_before(beam, end))).sum();
         // What falls due within one step is written once; a launch may cut a step in two.
@@ -62,13 +63,13 @@ impl Demand {
             interval.map_or(0.0, |interval| (end / interval.si()).min(most))
         };
         Self {
-            grains: groups.map(|group| counts::expected(group, scenario.volume.as_ref(), base)).sum::<f64>()
+            grains: groups.map(|group| counts::expected(group, scenario.volume(), base)).sum::<f64>()
                 + counts::of_earlier_run(scenario, base),
             rays: beams().map(|beam| f64::from(beam.rays)).sum(),
             pulses,
             frames: due(output.frames),
             rows: due(output.series),
-            is_hard: scenario.engine.is_hard(),
+            is_hard: scenario.is_hard(),
         }
     }
 
@@ -112,9 +113,14 @@ impl Demand {
 /// The steps of a run where they are known to be no shorter than the scenario says; without end where they are not.
 fn most_steps(scenario: &Scenario) -> f64 {
     let shortest = match &scenario.engine {
-        Engine::Verlet(verlet) => verlet.step,
-        Engine::TimeStepped(stepped) => Some(stepped.shortest_step),
-        Engine::Staggered(_) | Engine::EventDriven(_) => None,
+        Engine::Soft(soft) => match &soft.scheme {
+            Scheme::Verlet(verlet) => verlet.step,
+            Scheme::Staggered(_) => None,
+        },
+        Engine::Hard(hard) => match &hard.driver {
+            Driver::TimeStepped(stepped) => Some(stepped.shortest_step),
+            Driver::EventDriven(_) => None,
+        },
     };
     shortest.map_or(f64::INFINITY, |step| scenario.time.end.si() / step.si())
 }

@@ -94,8 +94,9 @@ fn speeds_after_a_pulse_are_those_of_a_run() {
     let grains = crate::packing::place(&scenario, Path::new("")).unwrap();
     let push = &push::all(&scenario, &grains)[0];
     let mut free = scenario.clone();
-    (free.contact, free.bonds, free.fields) = (None, None, crate::fields::Fields::default());
-    free.limits.on_breach = crate::engine::soft::Breach::Warn;
+    let soft = free.soft_mut().unwrap();
+    (soft.contact, soft.bonds, soft.fields) = (None, None, crate::fields::Fields::default());
+    soft.limits.on_breach = crate::engine::soft::Breach::Warn;
     let mut run = crate::engine::soft::Simulation::start(&free, grains).unwrap();
     let mut turns = agglo_testing::Turns::at_most(10_000_000, "the end of the run");
     while !run.is_finished() {
@@ -347,7 +348,7 @@ fn beams_that_cannot_do_what_they_say_are_noted() {
 #[test]
 fn rest_that_takes_long_is_left_out() {
     let scenario = Scenario::from_toml(include_str!("../../tests/scenario/good/every_choice.toml")).unwrap();
-    assert_some!(scenario.start.relax);
+    assert_some!(scenario.soft().unwrap().relax);
     let no_patience = Effort { budget: Duration::ZERO, ..Effort::default() };
     let plan = Plan::with(&scenario, Path::new("tests/scenario/good"), no_patience).unwrap();
     assert!(plan.notes.iter().any(|note| note.contains("start.relax takes long")), "{plan}");

@@ -22,7 +22,7 @@ use crate::particles::Particles;
 ///     simulation.step()?;
 /// }
 /// let mut second = first.clone();
-/// second.fields.near_field = None;
+/// second.soft_mut().ok_or("of soft spheres")?.fields.near_field = None;
 /// let next = Simulation::start(&second, simulation.into_start())?;
 /// assert_eq!((next.clock().time, next.system.grains.len()), (0.0, 50));
 /// # Ok::<(), Box<dyn std::error::Error>>(())

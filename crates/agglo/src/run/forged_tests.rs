@@ -76,11 +76,8 @@ fn tampered(bytes: &[u8], from: usize, stream: &mut Stream) -> Vec<u8> {
 
 fn nothing_panics(name: &str, settings: &[&str], steps: usize, cases: u32) {
     let scenario = Scenario::with_overrides(template(name).unwrap().text, settings).unwrap().resolved();
-    let whole = if scenario.engine.is_hard() {
-        saved::<Hard>(&scenario, steps)
-    } else {
-        saved::<Soft>(&scenario, steps)
-    };
+    let whole =
+        if scenario.is_hard() { saved::<Hard>(&scenario, steps) } else { saved::<Soft>(&scenario, steps) };
     assert!(resumed(&scenario, &whole), "untouched");
     // The scenario's text comes first, and is read by what reads scenarios.
     let from = scenario.to_toml().unwrap().len();

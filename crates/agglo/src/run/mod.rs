@@ -115,12 +115,12 @@ pub fn run(
     let Origin { start, earlier, .. } = placed(&scenario, base, observer)?;
     if let Some(earlier) = earlier {
         // The very one that was taken: a run that goes on makes others.
-        scenario.start.from = Some(absolute(&earlier.checkpoint)?);
+        scenario.from = Some(absolute(&earlier.checkpoint)?);
     }
     let folder = RunFolder::create(dir)?;
     let scenario = folder.with_tables(&scenario, base).inspect_err(|_| folder.abandon())?;
     on_a_worker(|| {
-        let go = if scenario.engine.is_hard() { sit::<Hard> } else { sit::<Soft> };
+        let go = if scenario.is_hard() { sit::<Hard> } else { sit::<Soft> };
         go(&scenario, start, &folder, began, observer)
     })
 }

@@ -46,7 +46,7 @@ impl Origin {
     /// # Errors
     /// [`StartError`].
     pub fn of(scenario: &Scenario, base: &Path, watch: &mut PlaceWatch<'_>) -> Result<Self, StartError> {
-        if let Some(from) = &scenario.start.from {
+        if let Some(from) = &scenario.from {
             let path = base.join(from);
             return taken(scenario, &path).map_err(|error| match error {
                 Trouble::Reason(reason) => StartError::Earlier { path, reason },
@@ -86,9 +86,8 @@ impl From<String> for Trouble {
 fn taken(scenario: &Scenario, path: &Path) -> Result<Origin, Trouble> {
     let (saved, checkpoint) = read(path)?;
     let past = Scenario::from_toml(saved.parts().0).map_err(|faults| faults.to_string())?;
-    if past.engine.is_hard() != scenario.engine.is_hard() {
-        let kinds = [past.engine.is_hard(), scenario.engine.is_hard()]
-            .map(|is_hard| if is_hard { "hard" } else { "soft" });
+    if past.is_hard() != scenario.is_hard() {
+        let kinds = [past.is_hard(), scenario.is_hard()].map(|is_hard| if is_hard { "hard" } else { "soft" });
         let reason = format!(
             "it is a run of {} spheres, and the scenario has an engine of {} ones; take one of its kind",
             kinds[0], kinds[1]
@@ -149,7 +148,7 @@ fn hand_over_materials(grains: &mut Particles, past: &Scenario, scenario: &Scena
                 ));
             }
             Some((number, (_, now))) => {
-                same_substance(name, before, now, scenario.engine.is_hard())?;
+                same_substance(name, before, now, scenario.is_hard())?;
                 numbers.push(number as u32);
             }
         }
@@ -158,7 +157,7 @@ fn hand_over_materials(grains: &mut Particles, past: &Scenario, scenario: &Scena
     for at in 0..grains.len() {
         let number = numbers[grains.material[at] as usize];
         grains.material[at] = number;
-        if !scenario.engine.is_hard() {
+        if !scenario.is_hard() {
             grains.contact_stiffness[at] = materials[number as usize].stiffness_at(grains.temperature[at]);
         }
     }
@@ -185,8 +184,9 @@ fn same_substance(name: &str, before: &Material, now: &Material, is_hard: bool) 
 }
 
 fn hand_over_bonds(start: &Start, scenario: &Scenario) -> Result<(), String> {
+    let has_law = scenario.soft().is_some_and(|soft| matches!(soft.bonds, Some(Bonds::Beam(_))));
     match &start.bonds {
-        Some(bonds) if !bonds.is_empty() && !matches!(scenario.bonds, Some(Bonds::Beam(_))) => Err(format!(
+        Some(bonds) if !bonds.is_empty() && !has_law => Err(format!(
             "its grains are held by {} bonds, and the scenario has no law for them; add [bonds.beam]",
             bonds.len()
         )),
@@ -196,7 +196,8 @@ fn hand_over_bonds(start: &Start, scenario: &Scenario) -> Result<(), String> {
 
 /// That loaded springs find no law that has any.
 fn springs_dropped(start: &Start, scenario: &Scenario) -> Option<String> {
-    let friction = scenario.contact.as_ref().and_then(|laws| laws.friction.as_ref());
+    let contact = scenario.soft().and_then(|soft| soft.contact.as_ref());
+    let friction = contact.and_then(|laws| laws.friction.as_ref());
     let has_springs = matches!(friction, Some(Friction::Mindlin(_)));
     let loaded = start.contacts.iter().filter(|(.., spring)| spring.force.norm() > 0.0).count();
     (loaded > 0 && !has_springs).then(|| {
@@ -207,7 +208,8 @@ fn springs_dropped(start: &Start, scenario: &Scenario) -> Option<String> {
 /// As the check does for grains that the scenario places.
 fn refuse_short_cutoff(grains: &Particles, scenario: &Scenario) -> Result<(), String> {
     let largest = grains.radius.iter().copied().fold(0.0, f64::max);
-    let fault = scenario.fields.near_field.as_ref().and_then(|law| law.fault_of_cutoff(largest));
+    let near_field = scenario.soft().and_then(|soft| soft.fields.near_field.as_ref());
+    let fault = near_field.and_then(|law| law.fault_of_cutoff(largest));
     fault.map_or(Ok(()), |fault| Err(format!("fields.near_field.cutoff = {fault}")))
 }
 

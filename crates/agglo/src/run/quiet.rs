@@ -34,7 +34,7 @@ pub fn quiet(scenario: &Scenario, base: &Path, stop: &AtomicBool) -> Result<Endi
         Err(StartError::Placement(PackingError::Stopped)) => return Ok(Ending::Interrupted(0.0)),
         placed => placed?.start,
     };
-    let go = if scenario.engine.is_hard() { sit::<Hard> } else { sit::<Soft> };
+    let go = if scenario.is_hard() { sit::<Hard> } else { sit::<Soft> };
     go(&scenario, start, began, stop)
 }
 
@@ -116,7 +116,7 @@ mod tests {
             let dir = folder.path().join(name);
             run(&scenario, Path::new(""), &dir, &mut |_| ControlFlow::Continue(())).unwrap();
             scenario.grains.clear();
-            scenario.start.from = Some(dir);
+            scenario.from = Some(dir);
             assert_same_as_a_run(&scenario);
         }
     }

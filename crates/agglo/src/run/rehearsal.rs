@@ -118,7 +118,7 @@ pub struct Rehearsal {
 /// [`RunError::Start`] where the start fails, or where grains take longer than twice the budget to come to rest.
 pub fn rehearse(scenario: &Scenario, start: Start, budget: Duration) -> Result<Rehearsal, RunError> {
     let scenario = scenario.resolved();
-    let go = if scenario.engine.is_hard() { sit::<Hard> } else { sit::<Soft> };
+    let go = if scenario.is_hard() { sit::<Hard> } else { sit::<Soft> };
     on_a_worker(|| go(&scenario, start, budget)).map_err(RunError::Start)
 }
 

@@ -90,6 +90,7 @@ fn sample(material: &str, radius: f64) -> GrainGroup {
 mod tests {
     use super::*;
     use crate::engine::SimError;
+    use crate::scenario::template;
 
     /// All materials are held to what the laws need, used by a group or not.
     #[test]
@@ -112,12 +113,16 @@ mod tests {
             placement.fill.count = 1
         "#;
         let mut scenario = Scenario::from_toml(text).unwrap();
-        scenario.impact = None;
-        assert_matches!(Microscale::try_from(&scenario), Err(EmbeddedError::Run(SimError::OtherSpheres(_))));
         let law = r#"{"restitution": {"hardness": {}}}"#;
-        scenario.impact = serde_json::from_str(law).unwrap();
+        scenario.hard_mut().unwrap().impact = serde_json::from_str(law).unwrap();
         let message = Microscale::try_from(&scenario).unwrap_err().to_string();
         assert_contains!(message, "materials.lead");
         assert_contains!(message, "materials.clay");
+    }
+
+    #[test]
+    fn soft_spheres_are_refused() {
+        let scenario = Scenario::from_toml(template("acoustic").unwrap().text).unwrap();
+        assert_matches!(Microscale::try_from(&scenario), Err(EmbeddedError::Run(SimError::OtherSpheres(_))));
     }
 }

@@ -7,6 +7,7 @@ use serde_json::Value as Json;
 use toml::de::DeTable;
 
 use super::fault::{Fault, Faults, line_and_column};
+use super::file::ScenarioFile;
 use super::tree::{Node, Place};
 use super::types::Scenario;
 use super::walk::Walk;
@@ -15,23 +16,35 @@ use crate::record::door;
 use crate::units::Quantity;
 
 /// What a file is read as: a scenario, a search or a study.
-pub(crate) trait Document: DeserializeOwned {
+pub(crate) trait Document: Sized {
+    /// Its tables as the file has them.
+    type File: DeserializeOwned;
+
     /// The JSON schema that its form is held to.
     fn schema() -> Json;
 
-    /// Everything that is wrong with it though its form is right; the keys are paths in it.
+    /// Holds it to its rules.
     ///
     /// With `base`, the folder that other files are relative to, those must be there too.
-    fn faults(&self, base: Option<&Path>) -> Vec<Fault>;
+    ///
+    /// # Errors
+    /// Everything that is wrong with it though its form is right; the keys are paths in it.
+    fn checked(file: Self::File, base: Option<&Path>) -> Result<Self, Vec<Fault>>;
 }
 
 impl Document for Scenario {
+    type File = ScenarioFile;
+
     fn schema() -> Json {
         schema()
     }
 
-    fn faults(&self, base: Option<&Path>) -> Vec<Fault> {
-        check::faults(self, base)
+    fn checked(file: ScenarioFile, base: Option<&Path>) -> Result<Self, Vec<Fault>> {
+        let faults = check::faults(&file, base);
+        if !faults.is_empty() {
+            return Err(faults);
+        }
+        Self::try_from(file).map_err(|reason| vec![Fault::new("", reason.to_owned())])
     }
 }
 
@@ -60,7 +73,7 @@ pub enum LoadError {
 
 /// The JSON schema of a scenario.
 pub fn schema() -> Json {
-    schemars::schema_for!(Scenario).to_value()
+    schemars::schema_for!(ScenarioFile).to_value()
 }
 
 impl Scenario {
@@ -115,7 +128,7 @@ impl Scenario {
     /// # Errors
     /// All faults, without lines.
     pub fn check(&self) -> Result<(), Faults> {
-        let broken = check::faults(self, None);
+        let broken = check::faults(&self.clone().into(), None);
         if broken.is_empty() { Ok(()) } else { Err(Faults::new(broken)) }
     }
 
@@ -163,14 +176,10 @@ pub(crate) fn read<D: Document>(text: &str, overrides: &[&str], base: Option<&Pa
     if !faults.is_empty() {
         return Err(placed(faults));
     }
-    let document: D = root.to_value().try_into().map_err(|error: toml::de::Error| {
+    let file: D::File = root.to_value().try_into().map_err(|error: toml::de::Error| {
         Faults::new(vec![Fault::new("", error.message().trim().to_owned())])
     })?;
-    let broken = document.faults(base);
-    if broken.is_empty() {
-        return Ok(document);
-    }
-    Err(shortened(broken, |fault| locate(fault, &root, text, overrides)))
+    D::checked(file, base).map_err(|broken| shortened(broken, |fault| locate(fault, &root, text, overrides)))
 }
 
 /// More faults than this are counted and not shown: nobody reads them, and each takes time to place.

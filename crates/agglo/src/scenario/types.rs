@@ -1,4 +1,4 @@
-//! What a scenario file can say. Defaults, the JSON schema and the resolved scenario derive from these types.
+//! What a scenario says, each kind of spheres with its own settings.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -6,12 +6,13 @@ use std::path::PathBuf;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::file::ScenarioFile;
 use crate::acoustics::{Acoustics, Medium};
 use crate::contact::closeness::touching;
 use crate::contact::{Bonds, ContactLaws};
 use crate::domain::Volume;
-use crate::engine::Engine;
-use crate::engine::soft::{Limits, Relaxation};
+use crate::engine::hard::Driver;
+use crate::engine::soft::{Limits, Relaxation, Scheme};
 use crate::fields::Fields;
 use crate::impact::Impact;
 use crate::packing::GrainGroup;
@@ -19,66 +20,135 @@ use crate::particles::{Material, Mixture};
 use crate::units::Time;
 
 /// A whole scenario.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+///
+/// What only one kind of spheres knows is in [`Engine`]. A file says all tables side by side: what belongs to the other kind is a
+/// fault there.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "ScenarioFile", into = "ScenarioFile")]
 pub struct Scenario {
     /// Version of the file format: 1.
     pub version: u32,
     /// One line that says what it is.
-    #[serde(default)]
     pub title: String,
     /// Seed of all random numbers: places, sizes, rays.
-    #[serde(default = "one")]
     pub seed: u64,
     /// How long.
     pub time: TimeSpan,
-    /// How time is stepped, and with it whether grains are soft or hard spheres.
+    /// The kind of spheres, how time is stepped, and the laws.
     pub engine: Engine,
-    /// Bounds on motion and overlap; soft spheres only.
-    #[serde(default)]
-    pub limits: Limits,
-    /// The fluid around the grains; soft spheres only.
-    #[serde(default)]
+    /// The fluid around the grains; hard spheres do not feel it.
     pub medium: Medium,
     /// Materials by name.
     pub materials: BTreeMap<String, Material>,
     /// What pairs of materials have in common, where it differs from the laws.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub mixtures: Vec<Mixture>,
-    /// Groups of grains; none where `start.from` brings them.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    /// Groups of grains; none where they come out of an earlier run.
     pub grains: Vec<GrainGroup>,
-    /// What happens before the clock starts.
-    #[serde(default)]
-    pub start: Start,
-    /// The control volume; hard spheres only, which need it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub volume: Option<Volume>,
-    /// Laws of impact; hard spheres only, which need them.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub impact: Option<Impact>,
-    /// Laws of contact; soft spheres only. Grains pass through one another if left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub contact: Option<ContactLaws>,
-    /// What holds grains together; soft spheres only. Nothing if left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub bonds: Option<Bonds>,
-    /// Forces on single grains and at a distance; soft spheres only.
-    #[serde(default)]
-    pub fields: Fields,
-    /// Beams of sound; soft spheres only. None if left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub acoustics: Option<Acoustics>,
+    /// The folder of a run, or one of its checkpoints, relative to the scenario's folder: the state in it is the start, with
+    /// bonds and names. The clock starts at zero.
+    pub from: Option<PathBuf>,
     /// What is measured.
-    #[serde(default)]
     pub measures: Measures,
     /// What is written, and how often.
-    #[serde(default)]
     pub output: Output,
 }
 
-fn one() -> u64 {
-    1
+/// The kind of spheres, with what only this kind has.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Engine {
+    /// Grains that overlap where they touch, and push each other apart over the time of a contact.
+    Soft(Box<SoftSpheres>),
+    /// Grains that collide in no time.
+    Hard(Box<HardSpheres>),
+}
+
+/// What a scenario says of soft spheres alone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SoftSpheres {
+    /// How time is stepped.
+    pub scheme: Scheme,
+    /// Bounds on motion and overlap.
+    pub limits: Limits,
+    /// Lets the grains come to rest before the clock starts; not if left out.
+    pub relax: Option<Relaxation>,
+    /// Laws of contact; grains pass through one another without them.
+    pub contact: Option<ContactLaws>,
+    /// What holds grains together.
+    pub bonds: Option<Bonds>,
+    /// Forces on single grains and at a distance.
+    pub fields: Fields,
+    /// Beams of sound.
+    pub acoustics: Option<Acoustics>,
+}
+
+/// What a scenario says of hard spheres alone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HardSpheres {
+    /// What drives time.
+    pub driver: Driver,
+    /// The control volume.
+    pub volume: Volume,
+    /// Laws of impact.
+    pub impact: Impact,
+}
+
+impl Scenario {
+    /// Whether its spheres are hard.
+    pub fn is_hard(&self) -> bool {
+        self.hard().is_some()
+    }
+
+    /// What it says of soft spheres, if it is of such.
+    pub fn soft(&self) -> Option<&SoftSpheres> {
+        match &self.engine {
+            Engine::Soft(soft) => Some(soft),
+            Engine::Hard(_) => None,
+        }
+    }
+
+    /// As [`Scenario::soft`], to be changed.
+    pub fn soft_mut(&mut self) -> Option<&mut SoftSpheres> {
+        match &mut self.engine {
+            Engine::Soft(soft) => Some(soft),
+            Engine::Hard(_) => None,
+        }
+    }
+
+    /// What it says of hard spheres, if it is of such.
+    pub fn hard(&self) -> Option<&HardSpheres> {
+        match &self.engine {
+            Engine::Hard(hard) => Some(hard),
+            Engine::Soft(_) => None,
+        }
+    }
+
+    /// As [`Scenario::hard`], to be changed.
+    pub fn hard_mut(&mut self) -> Option<&mut HardSpheres> {
+        match &mut self.engine {
+            Engine::Hard(hard) => Some(hard),
+            Engine::Soft(_) => None,
+        }
+    }
+
+    /// Whether time goes in steps, and not from event to event.
+    pub fn is_stepped(&self) -> bool {
+        !self.hard().is_some_and(|hard| matches!(hard.driver, Driver::EventDriven(_)))
+    }
+
+    /// Its sound; hard spheres hear none.
+    pub fn acoustics(&self) -> Option<&Acoustics> {
+        self.soft()?.acoustics.as_ref()
+    }
+
+    /// The laws of impact of hard spheres.
+    pub fn impact(&self) -> Option<&Impact> {
+        self.hard().map(|hard| &hard.impact)
+    }
+
+    /// The control volume of hard spheres.
+    pub fn volume(&self) -> Option<&Volume> {
+        self.hard().map(|hard| &hard.volume)
+    }
 }
 
 /// How long a run lasts.
@@ -87,19 +157,6 @@ fn one() -> u64 {
 pub struct TimeSpan {
     /// Simulated time at the end, above 0.
     pub end: Time,
-}
-
-/// What happens before the clock starts.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Start {
-    /// The folder of a run, or one of its checkpoints, relative to the scenario's folder: the state in it is the start, with
-    /// bonds and names. The clock starts at zero.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub from: Option<PathBuf>,
-    /// Lets the grains come to rest first; not if left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub relax: Option<Relaxation>,
 }
 
 /// What is measured besides the state.

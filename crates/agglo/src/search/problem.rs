@@ -64,7 +64,7 @@ impl Problem {
         let mut reader = Reader {
             is_numeric: &is_numeric,
             names: &names,
-            known: columns::known(base.scenario.engine.is_hard()),
+            known: columns::known(base.scenario.is_hard()),
             columns: Vec::new(),
             faults,
         };
@@ -127,7 +127,7 @@ impl Problem {
     pub fn notes(&self) -> Vec<String> {
         let objectives = self.objectives.iter().map(|cost| &cost.formula);
         let formulas = objectives.chain(self.limits.iter().map(|limit| &limit.formula));
-        let with_pi = formulas.filter(|formula| formula.names_pi() && self.base.scenario.engine.is_hard());
+        let with_pi = formulas.filter(|formula| formula.names_pi() && self.base.scenario.is_hard());
         let note = |formula: &Formula| {
             format!(
                 "pi in \"{}\" is 3.14159...; the cost Π of growth is the column growth_deficit",

@@ -112,6 +112,19 @@ pub fn staggered(step: f64, tolerance: f64, implicitness: f64) -> String {
     )
 }
 
+/// The lines of a material that these laws read: what no law reads is refused.
+pub fn as_read(material: &str, laws: &str) -> String {
+    let is_read = |line: &&str| match line.split_once(" = ").map(|(key, _)| key) {
+        Some("youngs_modulus" | "poisson_ratio") => {
+            let springs = laws.contains("[contact.friction.mindlin]") && !laws.contains("stiffness_ratio");
+            springs || laws.contains("[contact.normal.hertz]")
+        }
+        Some("contact_stiffness" | "softening") => laws.contains("[contact.normal.strain_power]"),
+        _ => true,
+    };
+    material.lines().filter(is_read).flat_map(|line| [line, "\n"]).collect()
+}
+
 impl Listed {
     /// The scenario's text.
     pub fn text(&self) -> String {
@@ -122,7 +135,7 @@ impl Listed {
              [grains.size.constant]\nradius = \"{:e} m\"\n[grains.placement.list]\npositions = [{}]\n{}\n",
             self.end,
             self.engine,
-            self.material,
+            as_read(self.material, &self.more),
             self.radius,
             positions.join(", "),
             self.more

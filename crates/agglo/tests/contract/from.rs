@@ -23,7 +23,7 @@ fn scenario() -> Scenario {
         text = text.replace(damped, free);
     }
     let mut scenario = common::scenario(&text);
-    scenario.acoustics = None;
+    scenario.soft_mut().unwrap().acoustics = None;
     scenario
 }
 
@@ -106,16 +106,15 @@ fn grains_go_on_with_their_springs_and_bonds() {
 #[test]
 fn grains_that_come_to_rest_first_get_their_own_velocities_back() {
     let mut scenario = scenario();
-    scenario.bonds = None;
-    scenario.contact = None;
-    scenario.fields = agglo::fields::Fields::default();
+    let soft = scenario.soft_mut().unwrap();
+    (soft.contact, soft.bonds, soft.fields) = (None, None, agglo::fields::Fields::default());
     let grains = common::grains(&scenario, |grains| {
         crowd::falling_in(grains);
         let order: Vec<u32> = (0..grains.len() as u32).rev().collect();
         grains.reorder(&order);
     });
     let free = Simulation::start(&scenario, grains.clone()).unwrap();
-    scenario.start.relax =
+    scenario.soft_mut().unwrap().relax =
         Some(toml::from_str("speed = \"1 mm/s\"\nlongest = \"1 s\"\ndamping_time = \"1 ms\"\n").unwrap());
     let rested = Simulation::start(&scenario, grains).unwrap();
     assert_eq!(motion(&free), motion(&rested));

@@ -3,7 +3,7 @@
 use agglo::engine::soft::Simulation;
 use agglo::particles::Particles;
 
-use crate::common::start;
+use crate::common::{as_read, start};
 
 /// Two grains that differ in all that they can: grain 0 at the origin, grain 1 along x. Bounds on motion are wide.
 #[derive(Clone)]
@@ -33,7 +33,9 @@ impl Unlike {
             format!(
                 "[materials.m{k}]\n{}\n[[grains]]\nmaterial = \"m{k}\"\ntemperature = \"{} K\"\n\
                  size.constant.radius = \"{:e} m\"\nplacement.list.positions = [[\"{at:e} m\", \"0 m\", \"0 m\"]]\n",
-                self.materials[k], self.temperatures[k], self.radii[k]
+                as_read(self.materials[k], &self.more),
+                self.temperatures[k],
+                self.radii[k]
             )
         };
         let limits = if self.limits.is_empty() { "strain = 0.5" } else { &self.limits };

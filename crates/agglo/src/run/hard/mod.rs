@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::engine::hard::{Clock, Simulation, SimulationState};
 use crate::engine::soft::RestWatch;
-use crate::engine::{Engine, SimError, Start};
+use crate::engine::{SimError, Start};
 use crate::folder::RunFolder;
 use crate::record::columns::{Declared, Table};
 use crate::record::{RecordError, Series, columns};
@@ -60,7 +60,7 @@ pub struct Hard {
 
 impl Hard {
     fn with(scenario: &Scenario, simulation: Simulation, memory: Memory) -> Self {
-        let steps_are = if matches!(scenario.engine, Engine::EventDriven(_)) { "events" } else { "steps" };
+        let steps_are = if scenario.is_stepped() { "steps" } else { "events" };
         Self { simulation, memory, steps_are }
     }
 }

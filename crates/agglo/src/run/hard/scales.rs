@@ -44,7 +44,7 @@ fn self_gravity_radius(materials: &[&Material], now: &Snapshot, at: usize) -> Op
 }
 
 fn biot(scenario: &Scenario, materials: &[&Material], now: &Snapshot, at: usize) -> Option<f64> {
-    let cooling = scenario.impact.as_ref()?.cooling.as_ref()?;
+    let cooling = scenario.impact()?.cooling.as_ref()?;
     let material = materials.get(now.grains.material[at] as usize)?;
     let (radius, temperature) = (now.grains.radius[at], now.grains.temperature[at]);
     let conductivity = material.thermal_conductivity?.si();

@@ -134,7 +134,7 @@ fn the_biot_number_stands_under_its_name() {
     material.emissivity = Some(0.5);
     material.thermal_conductivity = Some(toml::from_str::<Conducting>("of = \"2 W/(m K)\"").unwrap().of);
     let cooling = toml::from_str("convection = \"20 W/(m2 K)\"").unwrap();
-    scenario.impact.as_mut().unwrap().cooling = Some(cooling);
+    scenario.hard_mut().unwrap().impact.cooling = Some(cooling);
     let Summary::Hard(summary) = distinct().summary(&scenario, 7.25) else { panic!("of hard spheres") };
     let biot = (20.0 + 4.0 * STEFAN_BOLTZMANN * 0.5 * 290_f64.powi(3)) * 4.5e-3 / (3.0 * 2.0);
     let tree = serde_json::to_value(&summary).unwrap();

@@ -6,11 +6,11 @@ use crate::acoustics::{Acoustics, Beam, Profile, Strength};
 use crate::math::Vec3;
 use crate::packing::{Placement, Size};
 use crate::particles::property::SOUND_SPEED;
-use crate::scenario::types::Scenario;
+use crate::scenario::file::ScenarioFile;
 use crate::text::told_apart;
 use crate::units::vector;
 
-pub(super) fn check(check: &mut Check, scenario: &Scenario) {
+pub(super) fn check(check: &mut Check, scenario: &ScenarioFile) {
     let Some(acoustics) = &scenario.acoustics else { return };
     needed(check, scenario, "acoustics", &SOUND_SPEED);
     if !(0.0..1.0).contains(&acoustics.truncation) {
@@ -34,7 +34,7 @@ pub(super) fn check(check: &mut Check, scenario: &Scenario) {
     }
 }
 
-fn one(check: &mut Check, key: &str, beam: &Beam, scenario: &Scenario) -> bool {
+fn one(check: &mut Check, key: &str, beam: &Beam, scenario: &ScenarioFile) -> bool {
     let before = check.found().len();
     check.at_least_one(&format!("{key}.rays"), beam.rays);
     check.positive(&format!("{key}.radius"), beam.radius);
@@ -57,7 +57,7 @@ fn one(check: &mut Check, key: &str, beam: &Beam, scenario: &Scenario) -> bool {
     geometry_holds
 }
 
-fn pulses(check: &mut Check, key: &str, beam: &Beam, scenario: &Scenario) {
+fn pulses(check: &mut Check, key: &str, beam: &Beam, scenario: &ScenarioFile) {
     let pulses = &beam.pulses;
     check.not_negative(&format!("{key}.first"), pulses.first);
     check.at_least_one(&format!("{key}.count"), pulses.count);
@@ -90,7 +90,7 @@ fn inside(check: &mut Check, key: &str, beam: &Beam, acoustics: &Acoustics) {
 }
 
 /// Rays that start inside a grain at time zero, where the scenario itself says where grains are.
-fn in_grains(check: &mut Check, key: &str, beam: &Beam, scenario: &Scenario) {
+fn in_grains(check: &mut Check, key: &str, beam: &Beam, scenario: &ScenarioFile) {
     if beam.pulses.first.si() > 0.0 || scenario.start.relax.is_some() {
         return;
     }

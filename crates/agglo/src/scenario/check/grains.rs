@@ -9,14 +9,14 @@ use crate::domain::Volume;
 use crate::folder::RunFolder;
 use crate::packing::{GrainGroup, GrainList, LengthRatio, Placement, Size, VelocitySpread};
 use crate::record::door;
-use crate::scenario::types::Scenario;
+use crate::scenario::file::ScenarioFile;
 use crate::text::{readable, told_apart};
 use crate::units::Length;
 
 /// Moments of a lognormal distribution go with the square of the logarithm of this.
 const WIDEST_DEVIATION: f64 = 100.0;
 
-pub(super) fn check(check: &mut Check, scenario: &Scenario) {
+pub(super) fn check(check: &mut Check, scenario: &ScenarioFile) {
     match (&scenario.start.from, scenario.grains.is_empty()) {
         (None, true) => check.fail_with(
             "grains",
@@ -54,7 +54,7 @@ pub(super) fn check(check: &mut Check, scenario: &Scenario) {
 }
 
 /// The run that grains come from must be there.
-pub(super) fn earlier_run(check: &mut Check, scenario: &Scenario, base: &Path) {
+pub(super) fn earlier_run(check: &mut Check, scenario: &ScenarioFile, base: &Path) {
     let Some(from) = &scenario.start.from else { return };
     let path = base.join(from);
     let shown = from.display();
@@ -70,7 +70,7 @@ pub(super) fn earlier_run(check: &mut Check, scenario: &Scenario, base: &Path) {
 }
 
 /// Tables of grains must be files that can be opened.
-pub(super) fn tables(check: &mut Check, scenario: &Scenario, base: &Path) {
+pub(super) fn tables(check: &mut Check, scenario: &ScenarioFile, base: &Path) {
     for (index, group) in scenario.grains.iter().enumerate() {
         let Placement::Table(table) = &group.placement else { continue };
         if let Err(error) = door::open(&base.join(&table.file)) {
@@ -128,7 +128,13 @@ fn size(check: &mut Check, key: &str, size: &Size) -> bool {
 }
 
 /// [B]'s ratio says a radius through the number of grains and half the edge of their box: they must be the true ones.
-fn length_ratio(check: &mut Check, key: &str, law: &LengthRatio, group: &GrainGroup, scenario: &Scenario) {
+fn length_ratio(
+    check: &mut Check,
+    key: &str,
+    law: &LengthRatio,
+    group: &GrainGroup,
+    scenario: &ScenarioFile,
+) {
     let (placed, by_fraction) = match &group.placement {
         Placement::Random(law) => (law.count, law.solid_fraction.is_some()),
         Placement::Fill(law) => (law.count, law.solid_fraction.is_some()),

@@ -1,13 +1,13 @@
 //! Rules of hard and soft spheres: which tables belong to which, laws of impact, and what they need of materials.
 
 use super::{Check, used_materials};
-use crate::engine::Engine;
 use crate::engine::soft::Limits;
+use crate::fields::Fields;
 use crate::impact::Impact;
 use crate::particles::Material;
-use crate::scenario::types::Scenario;
+use crate::scenario::file::{EngineTable, ScenarioFile};
 
-pub(super) fn check(check: &mut Check, scenario: &Scenario) {
+pub(super) fn check(check: &mut Check, scenario: &ScenarioFile) {
     if scenario.engine.is_hard() {
         of_hard_spheres(check, scenario);
     } else {
@@ -21,24 +21,32 @@ pub(super) fn check(check: &mut Check, scenario: &Scenario) {
     }
 }
 
-/// The word of an engine, as a scenario writes it.
-fn word(engine: &Engine) -> &'static str {
-    match engine {
-        Engine::Staggered(_) => "engine.staggered",
-        Engine::Verlet(_) => "engine.verlet",
-        Engine::EventDriven(_) => "engine.event_driven",
-        Engine::TimeStepped(_) => "engine.time_stepped",
+impl EngineTable {
+    /// Whether it moves hard spheres.
+    pub fn is_hard(&self) -> bool {
+        matches!(self, Self::EventDriven(_) | Self::TimeStepped(_))
+    }
+
+    /// Its key.
+    pub fn key(&self) -> &'static str {
+        match self {
+            Self::Staggered(_) => "engine.staggered",
+            Self::Verlet(_) => "engine.verlet",
+            Self::EventDriven(_) => "engine.event_driven",
+            Self::TimeStepped(_) => "engine.time_stepped",
+        }
     }
 }
 
-fn of_hard_spheres(check: &mut Check, scenario: &Scenario) {
-    let fields = &scenario.fields;
+fn of_hard_spheres(check: &mut Check, scenario: &ScenarioFile) {
+    let nothing = Fields::default();
+    let fields = scenario.fields.as_ref().unwrap_or(&nothing);
     let foreign = [
         ("contact", scenario.contact.is_some()),
         ("bonds", scenario.bonds.is_some()),
         ("acoustics", scenario.acoustics.is_some()),
         ("start.relax", scenario.start.relax.is_some()),
-        ("limits", scenario.limits != Limits::default()),
+        ("limits", scenario.limits.as_ref().is_some_and(|limits| *limits != Limits::default())),
         ("fields.gravity", fields.gravity.is_some()),
         ("fields.drag", fields.drag.is_some()),
         ("fields.lorentz", fields.lorentz.is_some()),
@@ -46,7 +54,7 @@ fn of_hard_spheres(check: &mut Check, scenario: &Scenario) {
         ("fields.near_field", fields.near_field.is_some()),
     ];
     for (key, _) in foreign.into_iter().filter(|(_, given)| *given) {
-        let message = format!("belongs to soft spheres; {} moves hard ones", word(&scenario.engine));
+        let message = format!("belongs to soft spheres; {} moves hard ones", scenario.engine.key());
         check.fail_with(key, message, "remove it, or choose [engine.staggered] or [engine.verlet]");
     }
     if scenario.volume.is_none() {
@@ -61,16 +69,16 @@ fn of_hard_spheres(check: &mut Check, scenario: &Scenario) {
     }
 }
 
-fn of_soft_spheres(check: &mut Check, scenario: &Scenario) {
+fn of_soft_spheres(check: &mut Check, scenario: &ScenarioFile) {
     let foreign = [("volume", scenario.volume.is_some()), ("impact", scenario.impact.is_some())];
     for (key, _) in foreign.into_iter().filter(|(_, given)| *given) {
-        let message = format!("belongs to hard spheres; {} moves soft ones", word(&scenario.engine));
+        let message = format!("belongs to hard spheres; {} moves soft ones", scenario.engine.key());
         check.fail_with(key, message, "remove it, or choose [engine.event_driven] or [engine.time_stepped]");
     }
 }
 
 /// Something must have a surface that costs energy, or nothing breaks.
-fn fragmentation(check: &mut Check, scenario: &Scenario) {
+fn fragmentation(check: &mut Check, scenario: &ScenarioFile) {
     let breaks = |name: &str| scenario.materials.get(name).is_some_and(|m| m.surface_energy.is_some());
     if !used_materials(scenario).into_iter().any(breaks) {
         let message = "no material in use has a surface_energy: nothing would break".to_owned();
@@ -81,7 +89,7 @@ fn fragmentation(check: &mut Check, scenario: &Scenario) {
 }
 
 /// Heat changes the temperature of what has a heat capacity. It is asked for where temperature matters.
-fn heat_capacities(check: &mut Check, scenario: &Scenario, law: &Impact) {
+fn heat_capacities(check: &mut Check, scenario: &ScenarioFile, law: &Impact) {
     let by_hardness = law.restitution.hardness().is_some();
     let who = |material: &Material| {
         if material.reaction_heat.is_some_and(|heat| heat.si() > 0.0) {

@@ -4,11 +4,11 @@ use super::Check;
 use crate::contact::{Damping, Friction};
 use crate::particles::{Material, Mixture};
 use crate::scenario::fault::nearest;
-use crate::scenario::types::Scenario;
+use crate::scenario::file::ScenarioFile;
 use crate::text::told_apart;
 use crate::units::{Kind, Stiffness, kind_of};
 
-pub(super) fn check(check: &mut Check, scenario: &Scenario) {
+pub(super) fn check(check: &mut Check, scenario: &ScenarioFile) {
     if scenario.materials.is_empty() {
         let message = "is empty; at least one material is wanted".to_owned();
         check.fail_with(
@@ -98,7 +98,7 @@ fn thermal(check: &mut Check, key: &str, material: &Material) {
     }
 }
 
-fn pair(check: &mut Check, scenario: &Scenario, index: usize, mixture: &Mixture) {
+fn pair(check: &mut Check, scenario: &ScenarioFile, index: usize, mixture: &Mixture) {
     let key = format!("mixtures.{index}");
     for (side, name) in mixture.between.iter().enumerate() {
         named(check, scenario, &format!("{key}.between.{side}"), name);
@@ -118,7 +118,7 @@ fn pair(check: &mut Check, scenario: &Scenario, index: usize, mixture: &Mixture)
     if let Some(restitution) = mixture.restitution {
         check.within(&format!("{key}.restitution"), restitution, 0.0, 1.0);
         if !uses_restitution(scenario) {
-            let message = "no law of the scenario uses it".to_owned();
+            let message = "no law of the scenario reads it".to_owned();
             let help = "use [contact.damping.restitution] or remove it";
             check.fail_with(&format!("{key}.restitution"), message, help);
         }
@@ -127,12 +127,12 @@ fn pair(check: &mut Check, scenario: &Scenario, index: usize, mixture: &Mixture)
 }
 
 /// Impacts of hard spheres have a restitution whatever their law; the mixture's takes its place.
-fn uses_restitution(scenario: &Scenario) -> bool {
+fn uses_restitution(scenario: &ScenarioFile) -> bool {
     let law = scenario.contact.as_ref().and_then(|laws| laws.damping.as_ref());
     scenario.engine.is_hard() || law.is_some_and(Damping::reads_restitution)
 }
 
-fn friction(check: &mut Check, scenario: &Scenario, key: &str, mixture: &Mixture) {
+fn friction(check: &mut Check, scenario: &ScenarioFile, key: &str, mixture: &Mixture) {
     let given =
         [("static_friction", mixture.static_friction), ("dynamic_friction", mixture.dynamic_friction)];
     let hard = scenario.engine.is_hard();
@@ -145,7 +145,7 @@ fn friction(check: &mut Check, scenario: &Scenario, key: &str, mixture: &Mixture
             _ if hard || law.is_some() => continue,
             _ => "give [contact.friction] a law or remove it",
         };
-        check.fail_with(&format!("{key}.{name}"), "no law of the scenario uses it".to_owned(), help);
+        check.fail_with(&format!("{key}.{name}"), "no law of the scenario reads it".to_owned(), help);
     }
     let Some(of_law) = law.map(Friction::coefficients) else { return };
     let at_rest = mixture.static_friction.unwrap_or(of_law.0);
@@ -161,7 +161,7 @@ fn friction(check: &mut Check, scenario: &Scenario, key: &str, mixture: &Mixture
 const MOST_NAMED: usize = 20;
 
 /// A name that a material must have.
-pub(super) fn named(check: &mut Check, scenario: &Scenario, key: &str, name: &str) {
+pub(super) fn named(check: &mut Check, scenario: &ScenarioFile, key: &str, name: &str) {
     if scenario.materials.contains_key(name) {
         return;
     }

@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::fault::Fault;
-use super::types::Scenario;
+use super::file::ScenarioFile;
 use crate::domain::Region;
 use crate::law::Faults as Check;
 use crate::math::Vec3;
@@ -23,7 +23,7 @@ use crate::units::{Dimension, Length, Triple};
 /// Everything that is wrong with a scenario whose form is right; the keys are paths in it.
 ///
 /// With `base`, the folder that tables are relative to, tables must be there too.
-pub(super) fn faults(scenario: &Scenario, base: Option<&Path>) -> Vec<Fault> {
+pub(super) fn faults(scenario: &ScenarioFile, base: Option<&Path>) -> Vec<Fault> {
     let mut check = Check::default();
     time::check(&mut check, scenario);
     materials::check(&mut check, scenario);
@@ -86,7 +86,7 @@ fn shown(value: f64, dimension: Dimension) -> String {
 }
 
 /// Names of the materials that grains are made of; of all where an earlier run brings the grains.
-fn used_materials(scenario: &Scenario) -> BTreeSet<&str> {
+fn used_materials(scenario: &ScenarioFile) -> BTreeSet<&str> {
     if scenario.start.from.is_some() {
         return scenario.materials.keys().map(String::as_str).collect();
     }

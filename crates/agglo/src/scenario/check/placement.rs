@@ -3,11 +3,11 @@
 use super::{Check, region, shown};
 use crate::domain::{Region, Volume};
 use crate::packing::{Fill, GrainGroup, Lattice, Placement, RandomAddition, SATURATION, Size};
-use crate::scenario::types::Scenario;
+use crate::scenario::file::ScenarioFile;
 use crate::text::{digits, told_apart};
 use crate::units::Length;
 
-pub(super) fn check(check: &mut Check, key: &str, group: &GrainGroup, scenario: &Scenario) {
+pub(super) fn check(check: &mut Check, key: &str, group: &GrainGroup, scenario: &ScenarioFile) {
     match &group.placement {
         Placement::Random(law) => random(check, &format!("{key}.random"), law, &group.size),
         Placement::Fill(law) => fill(check, &format!("{key}.fill"), law, &group.size, scenario),
@@ -34,7 +34,7 @@ fn random(check: &mut Check, key: &str, law: &RandomAddition, size: &Size) {
     }
 }
 
-fn fill(check: &mut Check, key: &str, law: &Fill, size: &Size, scenario: &Scenario) {
+fn fill(check: &mut Check, key: &str, law: &Fill, size: &Size, scenario: &ScenarioFile) {
     if !scenario.engine.is_hard() {
         let message = "fills [volume], which belongs to hard spheres".to_owned();
         check.fail_with(key, message, "take placement.random with a region");

@@ -1,12 +1,11 @@
 //! Rules of time, stepping, limits, start, medium and output.
 
 use super::Check;
-use crate::engine::Engine;
 use crate::engine::hard::TimeStepped;
-use crate::scenario::types::Scenario;
+use crate::scenario::file::{EngineTable, ScenarioFile};
 use crate::text::told_apart;
 
-pub(super) fn check(check: &mut Check, scenario: &Scenario) {
+pub(super) fn check(check: &mut Check, scenario: &ScenarioFile) {
     if scenario.version != 1 {
         let message = format!("found {}; this program reads version 1", scenario.version);
         check.fail_with("version", message, "write version = 1");
@@ -16,10 +15,12 @@ pub(super) fn check(check: &mut Check, scenario: &Scenario) {
     }
     check.positive("time.end", scenario.time.end);
     engine(check, &scenario.engine);
-    check.above_zero("limits.displacement", scenario.limits.displacement);
-    check.above_zero("limits.strain", scenario.limits.strain);
-    check.above_zero("limits.drift_warning", scenario.limits.drift_warning);
-    check.above_zero("limits.drift_error", scenario.limits.drift_error);
+    if let Some(limits) = &scenario.limits {
+        check.above_zero("limits.displacement", limits.displacement);
+        check.above_zero("limits.strain", limits.strain);
+        check.above_zero("limits.drift_warning", limits.drift_warning);
+        check.above_zero("limits.drift_error", limits.drift_error);
+    }
     check.zero_or_more("measures.cluster_gap", scenario.measures.cluster_gap);
     if let Some(relax) = &scenario.start.relax {
         check.positive("start.relax.speed", relax.speed);
@@ -33,7 +34,7 @@ pub(super) fn check(check: &mut Check, scenario: &Scenario) {
 /// Part of the run's length below which turns can neither be counted nor told apart.
 const SHORTEST_INTERVAL: f64 = 1e-12;
 
-fn output(check: &mut Check, scenario: &Scenario) {
+fn output(check: &mut Check, scenario: &ScenarioFile) {
     let output = &scenario.output;
     let pulses = output.pulses.clone().unwrap_or_default();
     let intervals = [
@@ -62,9 +63,9 @@ fn output(check: &mut Check, scenario: &Scenario) {
     }
 }
 
-fn engine(check: &mut Check, engine: &Engine) {
+fn engine(check: &mut Check, engine: &EngineTable) {
     match engine {
-        Engine::Staggered(law) => {
+        EngineTable::Staggered(law) => {
             let key = |name: &str| format!("engine.staggered.{name}");
             check.positive(&key("initial_step"), law.initial_step);
             check.positive(&key("largest_step"), law.largest_step);
@@ -79,13 +80,13 @@ fn engine(check: &mut Check, engine: &Engine) {
             check.at_least_one(&key("target_iterations"), law.target_iterations);
             check.within(&key("implicitness"), law.implicitness, 0.0, 1.0);
         }
-        Engine::EventDriven(law) => {
+        EngineTable::EventDriven(law) => {
             if let Some(duration) = law.contact_duration {
                 check.not_negative("engine.event_driven.contact_duration", duration);
             }
         }
-        Engine::TimeStepped(law) => time_stepped(check, law),
-        Engine::Verlet(law) => {
+        EngineTable::TimeStepped(law) => time_stepped(check, law),
+        EngineTable::Verlet(law) => {
             if let Some(step) = law.step {
                 check.positive("engine.verlet.step", step);
             }
@@ -112,7 +113,7 @@ fn time_stepped(check: &mut Check, law: &TimeStepped) {
     }
 }
 
-fn medium(check: &mut Check, scenario: &Scenario) {
+fn medium(check: &mut Check, scenario: &ScenarioFile) {
     let medium = &scenario.medium;
     check.positive("medium.sound_speed", medium.sound_speed);
     check.not_negative("medium.viscosity", medium.viscosity);

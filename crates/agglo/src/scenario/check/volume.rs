@@ -4,14 +4,14 @@ use super::{Check, corners, shown};
 use crate::domain::{Boundary, Region, Volume, resolution};
 use crate::math::Vec3;
 use crate::packing::{GrainGroup, GrainList, Placement};
-use crate::scenario::types::Scenario;
+use crate::scenario::file::ScenarioFile;
 use crate::text::readable;
 use crate::units::{Length, Triple, vector};
 
 /// Lists with more positions than this are held to overlaps when they are placed, where cells make that cheap.
 const MOST_PAIRED: usize = 4000;
 
-pub(super) fn check(check: &mut Check, scenario: &Scenario) {
+pub(super) fn check(check: &mut Check, scenario: &ScenarioFile) {
     let Some(volume) = &scenario.volume else { return };
     if !corners(check, "volume", volume.lower, volume.upper) || !scenario.engine.is_hard() {
         return;
@@ -129,7 +129,7 @@ struct Written {
 }
 
 /// Hard spheres must not overlap at the start, as far as positions and radii are written out.
-fn overlaps(check: &mut Check, scenario: &Scenario, volume: &Volume) {
+fn overlaps(check: &mut Check, scenario: &ScenarioFile, volume: &Volume) {
     let written: Vec<Written> = scenario.grains.iter().enumerate().flat_map(of_group).collect();
     if written.len() > MOST_PAIRED {
         return;

@@ -13,12 +13,15 @@ pub fn campaign_schema() -> Json {
 }
 
 impl Document for Campaign {
+    type File = Self;
+
     fn schema() -> Json {
         campaign_schema()
     }
 
-    fn faults(&self, base: Option<&Path>) -> Vec<Fault> {
-        check::faults(self, base.unwrap_or(Path::new("")))
+    fn checked(file: Self, base: Option<&Path>) -> Result<Self, Vec<Fault>> {
+        let faults = check::faults(&file, base.unwrap_or(Path::new("")));
+        if faults.is_empty() { Ok(file) } else { Err(faults) }
     }
 }
 

@@ -81,7 +81,7 @@ mod tests {
     #[test]
     fn rays_warn_below_their_frequency() {
         let text = include_str!("../../../../../../scenarios/acoustic-dispersal-published.toml");
-        let beam = Scenario::from_toml(text).unwrap().acoustics.unwrap().beams.remove(0);
+        let beam = Scenario::from_toml(text).unwrap().acoustics().unwrap().beams[0].clone();
         let bound = 10.0 * 1500.0 / (std::f64::consts::TAU * 1e-3);
         let hertz = |number: f64| serde_json::from_str::<Frequency>(&format!("\"{number} Hz\"")).unwrap();
         let with = |frequency: Option<f64>| Beam { frequency: frequency.map(hertz), ..beam.clone() };
