@@ -23,6 +23,12 @@ pub struct Start {
     pub warnings: Vec<String>,
 }
 
+impl From<&Particles> for Start {
+    fn from(grains: &Particles) -> Self {
+        Self::from(grains.clone())
+    }
+}
+
 impl From<Particles> for Start {
     fn from(grains: Particles) -> Self {
         Self { grains, ..Self::default() }

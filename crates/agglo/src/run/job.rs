@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::engine::soft::RestWatch;
-use crate::engine::{SimError, Start};
+use crate::engine::{SimError, Simulation, Start};
 use crate::folder::RunFolder;
 use crate::record::{RecordError, columns};
 use crate::scenario::Scenario;
@@ -89,6 +89,9 @@ pub trait Job: Sized {
     where
         Self: 'a;
 
+    /// What it drives.
+    type Simulation: Simulation;
+
     /// Its tables.
     const TABLES: columns::Tables;
 
@@ -101,20 +104,31 @@ pub trait Job: Sized {
     /// Adds its state to the rest of a checkpoint.
     fn save(&self, rest: Saved<()>) -> AnySaved<'_>;
 
+    /// What it drives.
+    fn simulation(&self) -> &Self::Simulation;
+    /// The same, to go on.
+    fn simulation_mut(&mut self) -> &mut Self::Simulation;
+
     /// Where it stands in time, for those who ask what is due.
     fn moment(&self) -> Moment;
     /// Simulated time [s].
     fn time(&self) -> f64 {
-        self.moment().time
+        self.simulation().time()
     }
     /// Steps, or events, so far.
-    fn step(&self) -> u64;
+    fn step(&self) -> u64 {
+        self.simulation().steps()
+    }
     /// What those are called.
     fn steps_are(&self) -> &'static str;
     /// Whether the end is reached.
-    fn is_finished(&self) -> bool;
+    fn is_finished(&self) -> bool {
+        self.simulation().is_finished()
+    }
     /// Goes on for a little while, not past `due` [s] if it can stop there without a trace.
-    fn advance(&mut self, due: f64) -> Result<(), SimError>;
+    fn advance(&mut self, due: f64) -> Result<(), SimError> {
+        self.simulation_mut().advance(due)
+    }
     /// Whether rays fly, so that steps are of another kind than without.
     fn is_ray_flight(&self) -> bool {
         false

@@ -266,7 +266,7 @@ fn grown_grains_start_another_run() {
         let before = first.snapshot();
         let start = first.clone().into_start();
         scenario.time.end = agglo::units::Quantity(half);
-        let mut next = Simulation::start_grown(&scenario, &start.grains, &start.grown).unwrap();
+        let mut next = Simulation::start(&scenario, start.clone()).unwrap();
         assert_eq!(next.snapshot(), before, "{what}");
         let energies = [&first, &next].map(|simulation| simulation.balance().stored.kinetic);
         assert!((energies[1] / energies[0] - 1.0).abs() < 1e-12, "{what}: {energies:?} J");
@@ -304,7 +304,7 @@ fn from_event_to_event_the_course_is_the_same() {
     let before = whole.system().state.counts.collisions;
     finish(&mut whole);
     scenario.time.end = agglo::units::Quantity(half);
-    let mut next = Simulation::start_grown(&scenario, &start.grains, &start.grown).unwrap();
+    let mut next = Simulation::start(&scenario, start.clone()).unwrap();
     finish(&mut next);
     let impacts = [whole.system().state.counts.collisions - before, next.system().state.counts.collisions];
     assert!(impacts[0] > 100 && impacts[0] == impacts[1], "impacts {impacts:?}");

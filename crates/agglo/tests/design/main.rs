@@ -1,6 +1,7 @@
 //! The design's folder table and the tree say the same; crates, and files of the core, depend on each other in one direction.
 
 mod circles;
+mod errors;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};

@@ -7,6 +7,7 @@
 use std::f64::consts::PI;
 
 use agglo::constants::STEFAN_BOLTZMANN;
+use agglo::engine::Start;
 use agglo::engine::hard::{EventKind, Grown, Simulation};
 use agglo::math::Vec3;
 use agglo::particles::{Particles, Row};
@@ -144,7 +145,7 @@ fn start_at(
         });
         grown.push(Grown { primaries: PRIMARIES[k], heat_capacity: capacity(k) });
     }
-    let mut simulation = Simulation::start_grown(&scenario, &grains, &grown).unwrap();
+    let mut simulation = Simulation::start(&scenario, Start { grown, ..Start::from(grains) }).unwrap();
     simulation.system_mut().keeps_events = true;
     simulation
 }

@@ -101,33 +101,21 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// Starts with grains as placed.
+    /// Starts with grains as placed, or with what came out of another simulation.
     ///
     /// # Errors
     /// [`SimError::OtherSpheres`] where the settings come from a scenario of soft spheres; [`SimError::OutOfDigits`] where a
     /// grain is too far out for its size.
-    pub fn start<S>(settings: S, grains: &Particles) -> Result<Self, SimError>
+    pub fn start<S>(settings: S, start: impl Into<Start>) -> Result<Self, SimError>
     where
         S: TryInto<Settings>,
         SimError: From<S::Error>,
     {
-        Self::begin(settings.try_into()?, grains, &[])
+        Self::begin(settings.try_into()?, &start.into())
     }
 
-    /// The same with grains that have grown already: `grown` [n] belongs to the grains; those that it leaves out are
-    /// primary grains of one material.
-    ///
-    /// # Errors
-    /// As [`Simulation::start`].
-    pub fn start_grown<S>(settings: S, grains: &Particles, grown: &[Grown]) -> Result<Self, SimError>
-    where
-        S: TryInto<Settings>,
-        SimError: From<S::Error>,
-    {
-        Self::begin(settings.try_into()?, grains, grown)
-    }
-
-    fn begin(settings: Settings, grains: &Particles, grown: &[Grown]) -> Result<Self, SimError> {
+    fn begin(settings: Settings, start: &Start) -> Result<Self, SimError> {
+        let Start { grains, grown, .. } = start;
         let heat_capacities: Vec<f64> = settings.materials.values().map(Material::specific_heat).collect();
         let mut spheres = Spheres::new(grains, |material| heat_capacities[material as usize]);
         for (bulk, grown) in spheres.bulk.iter_mut().zip(grown) {
@@ -149,6 +137,9 @@ impl Simulation {
         let options = settings.driver.clone();
         let mut system = Self::system_of(settings, state);
         for warning in system.laws.standing_warnings() {
+            system.state.warnings.add(warning);
+        }
+        for warning in &start.warnings {
             system.state.warnings.add(warning);
         }
         let driver = match &options {

@@ -235,6 +235,11 @@ impl Simulation {
         self.clock.time >= self.end
     }
 
+    /// Simulated time at the end [s].
+    pub fn end(&self) -> f64 {
+        self.end
+    }
+
     /// Makes one step: rays fly, grains move, bonds break, the ledger is kept.
     ///
     /// # Errors

@@ -67,14 +67,12 @@ impl Hard {
 
 impl Job for Hard {
     type State<'a> = HardState<'a>;
+    type Simulation = Simulation;
 
     const TABLES: columns::Tables = tables::TABLES;
 
     fn start(scenario: &Scenario, start: Start, _: &mut RestWatch<'_>) -> Result<Self, SimError> {
-        let mut simulation = Simulation::start_grown(scenario, &start.grains, &start.grown)?;
-        for warning in &start.warnings {
-            simulation.system_mut().state.warnings.add(warning);
-        }
+        let simulation = Simulation::start(scenario, start)?;
         let mean_radius_at_start = Growth::of(&simulation.snapshot()).mean_radius;
         let memory = Memory { mean_radius_at_start, last_row: LastRow::of(&simulation) };
         Ok(Self::with(scenario, simulation, memory))
@@ -93,25 +91,21 @@ impl Job for Hard {
         AnySaved::Hard(rest.with(HardState { simulation: self.simulation.state(), memory: self.memory }))
     }
 
+    fn simulation(&self) -> &Simulation {
+        &self.simulation
+    }
+
+    fn simulation_mut(&mut self) -> &mut Simulation {
+        &mut self.simulation
+    }
+
     fn moment(&self) -> Moment {
         let Clock { time, lag, .. } = *self.simulation.clock();
         Moment { time, lag, pulse: None }
     }
 
-    fn step(&self) -> u64 {
-        self.simulation.clock().step
-    }
-
     fn steps_are(&self) -> &'static str {
         self.steps_are
-    }
-
-    fn is_finished(&self) -> bool {
-        self.simulation.is_finished()
-    }
-
-    fn advance(&mut self, due: f64) -> Result<(), SimError> {
-        self.simulation.advance(due)
     }
 
     fn fresh_warnings(&mut self) -> Vec<String> {

@@ -71,6 +71,7 @@ impl Soft {
 
 impl Job for Soft {
     type State<'a> = SoftState<'a>;
+    type Simulation = Simulation;
 
     const TABLES: columns::Tables = tables::TABLES;
 
@@ -92,26 +93,21 @@ impl Job for Soft {
         AnySaved::Soft(rest.with(SoftState { simulation: self.simulation.state(), start: self.start }))
     }
 
+    fn simulation(&self) -> &Simulation {
+        &self.simulation
+    }
+
+    fn simulation_mut(&mut self) -> &mut Simulation {
+        &mut self.simulation
+    }
+
     fn moment(&self) -> Moment {
         let Clock { time, lag, .. } = *self.simulation.clock();
         Moment { time, lag, pulse: self.simulation.pulses.since(time) }
     }
 
-    fn step(&self) -> u64 {
-        self.simulation.clock().step
-    }
-
     fn steps_are(&self) -> &'static str {
         "steps"
-    }
-
-    fn is_finished(&self) -> bool {
-        self.simulation.is_finished()
-    }
-
-    /// One step: output never bounds it.
-    fn advance(&mut self, _due: f64) -> Result<(), SimError> {
-        self.simulation.step()
     }
 
     fn is_ray_flight(&self) -> bool {
