@@ -1,74 +1,29 @@
 //! Grains whose surfaces are close to one another.
 
-use crate::contact::closeness::{are_close, reach};
+use crate::contact::closeness::are_close;
 use crate::math::Vec3;
-
-/// Bits of a cell's number along one axis.
-const BITS: u32 = 20;
-/// Most cells along one axis: room is left for neighbors on both sides.
-const MOST: f64 = ((1_u32 << BITS) - 3) as f64;
+use crate::neighbors::{CellIndex, Sorted, Span};
 
 /// Calls `found(i, j)`, i < j, once for every pair of grains whose surfaces are no farther apart than `gap` times the
 /// smaller radius: |r_i - r_j| <= R_i + R_j + gap min(R_i, R_j). With `gap` 0 grains that are placed as touching are
 /// found or not by round-off; see [`crate::contact::closeness::TOUCHING`].
 ///
-/// `positions` [n] and `radii` [n] in m. The order of the calls depends on the positions alone. Grains are sorted by
-/// the cell they are in, so that memory is in proportion to n however far the grains have spread; a cell is as wide as
-/// the largest grain's reach, so that very different sizes make this slow.
+/// `positions` [n] and `radii` [n] in m. The order of the calls says nothing. Memory is in proportion to n however far the grains
+/// have spread.
 pub fn close_pairs(positions: &[Vec3], radii: &[f64], gap: f64, found: &mut impl FnMut(u32, u32)) {
-    let largest = radii.iter().copied().fold(0.0, f64::max);
-    let Some(grid) = Grid::over(positions, reach(largest, largest, gap)) else { return };
-    let mut cells: Vec<(u64, u32)> =
-        positions.iter().zip(0..).map(|(&position, k)| (grid.cell(position), k)).collect();
-    cells.sort_unstable();
-    let mut check = |a: u32, b: u32| {
-        let (i, j) = (a.min(b), a.max(b));
-        let (i_at, j_at) = (i as usize, j as usize);
-        let distance_squared = (positions[i_at] - positions[j_at]).norm_squared();
-        if are_close(distance_squared, radii[i_at], radii[j_at], gap) {
-            found(i, j);
-        }
-    };
-    // Rows of cells that follow in the order: each pair of cells comes once. The starts move on with the cell.
-    let rows = [(1, 0), (-1, 1), (0, 1), (1, 1)].map(|(y, z): (i64, i64)| (z << (2 * BITS)) + (y << BITS));
-    let mut starts = [0; 4];
-    for (at, &(cell, a)) in cells.iter().enumerate() {
-        let ahead = &cells[at + 1..];
-        ahead.iter().take_while(|&&(other, _)| other <= cell + 1).for_each(|&(_, b)| check(a, b));
-        for (start, row) in starts.iter_mut().zip(rows) {
-            // Numbers along an axis begin at 1, so that no neighbor's is below zero.
-            let middle = cell.wrapping_add_signed(row);
-            while *start < cells.len() && cells[*start].0 + 1 < middle {
-                *start += 1;
+    let smallest = radii.iter().copied().fold(f64::INFINITY, f64::min);
+    let mut cells = CellIndex::<Sorted>::default();
+    cells.fill(&(positions, radii), &Span::Free, gap * smallest);
+    for of in 0..positions.len() as u32 {
+        let (center, radius) = (positions[of as usize], radii[of as usize]);
+        cells.visit_partners(of, center, radius + gap * radius, &mut |other, _| {
+            let (i, j) = (of.min(other), of.max(other));
+            let (i_at, j_at) = (i as usize, j as usize);
+            let distance_squared = (positions[i_at] - positions[j_at]).norm_squared();
+            if are_close(distance_squared, radii[i_at], radii[j_at], gap) {
+                found(i, j);
             }
-            let row = cells[*start..].iter().take_while(|&&(other, _)| other <= middle + 1);
-            row.for_each(|&(_, b)| check(a, b));
-        }
-    }
-}
-
-/// Cells numbered along x, then y, then z.
-struct Grid {
-    lower: Vec3,
-    per_length: f64,
-}
-
-impl Grid {
-    /// Cells at least `edge` wide over the points; nothing where there is no point or no edge.
-    fn over(positions: &[Vec3], edge: f64) -> Option<Self> {
-        let first = *positions.first()?;
-        let (lower, upper) = positions
-            .iter()
-            .fold((first, first), |(lower, upper), &position| (lower.min(position), upper.max(position)));
-        let extent = upper - lower;
-        let edge = edge.max(extent.x.max(extent.y).max(extent.z) / MOST);
-        (edge > 0.0).then(|| Self { lower, per_length: 1.0 / edge })
-    }
-
-    fn cell(&self, position: Vec3) -> u64 {
-        let from = (position - self.lower) * self.per_length;
-        let [x, y, z] = from.to_array().map(|along| (along as u64).min(MOST as u64) + 1);
-        x | y << BITS | z << (2 * BITS)
+        });
     }
 }
 
@@ -196,6 +151,6 @@ mod tests {
     fn no_grains_and_grains_at_one_place() {
         assert_eq!(close(&[], &[], 0.1), []);
         assert_eq!(close(&[Vec3::ZERO; 3], &[1.0; 3], 0.0), [(0, 1), (0, 2), (1, 2)]);
-        assert_eq!(close(&[Vec3::ZERO; 2], &[0.0; 2], 0.0), []);
+        assert_eq!(close(&[Vec3::ZERO; 2], &[0.0; 2], 0.0), [(0, 1)]);
     }
 }

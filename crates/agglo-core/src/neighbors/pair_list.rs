@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::cell_grid::CellGrid;
+use super::cells::{CellIndex, Sorted, Span};
 use crate::math::{Vec3, parallel};
 
 /// Grains per task of the search.
@@ -17,7 +17,7 @@ const CHUNK: usize = 1024;
 /// Candidate pairs with a skin.
 #[derive(Debug, Default)]
 pub struct PairList {
-    grid: CellGrid,
+    cells: CellIndex<Sorted>,
     found: Vec<(Vec<u32>, Vec<u32>)>,
     /// Pairs of owner k: `starts[k]..starts[k + 1]`.
     starts: Vec<u32>,
@@ -37,15 +37,16 @@ impl PairList {
         let n = positions.len();
         let margin = reach + skin;
         self.skin = skin;
-        self.grid.build(positions, radii, margin);
+        self.cells.fill(&(positions, radii), &Span::Free, margin);
         self.found.resize_with(n.div_ceil(CHUNK), Default::default);
-        let grid = &self.grid;
+        let cells = &self.cells;
         self.found.par_iter_mut().enumerate().for_each(|(chunk, (counts, partners))| {
             counts.clear();
             partners.clear();
             for owner in chunk * CHUNK..((chunk + 1) * CHUNK).min(n) {
                 let first = partners.len();
-                grid.visit_partners(positions, radii, owner as u32, margin, |other| {
+                let near = radii[owner] + margin;
+                cells.visit_partners(owner as u32, positions[owner], near, &mut |other, _| {
                     let reach = radii[owner] + radii[other as usize] + margin;
                     if (positions[other as usize] - positions[owner]).norm_squared() < reach * reach {
                         partners.push(other);

@@ -1,39 +1,13 @@
-//! Which space is taken: spheres in cell grids, one grid per size class.
-//!
-//! Size classes differ by a factor of two, so that a search costs about the same for any spread of sizes. Where space
-//! repeats itself, a place near a face is looked up once more on the opposite side.
+//! Which space is taken: spheres by cell.
 
 use crate::math::Vec3;
-
-/// End of a chain of spheres in a cell.
-const NONE: u32 = u32::MAX;
-/// Sizes below 2^-15 of the largest share the last class.
-const CLASSES: usize = 16;
+use crate::neighbors::{CellIndex, Chained};
 
 /// Spheres that must not be overlapped, with a least distance `gap` [m] between surfaces.
 pub(super) struct Occupied {
-    bounds: (Vec3, Vec3),
-    /// Whether space repeats itself beyond the bounds.
-    repeats: bool,
+    cells: CellIndex<Chained>,
+    edges: Vec3,
     gap: f64,
-    largest: f64,
-    classes: Vec<Class>,
-}
-
-/// Spheres of nearly one size in a grid of cells.
-struct Class {
-    lower: Vec3,
-    per_length: f64,
-    cells: [usize; 3],
-    largest: f64,
-    first: Vec<u32>,
-    spheres: Vec<Sphere>,
-}
-
-struct Sphere {
-    center: Vec3,
-    radius: f64,
-    next: u32,
 }
 
 impl Occupied {
@@ -42,148 +16,50 @@ impl Occupied {
     /// If it `repeats` itself, the images of all spheres are kept clear of too; centers must then lie in the box, and
     /// no diameter may be above an edge.
     pub fn new(
-        bounds: (Vec3, Vec3),
+        (lower, upper): (Vec3, Vec3),
         repeats: bool,
         gap: f64,
         radii: impl Iterator<Item = f64> + Clone,
     ) -> Self {
-        let largest = radii.clone().fold(0.0, f64::max);
-        let mut found = Self { bounds, repeats, gap, largest, classes: Vec::new() };
-        let mut counts = [0_usize; CLASSES];
-        for radius in radii {
-            counts[found.class_of(radius)] += 1;
-        }
-        let mut bound = largest;
-        for count in counts {
-            found.classes.push(Class::new(bounds, gap, bound, count));
-            bound *= 0.5;
-        }
-        found
-    }
-
-    fn class_of(&self, radius: f64) -> usize {
-        let (mut class, mut bound) = (0, 0.5 * self.largest);
-        while class + 1 < CLASSES && radius < bound {
-            class += 1;
-            bound *= 0.5;
-        }
-        class
+        let cells = CellIndex::empty([lower, upper], repeats, gap, radii);
+        Self { cells, edges: upper - lower, gap }
     }
 
     /// Takes the space of a sphere.
     pub fn insert(&mut self, center: Vec3, radius: f64) {
-        let class = self.class_of(radius);
-        self.classes[class].insert(center, radius);
+        self.cells.insert(center, radius);
     }
 
     /// Whether a sphere here would keep its distance from all others.
     pub fn is_free(&self, center: Vec3, radius: f64) -> bool {
-        let keeps_away = |between: Vec3, other: f64| {
-            let least = radius + other + self.gap;
-            between.norm_squared() >= least * least
-        };
-        self.classes.iter().all(|class| {
-            class.spheres.is_empty()
-                || self.all_near(class, center, radius + class.largest + self.gap, keeps_away)
+        let reach = |largest: f64| radius + largest + self.gap;
+        self.cells.all_near(center, reach, |other, other_radius, image| {
+            let least = radius + other_radius + self.gap;
+            (self.seen_from(image, center) - other).norm_squared() >= least * least
         })
     }
 
     /// Whether no sphere of `radius` has room with its center anywhere in the cube about `middle` [m].
     pub fn covers(&self, middle: Vec3, half_edge: f64, radius: f64) -> bool {
-        let leaves_some = |between: Vec3, other: f64| {
-            let least = radius + other + self.gap;
+        // A sphere that covers the cube reaches at least half an edge past its middle.
+        let reach = |largest: f64| (radius + largest + self.gap - half_edge).max(0.0);
+        let leaves_some = |other: Vec3, other_radius: f64, image: [i8; 3]| {
+            let least = radius + other_radius + self.gap;
+            let between = self.seen_from(image, middle) - other;
             let [x, y, z] = between.to_array().map(|along| along.abs() + half_edge);
             x * x + y * y + z * z >= least * least
         };
-        self.classes.iter().any(|class| {
-            // A sphere that covers the cube reaches at least half an edge past its middle.
-            let reach = (radius + class.largest + self.gap - half_edge).max(0.0);
-            !class.spheres.is_empty() && !self.all_near(class, middle, reach, leaves_some)
-        })
+        !self.cells.all_near(middle, reach, leaves_some)
     }
 
-    /// Whether the predicate holds for every sphere of a class within `reach` of `center`, images included; it is
-    /// asked with the vector from the sphere and its radius.
-    fn all_near(
-        &self,
-        class: &Class,
-        center: Vec3,
-        reach: f64,
-        holds: impl Fn(Vec3, f64) -> bool + Copy,
-    ) -> bool {
-        if !self.repeats {
-            return class.all_near(center, reach, holds);
+    /// A place [m] as an image sees it.
+    #[inline]
+    fn seen_from(&self, image: [i8; 3], place: Vec3) -> Vec3 {
+        if image == [0; 3] {
+            return place;
         }
-        let (lower, upper) = self.bounds;
-        // Seen from the opposite side, the center is a period farther on.
-        let images = |axis: usize| {
-            let (at, period) = (center[axis], upper[axis] - lower[axis]);
-            let below = (at - reach < lower[axis]).then_some(at + period);
-            let above = (at + reach > upper[axis]).then_some(at - period);
-            [Some(at), below, above].into_iter().flatten()
-        };
-        images(2)
-            .all(|z| images(1).all(|y| images(0).all(|x| class.all_near(Vec3::new(x, y, z), reach, holds))))
-    }
-}
-
-impl Class {
-    /// Cells as wide as the reach of two spheres, or wider where that would make far more cells than spheres.
-    fn new((lower, upper): (Vec3, Vec3), gap: f64, largest: f64, count: usize) -> Self {
-        let extent = upper - lower;
-        let most = 4 * count + 64;
-        let mut edge = 2.0 * largest + gap;
-        let cells_at = |edge: f64| extent.to_array().map(|along| (along / edge).floor().max(1.0));
-        while cells_at(edge).iter().product::<f64>() > most as f64 {
-            edge *= 1.1;
-        }
-        let cells = cells_at(edge).map(|cells| cells as usize);
-        let total = if count == 0 { 0 } else { cells.iter().product() };
-        let per_length = 1.0 / edge;
-        Self {
-            lower,
-            per_length,
-            cells,
-            largest,
-            first: vec![NONE; total],
-            spheres: Vec::with_capacity(count),
-        }
-    }
-
-    /// Number of the cell along one axis; places outside count to the outermost cells.
-    fn along(&self, axis: usize, coordinate: f64) -> usize {
-        // A cast from a number below zero gives zero.
-        (((coordinate - self.lower[axis]) * self.per_length) as usize).min(self.cells[axis] - 1)
-    }
-
-    fn insert(&mut self, center: Vec3, radius: f64) {
-        let [i, j, k] = [0, 1, 2].map(|axis| self.along(axis, center[axis]));
-        let cell = &mut self.first[i + self.cells[0] * (j + self.cells[1] * k)];
-        self.spheres.push(Sphere { center, radius, next: *cell });
-        *cell = (self.spheres.len() - 1) as u32;
-    }
-
-    /// Whether the predicate holds for every sphere in the cells within `reach` of `center`; it is asked with the
-    /// vector from the sphere and its radius.
-    fn all_near(&self, center: Vec3, reach: f64, holds: impl Fn(Vec3, f64) -> bool) -> bool {
-        let low = [0, 1, 2].map(|axis| self.along(axis, center[axis] - reach));
-        let high = [0, 1, 2].map(|axis| self.along(axis, center[axis] + reach));
-        for k in low[2]..=high[2] {
-            for j in low[1]..=high[1] {
-                let row = self.cells[0] * (j + self.cells[1] * k);
-                for &first in &self.first[row + low[0]..=row + high[0]] {
-                    let mut at = first;
-                    while at != NONE {
-                        let sphere = &self.spheres[at as usize];
-                        if !holds(center - sphere.center, sphere.radius) {
-                            return false;
-                        }
-                        at = sphere.next;
-                    }
-                }
-            }
-        }
-        true
+        let along = |axis: usize| place[axis] - f64::from(image[axis]) * self.edges[axis];
+        Vec3::new(along(0), along(1), along(2))
     }
 }
 

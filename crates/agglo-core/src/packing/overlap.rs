@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::domain::{Boundary, Volume};
 use crate::math::{Vec3, parallel};
-use crate::neighbors::CellGrid;
+use crate::neighbors::{CellIndex, Sorted, Span};
 use crate::particles::Particles;
 
 /// Part of the sum of two radii, or of a radius at a face, that counts as round-off.
@@ -42,10 +42,10 @@ pub fn first_overlap(grains: &Particles, volume: Option<&Volume>) -> Option<Over
     if let Some(volume) = volume.filter(|volume| volume.boundary == Boundary::Periodic) {
         crowd.add_images(volume);
     }
-    let mut grid = CellGrid::default();
-    grid.build(&crowd.positions, &crowd.radii, 0.0);
+    let mut cells = CellIndex::<Sorted>::default();
+    cells.fill(&(&crowd.positions[..], &crowd.radii[..]), &Span::Free, 0.0);
     let search = |range: Range<usize>, ()| {
-        range.fold(None, |found, sphere| first_of(found, crowd.first_partner(&grid, sphere as u32)))
+        range.fold(None, |found, sphere| first_of(found, crowd.first_partner(&cells, sphere as u32)))
     };
     parallel::over(0..crowd.ids.len(), LEAF, (), &search, &first_of)
 }
@@ -106,11 +106,11 @@ impl Crowd {
         self.radii.push(self.radii[of]);
     }
 
-    /// The overlap with the smallest ids among the pairs that the grid gives to this sphere.
-    fn first_partner(&self, grid: &CellGrid, sphere: u32) -> Option<Overlap> {
+    /// The overlap with the smallest ids among the pairs that the cells give to this sphere.
+    fn first_partner(&self, cells: &CellIndex<Sorted>, sphere: u32) -> Option<Overlap> {
         let mut first = None;
         let (at, radius) = (self.positions[sphere as usize], self.radii[sphere as usize]);
-        grid.visit_partners(&self.positions, &self.radii, sphere, 0.0, |other| {
+        cells.visit_partners(sphere, at, radius, &mut |other, _| {
             let reach = radius + self.radii[other as usize];
             let between = (self.positions[other as usize] - at).norm_squared();
             if between < reach * reach {

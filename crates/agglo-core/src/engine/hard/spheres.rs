@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::domain::resolution;
 use crate::engine::validate::{Fault, ensure, length};
 use crate::math::Vec3;
+use crate::neighbors::Places;
 use crate::particles::{Particles, Row};
 
 /// No sphere, no cell, no list.
@@ -90,6 +91,26 @@ pub struct Spheres {
     pub bulk: Vec<Bulk>,
     free: Vec<u32>,
     next_id: u32,
+}
+
+impl Places for Spheres {
+    fn slots(&self) -> usize {
+        self.slots()
+    }
+
+    fn indices(&self) -> impl Iterator<Item = u32> + '_ {
+        self.living()
+    }
+
+    #[inline]
+    fn position(&self, at: u32) -> Vec3 {
+        self.motion[at as usize].position
+    }
+
+    #[inline]
+    fn radius(&self, at: u32) -> f64 {
+        self.motion[at as usize].radius
+    }
 }
 
 impl Spheres {

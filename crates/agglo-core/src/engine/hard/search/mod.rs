@@ -2,7 +2,6 @@
 
 mod approach;
 mod around;
-mod cells;
 mod contact;
 mod grid;
 mod near;

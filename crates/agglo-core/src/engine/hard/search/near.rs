@@ -7,8 +7,8 @@
 use crate::domain::{Boundary, Volume};
 use crate::engine::hard::spheres::Spheres;
 use crate::math::Vec3;
+use crate::neighbors::{CellIndex, Sorted, Span};
 
-use super::cells::Cells;
 use super::contact::{Contact, Surroundings};
 
 /// The longest reach, in mean distances of spheres.
@@ -30,7 +30,7 @@ struct Pair {
 /// Who is near whom.
 #[derive(Clone, Debug, Default)]
 pub(in crate::engine::hard) struct Near {
-    cells: Cells,
+    cells: CellIndex<Sorted>,
     pairs: Vec<Pair>,
     /// How often each sphere crossed faces since the cells were filled [slots].
     crossings: Vec<[i32; 3]>,
@@ -84,7 +84,7 @@ impl Near {
     }
 
     fn fill(&mut self, spheres: &Spheres, volume: &Volume) {
-        self.cells.fill(spheres, volume, self.reach);
+        self.cells.fill(spheres, &span(volume), self.reach);
         self.crossings.clear();
         self.crossings.resize(spheres.slots(), [0; 3]);
         self.newcomers.clear();
@@ -220,6 +220,16 @@ impl Surroundings for Near {
         self.visit(spheres, center, reach, &mut |at, shift| {
             visit(at, spheres.motion[at as usize].at(time) + shift);
         });
+    }
+}
+
+/// Where cells are laid. Searches for the nearest sphere reach any distance, so that narrow cells would not do.
+fn span(volume: &Volume) -> Span {
+    let corners = [volume.lower(), volume.upper()];
+    match volume.boundary {
+        Boundary::Periodic => Span::Periodic(corners),
+        boundary if boundary.wraps() => Span::Block(corners),
+        _ => Span::Around,
     }
 }
 

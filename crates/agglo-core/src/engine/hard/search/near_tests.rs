@@ -23,8 +23,8 @@ fn row() -> Spheres {
 /// Cells lie where the spheres are, not where the volume is: who looks 4 far sees some tens, not all.
 #[test]
 fn cells_lie_about_the_spheres() {
-    let (spheres, mut cells) = (row(), Cells::default());
-    cells.fill(&spheres, &volume(), 4.0);
+    let (spheres, mut cells) = (row(), CellIndex::<Sorted>::default());
+    cells.fill(&spheres, &span(&volume()), 4.0);
     for at in [0_u32, 1, 500, 999] {
         let mut seen = Vec::new();
         cells.visit_all(spheres.motion[at as usize].position, 4.0, &mut |other, _| seen.push(other));
