@@ -117,7 +117,7 @@ def ink(run):
 
 
 SUMMARY_OF_GROWTH = (
-    "grains_start", "grains_end", "impacts", "merges", "fragmentations", "impacts_guarded", "impacts_overlapping", "radius_ratio",
+    "grains_start", "grains_end", "impacts", "merges", "fragmentations", "tc_bounces", "impacts_overlapping", "radius_ratio",
     "largest_primaries", "largest_radius_m", "self_gravity_radius_m", "steps",
 )  # fmt: skip
 

@@ -27,6 +27,8 @@ pub mod impact;
 
 pub mod acoustics;
 
+pub mod ledger;
+
 pub mod engine;
 
 pub mod measure;

@@ -71,8 +71,8 @@ extern crate agglo_testing;
 
 #[doc(inline)]
 pub use agglo_core::{
-    acoustics, catalog, constants, contact, domain, engine, fields, impact, law, math, measure, neighbors,
-    particles, text, units,
+    acoustics, catalog, constants, contact, domain, engine, fields, impact, law, ledger, math, measure,
+    neighbors, particles, text, units,
 };
 
 mod error;

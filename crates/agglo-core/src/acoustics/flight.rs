@@ -104,7 +104,7 @@ impl Ray {
 impl Flight {
     /// Launches a pulse: `pulse` counts those of its beam from 0, `number` is the beam's in the scenario.
     ///
-    /// Whether the rays start inside a given region is checked before: [`Beam::starts_inside`].
+    /// That the rays start inside a given region is checked with the scenario.
     pub fn launch(&mut self, beam: &Beam, medium: &Medium, seed: u64, number: u32, pulse: u32) {
         let place = self.pulses.len() as u32;
         let (direction, area) = (beam.axis(), beam.ray_area());

@@ -7,6 +7,7 @@ pub mod fresnel;
 mod medium;
 mod ray_force;
 mod tracer;
+mod wavelength;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -3,7 +3,7 @@
 use super::fragmentation::Draws;
 use super::heat::warmed;
 use super::laws::ImpactLaws;
-use super::solve::{Meeting, Trial};
+use super::solve::{CollidingPair, Trial};
 use super::sticking::common_velocity;
 use super::{Body, ImpactEnergy, Outcome, Sticking};
 use crate::math::Vec3;
@@ -30,12 +30,13 @@ impl ImpactLaws {
         // What rounding leaves of a head-on impact is no slip.
         let slip = if size > 8.0 * f64::EPSILON * approach { size } else { 0.0 };
         let along = if slip > 0.0 { across * (1.0 / slip) } else { Vec3::ZERO };
-        let pair = self.pair(bodies);
-        let meeting = Meeting::new(self, bodies, draws, pair.friction, [normal, along], [approach, slip]);
-        let solution = meeting.solve(pair.rebound);
+        let constants = self.pair(bodies);
+        let directions = [normal, along];
+        let pair = CollidingPair::new(self, bodies, draws, constants.friction, directions, [approach, slip]);
+        let solution = pair.solve(constants.rebound);
         let stuck = solution.restitution == 0.0 && self.sticking == Sticking::Merge;
-        let trial = meeting.trial(solution.restitution, stuck);
-        let mut outcome = settle(&meeting, &trial, bodies);
+        let trial = pair.trial(solution.restitution, stuck);
+        let mut outcome = settle(&pair, &trial, bodies);
         outcome.sticks = stuck && outcome.fragments == [1; 2];
         outcome.velocities = if stuck {
             [common_velocity(bodies); 2]
@@ -60,9 +61,9 @@ impl ImpactLaws {
 }
 
 /// Heat, fragments and the ledger of a solved impact.
-fn settle(meeting: &Meeting<'_>, trial: &Trial, bodies: [&Body; 2]) -> Outcome {
-    let breakage = meeting.breakage(trial);
-    let heat = meeting.heat(trial, breakage.surfaces);
+fn settle(pair: &CollidingPair<'_>, trial: &Trial, bodies: [&Body; 2]) -> Outcome {
+    let breakage = pair.breakage(trial);
+    let heat = pair.heat(trial, breakage.surfaces);
     let mut booked = heat.each;
     let mut temperatures = [0.0; 2];
     let mut converged = true;

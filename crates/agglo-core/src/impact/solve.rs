@@ -19,7 +19,7 @@ const SLOW: f64 = 0.3;
 const SOLVED: f64 = 4.0 * f64::EPSILON;
 
 /// An impact before it is solved.
-pub(super) struct Meeting<'a> {
+pub(super) struct CollidingPair<'a> {
     laws: &'a ImpactLaws,
     matter: [&'a Matter; 2],
     bodies: [&'a Body; 2],
@@ -62,7 +62,7 @@ pub(super) struct Solution {
     pub converged: bool,
 }
 
-impl<'a> Meeting<'a> {
+impl<'a> CollidingPair<'a> {
     /// `slip` is its size [m/s], `along` its direction.
     pub fn new(
         laws: &'a ImpactLaws,

@@ -12,7 +12,7 @@ mod vector;
 
 pub use pace::Pace;
 pub use real::Real;
-pub use sum::rounding_of_sum;
+pub use sum::{Sum, rounding_of_sum};
 pub use vector::{Vec3, Vector};
 
 pub use prefetch::prefetch;

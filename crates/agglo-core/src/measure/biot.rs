@@ -47,6 +47,11 @@ pub fn biot_number(
     (conductivity > 0.0).then(|| coefficient * radius / (3.0 * conductivity))
 }
 
+/// Whether a sphere of this Biot number has one temperature.
+pub fn is_uniform(biot: f64) -> bool {
+    biot < 0.1
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

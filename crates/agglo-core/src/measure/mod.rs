@@ -1,8 +1,7 @@
-//! Figures taken from a state: moments, clusters, sizes, the ledger. Nothing here changes a state.
+//! Figures taken from a state: moments, clusters, sizes. Nothing here changes a state.
 
 mod biot;
 mod clusters;
-mod ledger;
 mod moments;
 mod nearest;
 mod pairs;
@@ -10,9 +9,8 @@ mod shape;
 mod size_classes;
 mod size_rates;
 
-pub use biot::biot_number;
+pub use biot::{biot_number, is_uniform};
 pub use clusters::{Clusters, Joiner};
-pub use ledger::{Balance, Flows, Ledger, Momentum, StoredEnergy};
 pub use moments::{Moments, moment_about, moments};
 pub use nearest::mean_nearest_distance;
 pub use pairs::close_pairs;

@@ -6,6 +6,7 @@ use super::pulses;
 use super::table::Table;
 use agglo::folder::names::SIZES;
 use agglo::impact::heat::Balance;
+use agglo::ledger::entry::hard::UNBALANCED;
 use agglo::record::Panel;
 use agglo::run;
 
@@ -35,7 +36,7 @@ fn lines(is_hard: bool, is_published: bool) -> Vec<Lines> {
     });
     // Only the published balance makes heat from nothing.
     let shown: Vec<_> =
-        columns.filter(|(_, column)| is_published || column.name != run::FALSE_HEAT).collect();
+        columns.filter(|(_, column)| is_published || column.name != UNBALANCED.name).collect();
     let lines = |panel: &&'static Panel| {
         let on = shown.iter().filter(|(_, column)| column.panel == Some(*panel));
         let (tables, columns): (Vec<_>, Vec<_>) = on.copied().unzip();

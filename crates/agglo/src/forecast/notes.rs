@@ -1,7 +1,5 @@
 //! What to keep in mind: where the models do not hold, laws that do not converge, settings without effect.
 
-use std::f64::consts::TAU;
-
 use super::counts::{SLOW_FRACTION, asked_fraction, pulses_before};
 use super::push::Push;
 use super::{Plan, hard};
@@ -11,12 +9,6 @@ use crate::packing::{GrainGroup, Placement};
 use crate::scenario::Scenario;
 use crate::text::{digits, readable};
 use crate::units::vector;
-
-/// Below this wave number times radius, sound goes around grains instead of being reflected as rays.
-const SMALLEST_KA: f64 = 10.0;
-
-/// Up to this one the push of rays is a per cent and more off that of a wave, on hard grains too.
-const CLOSE_KA: f64 = 60.0;
 
 pub(super) fn collect(plan: &mut Plan, scenario: &Scenario, pushes: &[Push], smallest: f64) {
     let notes = &mut plan.notes;
@@ -29,31 +21,8 @@ pub(super) fn collect(plan: &mut Plan, scenario: &Scenario, pushes: &[Push], sma
 }
 
 fn wavelengths(notes: &mut Vec<String>, scenario: &Scenario, smallest: f64) {
-    let Some(acoustics) = scenario.acoustics() else { return };
-    let sound = scenario.medium.sound_speed.si();
-    let needed = readable(SMALLEST_KA * sound / (TAU * smallest), "Hz");
-    for (index, beam) in acoustics.beams.iter().enumerate() {
-        let Some(frequency) = beam.frequency else {
-            notes.push(format!(
-                "beam {index} has no frequency: rays hold where the wavelength is far below a grain, here from about {needed} (k a = 10)"
-            ));
-            continue;
-        };
-        let ka = TAU * frequency.si() * smallest / sound;
-        if (SMALLEST_KA..CLOSE_KA).contains(&ka) {
-            notes.push(format!(
-                "beam {index}: k a = {}: a wave pushes less than rays do, at 10 to 20 by 3 % on a rigid grain to some 30 % on polystyrene (docs/validity.md)",
-                digits(ka)
-            ));
-        }
-        if ka < SMALLEST_KA {
-            notes.push(format!(
-                "beam {index}: k a = {} at {}: rays do not hold below 10, here {needed}; the sound would go around the grains",
-                digits(ka),
-                readable(frequency.si(), "Hz")
-            ));
-        }
-    }
+    let beams = scenario.acoustics().into_iter().flat_map(|acoustics| &acoustics.beams).enumerate();
+    notes.extend(beams.filter_map(|(index, beam)| beam.note(index, &scenario.medium, smallest)));
 }
 
 /// What the laws say of themselves.
@@ -148,7 +117,7 @@ fn way_to(beam: &Beam, group: &GrainGroup) -> Option<f64> {
         Placement::Lattice(law) => &law.region,
         Placement::List(list) => {
             let positions: Vec<Vec3> = list.positions.iter().map(|place| vector(*place)).collect();
-            return beam.first_meeting(&positions, &vec![group.size.largest(); positions.len()]);
+            return beam.first_hit(&positions, &vec![group.size.largest(); positions.len()]);
         }
         Placement::Table(_) | Placement::Fill(_) => return Some(0.0),
     };

@@ -3,7 +3,7 @@
 use crate::contact::Bonds;
 use crate::contact::network::Network;
 use crate::engine::Start;
-use crate::engine::soft::{truncation, warning_of_bonds};
+use crate::engine::soft::truncation;
 use crate::particles::Particles;
 use crate::scenario::Scenario;
 use crate::text::digits;
@@ -20,7 +20,7 @@ fn bonds(scenario: &Scenario, start: &Start) -> Option<String> {
     let bonds = scenario.soft()?.bonds.as_ref();
     let Some(Bonds::Beam(law)) = bonds else { return None };
     let network = Network::start(Some(law), start.bonds.clone(), &start.grains);
-    warning_of_bonds(bonds, &network).map(str::to_owned)
+    law.warning(network.made_at_start()).map(str::to_owned)
 }
 
 /// Grains that lie outside the region of rays.

@@ -41,7 +41,7 @@ pub(super) struct Push {
     pub fastest: f64,
     pub common_speed: f64,
     /// Speed at which two grains collide, root of the mean square [m/s].
-    pub meeting_speed: f64,
+    pub collision_speed: f64,
     /// Time [s] in which drag takes a grain's speed, in the mean; infinite without drag.
     pub stopping_s: f64,
     /// Reynolds number of the grain for which it is largest.
@@ -83,7 +83,7 @@ pub(super) fn power_and_pressure(strength: Strength, area: f64, impedance: f64) 
 impl Push {
     /// Whether all its quantities are finite. A Reynolds number is not in a medium without viscosity.
     pub fn is_known(&self) -> bool {
-        let speeds = [self.mean_speed, self.fastest, self.common_speed, self.meeting_speed];
+        let speeds = [self.mean_speed, self.fastest, self.common_speed, self.collision_speed];
         let others = [self.power, self.pressure, self.duration, self.hits, self.absorbed, self.flight_s];
         speeds.iter().chain(&others).all(|quantity| quantity.is_finite())
             && self.strain.is_none_or(f64::is_finite)
@@ -103,7 +103,7 @@ impl Push {
             grains.radius.iter().zip(speeds()).map(|(radius, speed)| {
                 scenario.medium.reynolds_number(*radius, speed).unwrap_or(f64::INFINITY)
             });
-        let meeting_speed = SQRT_2 * scatter.sqrt();
+        let collision_speed = SQRT_2 * scatter.sqrt();
         Self {
             duration: pulse.duration_s,
             hits: count.reflections as f64 * rays / f64::from(count.rays),
@@ -112,10 +112,10 @@ impl Push {
             mean_speed: part * speeds().sum::<f64>(),
             fastest: speeds().fold(0.0, f64::max),
             common_speed: common.norm(),
-            meeting_speed,
+            collision_speed,
             stopping_s: stopping(scenario, grains),
             reynolds: reynolds.fold(0.0, f64::max),
-            strain: deepest(scenario, grains, meeting_speed),
+            strain: deepest(scenario, grains, collision_speed),
             ..self
         }
     }
@@ -123,7 +123,7 @@ impl Push {
     /// How far [m] grains have come from one another at each of the later pulses, added up, if nothing but drag holds them:
     /// σ τ (1 - e^(-t/τ)) at t = T, 2 T ... (n - 1) T, with σ the scatter of their speeds.
     pub(super) fn spreads(&self) -> f64 {
-        let (count, scatter) = (self.pulses, self.meeting_speed / SQRT_2);
+        let (count, scatter) = (self.pulses, self.collision_speed / SQRT_2);
         let decay = self.period / self.stopping_s;
         if count <= 1.0 || self.period == 0.0 {
             0.0
@@ -189,7 +189,7 @@ pub(super) fn describe(plan: &mut Plan, pushes: &[Push]) {
         );
         if let Some(strain) = push.strain {
             let value = if strain < 1.0 { digits(strain) } else { "1: through one another".to_owned() };
-            let speed = readable(push.meeting_speed, "m/s");
+            let speed = readable(push.collision_speed, "m/s");
             row("  overlap strain".to_owned(), format!("{value} when two collide at {speed}"));
         }
     }

@@ -26,7 +26,7 @@ fn the_sample_problem() {
     let viscosity = scenario.medium.viscosity.si();
     let stopping = 2.0 * 6000.0 * 0.05 * 0.05 / (9.0 * viscosity);
     let scattered =
-        |time: f64| pushes[0].meeting_speed / 2_f64.sqrt() * stopping * (1.0 - (-time / stopping).exp());
+        |time: f64| pushes[0].collision_speed / 2_f64.sqrt() * stopping * (1.0 - (-time / stopping).exp());
     let later = [0.5, 1.0, 1.5].map(|time| 2.0 * scattered(time) / 1500.0).iter().sum::<f64>();
     let flights = 4.0 * pushes[0].flight_s + later;
     let [quiet, flying] = [1.0 + (2.0 - flights) / 0.05, flights / 0.5e-3];
@@ -63,7 +63,7 @@ fn a_single_grain_is_hit_by_the_rays_that_its_cross_section_meets() {
     let head_on = push.hits * by_hand * 1e-5 / mass;
     let part = push.fastest / head_on;
     assert!(part < 1.3 / 9.0 && part > 0.6 / 9.0, "{part}");
-    assert_eq!((push.mean_speed, push.common_speed, push.meeting_speed), (push.fastest, push.fastest, 0.0));
+    assert_eq!((push.mean_speed, push.common_speed, push.collision_speed), (push.fastest, push.fastest, 0.0));
 }
 
 /// A grain of 1 m in a beam of 1 cm cannot be hit by more rays than there are.
@@ -119,7 +119,7 @@ fn the_overlap_of_an_impact() {
     let mass = 6000.0 * 4.0 / 3.0 * std::f64::consts::PI * 0.05_f64.powi(3);
     let overlap = push.strain.unwrap() * 0.1;
     let stored = 8.0 / 15.0 * (0.5e9 / (1.0 - 0.0625)) * 0.025_f64.sqrt() * overlap.powf(2.5);
-    assert_close!(stored, 0.25 * mass * push.meeting_speed.powi(2), 1e-9, "in J");
+    assert_close!(stored, 0.25 * mass * push.collision_speed.powi(2), 1e-9, "in J");
 }
 
 /// The same balance for the other laws: k δ²/2, and π R K δ^(p+2)/((p+2) (2R)^p) with p = 2 and K at 300 K.
@@ -146,7 +146,7 @@ fn the_overlap_of_an_impact_of_other_laws() {
         } else {
             0.5e7 * overlap * overlap
         };
-        assert_close!(stored, 0.25 * mass * push.meeting_speed.powi(2), 1e-9, "in J");
+        assert_close!(stored, 0.25 * mass * push.collision_speed.powi(2), 1e-9, "in J");
     }
 }
 

@@ -4,6 +4,7 @@
 use std::fmt;
 
 use crate::folder::names;
+use crate::ledger::{Balance, Entry};
 
 /// An entry of a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,6 +73,7 @@ enum Take<S> {
     Count(fn(&S) -> u64),
     CountOrNone(fn(&S) -> Option<u64>),
     Word(fn(&S) -> &str),
+    Entry(fn(&S) -> &Balance, fn(&Balance) -> f64),
 }
 
 /// A column of rows that tell of an `S`.
@@ -122,6 +124,7 @@ impl<S> Column<S> {
             Take::Count(take) => Cell::Count(take(of)),
             Take::CountOrNone(take) => take(of).map_or(Cell::Unknown, Cell::Count),
             Take::Word(take) => Cell::Word(take(of)),
+            Take::Entry(balance, take) => Cell::Number(take(balance(of))),
         }
     }
 }
@@ -176,6 +179,11 @@ pub(crate) const fn word<S>(
     take: fn(&S) -> &str,
 ) -> Column<S> {
     Column::new([name, "", label, meaning], Take::Word(take))
+}
+
+/// An entry of the ledger, which has said what is to be told of it.
+pub(crate) const fn entry<S>(told: &Entry, balance: fn(&S) -> &Balance) -> Column<S> {
+    Column::new([told.name, told.unit, told.label, told.meaning], Take::Entry(balance, told.of))
 }
 
 /// A table whose rows tell of an `S`.

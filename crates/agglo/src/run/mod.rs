@@ -27,7 +27,6 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 pub use error::RunError;
-pub use hard::tables::FALSE_HEAT;
 pub use hard::{CountFigures, Growth, GrowthFigures, HardSummary, MotionFigures, RunFigures, ScaleFigures};
 pub(crate) use origin::Origin;
 pub use quiet::quiet;

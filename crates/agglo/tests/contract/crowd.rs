@@ -63,7 +63,7 @@ damping_ratio = 0.05
 [fields.drag]
 law = "schiller_naumann"
 added_mass = 0.5
-# A trap, so that grains keep meeting.
+# A trap, so that grains keep colliding.
 [fields.lorentz]
 electric_field = ["-3*(10^12)*x", "-3*(10^12)*y", "-3*(10^12)*z"]
 [fields.near_field]

@@ -368,14 +368,14 @@ fn books_close() {
             let now = simulation.snapshot();
             // Sums of 250 terms over some thousand impacts, each rounded at 1e-16.
             let mass: f64 = now.grains.mass.iter().sum();
-            assert!((mass / ledger.mass_at_start - 1.0).abs() < 1e-12, "{case:?}");
+            assert!((mass / ledger.start.mass - 1.0).abs() < 1e-12, "{case:?}");
             assert!(balance.kinetic_drift_relative.abs() < 1e-12, "{case:?} {balance:?}");
             assert!(balance.drift_relative.abs() < 1e-12, "{case:?} {balance:?}");
             assert!(simulation.momentum_drift_relative() < 1e-12, "{case:?}");
             assert_eq!(u64::from(now.primaries.iter().sum::<u32>()), start, "{case:?}");
             for (mass, primaries) in now.grains.mass.iter().zip(&now.primaries) {
                 // Equal primaries, but where sizes are scattered.
-                let whole = ledger.mass_at_start / start as f64 * f64::from(*primaries);
+                let whole = ledger.start.mass / start as f64 * f64::from(*primaries);
                 assert!(
                     case.name == "bouncing" || (mass / whole - 1.0).abs() < 1e-12,
                     "{}: mass {mass:e} kg of {whole:e} kg",

@@ -52,7 +52,7 @@ fn break_and_merge(engine: &str, fragments: &str) -> Simulation {
     let mut simulation = gas.start();
     simulation.system_mut().keeps_events = true;
     let (mut merged, mut broken) = (BTreeSet::new(), 0);
-    let mass = simulation.system().state.ledger.mass_at_start;
+    let mass = simulation.system().state.ledger.start.mass;
     let single = mass / f64::from(COUNT);
     for look in 1..=200 {
         support::run_until(&mut simulation, 2e-4 * f64::from(look));
@@ -82,9 +82,9 @@ fn break_and_merge(engine: &str, fragments: &str) -> Simulation {
     let balance = simulation.balance();
     // New surface less the surface that merges have made disappear does not enter: surfaces are booked where made.
     assert_above!(balance.surface, 0.0, "in J");
-    assert_below!(balance.surface, balance.normal + balance.tangential, "in J");
+    assert_below!(balance.surface, balance.normal + balance.friction, "in J");
     let booked = balance.heat + balance.surface;
-    assert!((booked / (balance.normal + balance.tangential) - 1.0).abs() < 1e-12, "{balance:?}");
+    assert!((booked / (balance.normal + balance.friction) - 1.0).abs() < 1e-12, "{balance:?}");
     assert_near!(mass, simulation.snapshot().grains.mass.iter().sum::<f64>(), 1e-12 * mass, "in kg");
     simulation
 }

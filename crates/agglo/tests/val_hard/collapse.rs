@@ -23,14 +23,14 @@ fn a_gas_that_would_collapse_goes_on() {
         support::report(&format!(
             "collapse, e = {restitution}: {} impacts, {} of them made elastic; {:.1e} of the energy is left, drift {:.1e}",
             counts.collisions,
-            counts.guarded,
+            counts.tc_bounces,
             before / start,
             simulation.balance().kinetic_drift_relative
         ));
-        let (impacts, guarded) = (counts.collisions as f64, counts.guarded as f64);
-        let figures = [("impacts", impacts), ("guarded", guarded), ("left", before / start)];
+        let (impacts, tc_bounces) = (counts.collisions as f64, counts.tc_bounces as f64);
+        let figures = [("impacts", impacts), ("tc_bounces", tc_bounces), ("left", before / start)];
         common::found(&format!("collapse_{restitution}"), &figures);
-        assert!(counts.guarded > 0, "no collapse");
+        assert!(counts.tc_bounces > 0, "no collapse");
         assert_below!(before, 1e-2 * start);
         assert_eq!(counts.merges, 0);
         support::assert_ledger(&simulation);

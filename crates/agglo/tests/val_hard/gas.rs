@@ -35,7 +35,7 @@ fn ratio(gas: &Gas<'_>, impacts: u64) -> Mean {
         .collect();
     support::assert_ledger(&simulation);
     let counts = &simulation.system().state.counts;
-    assert_eq!((counts.merges, counts.guarded, counts.overlapping), (0, 0, 0));
+    assert_eq!((counts.merges, counts.tc_bounces, counts.overlapping), (0, 0, 0));
     Mean::of(&ratios)
 }
 

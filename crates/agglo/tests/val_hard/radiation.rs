@@ -78,14 +78,14 @@ fn two_spheres_cool_merge_and_cool_on() {
         );
         let mut simulation = support::start(&text, |grains| grains.velocity[0] = Vec3::AXES[0] * speed);
         support::finish(&mut simulation);
-        let meeting = way / speed;
+        let flown = way / speed;
         let masses = radii.map(|radius| DENSITY * support::ball(radius));
         let sum = masses[0] + masses[1];
         let lost = 0.5 * masses[0] * masses[1] / sum * speed * speed;
-        let before = [0, 1].map(|k| cooled(temperatures[k], radii[k], meeting));
+        let before = [0, 1].map(|k| cooled(temperatures[k], radii[k], flown));
         let mixed = (masses[0] * before[0] + masses[1] * before[1]) / sum + lost / (sum * HEAT_CAPACITY);
         let radius = (radii[0].powi(3) + radii[1].powi(3)).cbrt();
-        let wanted = cooled(mixed, radius, end - meeting);
+        let wanted = cooled(mixed, radius, end - flown);
         let found = simulation.snapshot().grains.temperature;
         assert_eq!(found.len(), 1);
         assert!((found[0] / wanted - 1.0).abs() < tolerance, "{} for {wanted}", found[0]);

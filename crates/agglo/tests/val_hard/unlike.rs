@@ -89,8 +89,8 @@ fn by_hand_with(friction: f64, restitution: f64, is_one: bool, surfaces: [f64; 2
     }
 }
 
-/// Where the center of clay is at the meeting: inside, or with lead across the upper faces of x and z.
-fn meeting_place(boundary: &str) -> Vec3 {
+/// Where the center of clay is at the collision: inside, or with lead across the upper faces of x and z.
+fn hit_place(boundary: &str) -> Vec3 {
     if boundary == "open" { Vec3::new(1e-3, -0.5e-3, 0.3e-3) } else { Vec3::new(9.7e-3, -0.5e-3, 9.4e-3) }
 }
 
@@ -127,7 +127,7 @@ fn start_at(
         material(1, "lead"),
     );
     let scenario: Scenario = toml::from_str(&text).unwrap();
-    let place = meeting_place(boundary);
+    let place = hit_place(boundary);
     let centers = [place, place + NORMAL * (RADIUS[0] + RADIUS[1])];
     let (mut grains, mut grown) = (Particles::default(), Vec::new());
     for at in [0, 1] {
@@ -175,7 +175,7 @@ fn each_way(run: impl Fn(&str, f64, &str, [usize; 2])) {
 /// The ledger's channels, each by its name, and both drifts.
 fn assert_ledger(simulation: &Simulation, wanted: [f64; 5], tolerance: f64, what: &str) {
     let balance = simulation.balance();
-    let found = [balance.normal, balance.tangential, balance.reaction, balance.surface, balance.heat];
+    let found = [balance.normal, balance.friction, balance.reaction, balance.surface, balance.heat];
     let names = ["lost along the normal", "lost to friction", "reaction", "surface", "heat"];
     let whole = wanted[4].abs();
     for ((name, found), wanted) in names.iter().zip(found).zip(wanted) {
@@ -206,7 +206,7 @@ fn assert_bounce(friction: f64, restitution: f64, more: &str) {
         advance_to(&mut simulation, END);
         let now = simulation.snapshot();
         assert_eq!(now.grains.id, [0, 1], "{what}: names");
-        let place = meeting_place(boundary);
+        let place = hit_place(boundary);
         let centers = [place, place + NORMAL * (RADIUS[0] + RADIUS[1])];
         for k in [0, 1] {
             let at = names[k];
@@ -293,7 +293,7 @@ fn clay_and_lead_that_merge() {
         );
         assert_close_vector!(grains.velocity[0], hand.velocities[0], 1e-13, "{what}: velocity, m/s");
         assert_close!(grains.temperature[0], heat / heat_capacity, tolerance, "{what}: temperature, K");
-        let center = meeting_place(boundary) + NORMAL * ((RADIUS[0] + RADIUS[1]) * n / (m + n));
+        let center = hit_place(boundary) + NORMAL * ((RADIUS[0] + RADIUS[1]) * n / (m + n));
         let off = wrapped(grains.position[0] - center - hand.velocities[0] * (END - MEETING));
         assert_near!(off.norm(), 0.0, tolerance * 1e-3, "{what}: off its place, m");
         assert_eq!(
@@ -401,7 +401,7 @@ fn clay_and_lead_that_break() {
                 assert_close!(warm, wanted, tolerance, "{what}: temperature of a fragment of {k}, K");
                 let moved = velocity * (simulation.clock().time - MEETING);
                 for (other, mean) in off.iter_mut().enumerate() {
-                    let center = meeting_place(boundary) + NORMAL * ((RADIUS[0] + RADIUS[1]) * other as f64);
+                    let center = hit_place(boundary) + NORMAL * ((RADIUS[0] + RADIUS[1]) * other as f64);
                     *mean += wrapped(grains.position[at] - center - moved) * part;
                 }
             }

@@ -322,7 +322,12 @@ fn a_relaxed_start() {
     let wanted = [("kinetic", kinetic), ("elastic", elastic), ("bonds", bonds)];
     // Rest to 1 um/s of 3 m/s that its energy would make.
     assert_ledger(&simulation, &wanted, 1e-5);
-    assert_close!(simulation.balance().at_start, kinetic + elastic + bonds, 1e-5, "energy at the start, J");
+    assert_close!(
+        simulation.balance().mechanical_at_start,
+        kinetic + elastic + bonds,
+        1e-5,
+        "energy at the start, J"
+    );
     common::finish(&mut simulation);
     assert_ledger(&simulation, &wanted, 1e-5);
 }

@@ -125,6 +125,16 @@ impl Law for Beam {
     }
 }
 
+impl Beam {
+    /// The warning of a run in which the law has bonded so many pairs at the start, and would bond none later.
+    pub fn warning(&self, made_at_start: usize) -> Option<&'static str> {
+        (made_at_start == 0 && self.forming_strain.is_none()).then_some(
+            "bonds.beam: no bond was made, since no two grains are closer than bonds.beam.gap, or none was left in the run \
+             of start.from; nothing holds the grains together",
+        )
+    }
+}
+
 /// What a bond remembers.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BeamState {

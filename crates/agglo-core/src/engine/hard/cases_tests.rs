@@ -5,8 +5,8 @@ use super::{Contact, Simulation};
 use crate::math::Vec3;
 use crate::units::Quantity;
 
-/// With the guard against collapse as it is by default.
-const GUARDED: &str = "[engine.event_driven]";
+/// With the TC model as it is by default.
+const TC_MODEL: &str = "[engine.event_driven]";
 /// Steps that are short for the crowds here.
 const STEPPED: &str = "[engine.time_stepped]\nshortest_step = \"100 ns\"";
 
@@ -28,10 +28,10 @@ fn a_lattice_in_step() {
         let place = cell.map(|along| -0.01 + pitch * (along as f64 + 0.5));
         grains.push((place, [turn, 0.0, 0.0], radius));
     }
-    for engine in [EVENTS, GUARDED] {
+    for engine in [EVENTS, TC_MODEL] {
         let mut simulation = start(&scenario(engine, "periodic", &restitution(1.0)), &grains);
         let gap = pitch - 2.0 * radius;
-        // The first meeting after half the gap each, then after a whole gap each.
+        // The first collision after half the gap each, then after a whole gap each.
         let after = |turns: f64| (turns - 0.5) * gap / speed;
         for turns in 1..=20 {
             advance_to(&mut simulation, after(f64::from(turns) + 0.5));
@@ -52,7 +52,7 @@ fn a_lattice_in_step() {
 fn newtons_cradle() {
     let ball = |k: f64, speed: f64| ([k * 2e-3, 0.0, 0.0], [speed, 0.0, 0.0], 1e-3);
     let grains = [ball(-3.5, 7.0), ball(-2.0, 0.0), ball(-1.0, 0.0), ball(0.0, 0.0), ball(1.0, 0.0)];
-    for engine in [EVENTS, GUARDED] {
+    for engine in [EVENTS, TC_MODEL] {
         let mut simulation = start(&scenario(engine, "open", &restitution(1.0)), &grains);
         advance_to(&mut simulation, 1e-3);
         let after = speeds(&simulation);
@@ -146,7 +146,7 @@ fn arriving_in_an_antipodal_volume_where_somebody_is() {
 #[test]
 fn pairs_that_stay_together_do_not_stop_the_clock() {
     let impact = format!("[impact]\nsticking = \"never\"\n{}", restitution(0.0));
-    for (seed, engine) in (0..60).flat_map(|seed| [(seed, EVENTS), (seed, GUARDED)]) {
+    for (seed, engine) in (0..60).flat_map(|seed| [(seed, EVENTS), (seed, TC_MODEL)]) {
         let turn = f64::from(seed);
         let grains: [Grain; 3] = [
             ([-2e-3, 0.1e-3 * turn.sin(), 0.0], [1000.0 + 3.0 * turn, 311.0 * turn.cos(), 97.3], 1e-3),
@@ -168,10 +168,10 @@ fn inelastic_collapse_is_passed() {
         ([2e-3, 0.0, 0.0], [-2.0, 0.0, 0.0], 2e-3),
     ];
     for e in [0.02, 0.1, 0.3] {
-        let mut simulation = start(&scenario(GUARDED, "open", &restitution(e)), &grains);
+        let mut simulation = start(&scenario(TC_MODEL, "open", &restitution(e)), &grains);
         advance_to(&mut simulation, 0.01);
         let counts = &simulation.system().state.counts;
-        assert!(counts.guarded > 0 && counts.collisions < 100_000, "{counts:?}");
+        assert!(counts.tc_bounces > 0 && counts.collisions < 100_000, "{counts:?}");
         assert_below!(simulation.balance().drift_relative.abs(), 1e-12);
     }
 }
@@ -191,7 +191,7 @@ fn first_bounces_of_one_moment_lose_energy() {
     // Collisions and merges of the systems, from event to event and step by step.
     let mut totals = [[0; 2]; 2];
     for (grains, impact, boundary) in cases {
-        let after = [EVENTS, GUARDED].map(|engine| {
+        let after = [EVENTS, TC_MODEL].map(|engine| {
             let mut scenario = scenario(engine, boundary, &impact);
             scenario.materials.get_mut("stone").unwrap().hardness = Some(Quantity(2e5));
             let mut simulation = start(&scenario, &grains);
@@ -200,7 +200,7 @@ fn first_bounces_of_one_moment_lose_energy() {
             over_others += counts.overlapping;
             (speeds(&simulation), counts)
         });
-        assert_eq!(after[1].1.guarded, 0);
+        assert_eq!(after[1].1.tc_bounces, 0);
         assert_eq!(after[0], after[1]);
         if boundary == "periodic" {
             let mut scenario = scenario(STEPPED, boundary, &impact);
@@ -302,7 +302,7 @@ fn the_ledger_has_the_surfaces_of_the_fragments() {
             simulation.system_mut().collide(Contact { spheres: [0, 1], shift: Vec3::ZERO }, 0.0, &Nobody);
             let areas = |radii: &[f64]| radii.iter().map(|b| 4.0 * std::f64::consts::PI * b * b).sum::<f64>();
             let (after, before) = (areas(&simulation.snapshot().grains.radius), areas(&[1.2e-3, 0.9e-3]));
-            let booked = simulation.system().state.ledger.flows.collisions.surface;
+            let booked = simulation.system().state.ledger.flows.collisions.surface.value();
             assert_above!(simulation.system().state.counts.fragmentations, 0);
             assert_above!(booked, 0.0, "in J");
             // 1 J/m²; sums of up to 130 areas.

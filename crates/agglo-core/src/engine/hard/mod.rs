@@ -28,9 +28,7 @@ pub use drive::Clock;
 pub use embedded::{EmbeddedError, MicroGrains, Microscale};
 pub use grown::Grown;
 pub use micro_state::MicroState;
-pub use record::{
-    Balance, Counts, Descent, EventKind, Flows, GrainEvent, HardLedger, Homogenized, SphereEnergy,
-};
+pub use record::{Counts, Descent, EventKind, GrainEvent, Homogenized};
 pub use search::{Contact, Surroundings};
 pub use settings::{Driver, Settings};
 pub use simulation::{Simulation, SimulationState, Snapshot};

@@ -9,6 +9,7 @@ use crate::engine::soft::Limits;
 use crate::engine::validate::{Fault, MOST_COUNTED, ensure, finite};
 use crate::engine::{SimError, Start, Warnings};
 use crate::impact::ImpactLaws;
+use crate::ledger::{Balance, Ledger, Momentum};
 use crate::math::Vec3;
 use crate::measure::SizeRates;
 use crate::particles::{Material, Particles};
@@ -16,7 +17,7 @@ use crate::particles::{Material, Particles};
 use super::collide::{Collapse, HardSystem, HardSystemState};
 use super::drive::{Clock, Events, EventsState, Steps};
 use super::grown::Grown;
-use super::record::{self, Balance, Counts, HardLedger};
+use super::record::{self, Counts};
 use super::settings::{self, Settings};
 use super::spheres::Spheres;
 
@@ -124,7 +125,7 @@ impl Simulation {
         }
         let volume = settings.volume.volume();
         let state = HardSystemState {
-            ledger: HardLedger::open(&spheres),
+            ledger: Ledger::of_hard(record::opening(&spheres)),
             counts: Counts::default(),
             rates: SizeRates::new(spheres.bulk.iter().map(|bulk| bulk.primaries), volume),
             warnings: Warnings::default(),
@@ -343,11 +344,7 @@ impl Simulation {
 
     /// Momentum that walls do not explain, over the sum of the momenta's sizes at the start.
     pub fn momentum_drift_relative(&self) -> f64 {
-        let ledger = &self.system.state.ledger;
-        if ledger.momentum_size_at_start > 0.0 {
-            ledger.momentum_drift(self.momentum()).norm() / ledger.momentum_size_at_start
-        } else {
-            0.0
-        }
+        let momentum = Momentum { linear: self.momentum(), angular: Vec3::ZERO };
+        self.system.state.ledger.momentum_drift_relative(&momentum, 0.0)
     }
 }

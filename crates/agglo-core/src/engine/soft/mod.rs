@@ -19,9 +19,8 @@ mod types;
 mod validate;
 
 pub use forces::laws::Laws;
-pub use forces::loads::{Loads, Rates, Supplies, Supply};
+pub use forces::loads::Loads;
 pub use forces::truncation::{Truncation, truncation};
-pub use guard::validity::of_bonds as warning_of_bonds;
 pub use rays::{FirstPulse, Pulses};
 pub use relax::{RestWatch, Resting};
 pub use settings::{Relaxation, Settings};

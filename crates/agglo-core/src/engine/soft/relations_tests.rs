@@ -80,7 +80,7 @@ buoyancy = true
 law = "schiller_naumann"
 added_mass = 0.5
 medium_velocity = ["100*y*cos(1e6*t)", "0.02*sin(2e6*t)", "0 m/s"]
-# A trap, so that grains keep meeting.
+# A trap, so that grains keep colliding.
 [fields.lorentz]
 electric_field = ["-3e12*x", "-3e12*y + 1e5*sin(1e6*t)", "-3e12*z"]
 magnetic_flux_density = ["0 T", "0 T", "1e7 T"]

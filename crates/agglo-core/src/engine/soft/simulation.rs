@@ -4,18 +4,18 @@ use std::borrow::Cow;
 
 use serde::{Deserialize, Serialize};
 
+use crate::contact::Bonds;
 use crate::contact::network::{Bond, BondEvent, Network};
 use crate::contact::pass::Remembered;
 use crate::domain::resolution;
 use crate::engine::{Moment, SimError, Start, Warnings};
+use crate::ledger::{Ledger, Opening, Rates};
 use crate::math::rounding_of_sum;
-use crate::measure::Ledger;
 use crate::particles::Particles;
 
 use super::forces::laws::Laws;
-use super::forces::loads::{Loads, Rates};
+use super::forces::loads::Loads;
 use super::forces::truncation::Truncation;
-use super::guard::validity;
 use super::rays::{PulseState, Pulses};
 use super::settings::Settings;
 use super::step::advance::Change;
@@ -418,20 +418,29 @@ impl Simulation {
     }
 
     pub(super) fn open_ledger(&mut self) {
-        let stored = self.stored_energy();
-        let momentum = self.momentum();
-        self.ledger = Ledger::open(stored, momentum, self.momentum_size(), self.system.grains.len());
+        let start = Opening {
+            stored: self.stored_energy(),
+            momentum: self.momentum(),
+            momentum_size: self.momentum_size(),
+            mass: self.system.grains.mass.iter().sum(),
+        };
+        self.ledger = Ledger::of_soft(start, self.system.grains.len());
         for warning in self.system.laws.standing_warnings() {
             self.warnings.add(warning);
         }
-        if let Some(warning) = validity::of_bonds(self.system.laws.bonds.as_ref(), &self.system.network) {
+        let made = self.system.network.made_at_start();
+        let bonds = self.system.laws.bonds.as_ref().and_then(Bonds::lasting);
+        if let Some(warning) = bonds.and_then(|law| law.warning(made)) {
             self.warnings.add(warning);
         }
         for warning in self.pulses.standing_warnings() {
             self.warnings.add(warning);
         }
-        for warning in validity::of_rays(self.pulses.beams(), &self.system.laws.medium, &self.system.grains) {
-            self.warnings.add(&warning);
+        let smallest = self.system.grains.radius.iter().copied().fold(f64::INFINITY, f64::min);
+        for (number, beam) in self.pulses.beams().iter().enumerate() {
+            if let Some(warning) = beam.warning(number, &self.system.laws.medium, smallest) {
+                self.warnings.add(&warning);
+            }
         }
         self.warn_of_drag();
     }

@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use crate::contact::pass::contact_energy;
+use crate::ledger::{Balance, Momentum, Stored};
 use crate::math::parallel;
-use crate::measure::{Balance, Momentum, StoredEnergy};
 
 use super::forces::laws::source;
 use super::simulation::Simulation;
@@ -12,7 +12,7 @@ use super::system::LEAF;
 
 impl Simulation {
     /// Energy that the grains hold.
-    pub fn stored_energy(&self) -> StoredEnergy {
+    pub fn stored_energy(&self) -> Stored {
         let system = &self.system;
         let contact = system.with_contacts(contact_energy);
         let grains = &system.grains;
@@ -26,13 +26,14 @@ impl Simulation {
             |a, b| (a.0 + b.0, a.1 + b.1),
             (0.0, 0.0),
         );
-        StoredEnergy {
+        Stored {
             kinetic,
             spin,
             elastic: contact.normal,
             tangential_spring: system.spring_energy(),
             bonds: contact.bond + system.network.energy(grains),
             near_field: self.near_field_energy(),
+            thermal: 0.0,
         }
     }
 
@@ -59,7 +60,7 @@ impl Simulation {
 
     /// The ledger's balance now.
     pub fn balance(&self) -> Balance {
-        self.ledger.balance(self.stored_energy())
+        self.ledger.balance(self.stored_energy(), 0.0)
     }
 
     /// Relative drift of linear momentum now.

@@ -4,12 +4,13 @@ use std::ops::Range;
 
 use crate::contact::network::{BondEvent, Network};
 use crate::contact::pass::{ContactRates, ContactWorld, Contacts, Remembered};
+use crate::ledger::{Rates, Supplies};
 use crate::math::{Pace, Vec3, parallel};
 use crate::neighbors::{PairList, morton_order};
 use crate::particles::{Motion, Particles};
 
 use super::forces::laws::{Laws, near_force, source};
-use super::forces::loads::{LoadViews, Loads, Rates, Supplies};
+use super::forces::loads::{LoadViews, Loads};
 use super::skin::Skin;
 
 /// Grains per leaf of the parallel loops.

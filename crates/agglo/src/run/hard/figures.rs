@@ -93,10 +93,10 @@ pub struct CountFigures {
     /// Agglomerates that did not break since there was no room for the fragments.
     pub fragmentations_without_room: u64,
     /// Bounces that were made elastic, since their pair had bounced again and again just before.
-    pub impacts_guarded: u64,
+    pub tc_bounces: u64,
     /// Kinetic energy that these would have lost, each by itself [J].
-    #[serde(rename = "guarded_kept_J", default)]
-    pub guarded_kept: f64,
+    #[serde(rename = "tc_kept_J", default)]
+    pub tc_kept: f64,
     /// Impacts of spheres that overlapped.
     pub impacts_overlapping: u64,
     /// Bounces off walls.
@@ -194,16 +194,16 @@ impl ScaleFigures {
 }
 
 impl CountFigures {
-    /// Of so many steps; bounces that were made elastic kept `guarded_kept` [J].
-    pub fn of(counts: &Counts, steps: u64, guarded_kept: f64) -> Self {
+    /// Of so many steps; bounces that were made elastic kept `tc_kept` [J].
+    pub fn of(counts: &Counts, steps: u64, tc_kept: f64) -> Self {
         Self {
             impacts: counts.collisions,
             bounces: counts.bounces,
             merges: counts.merges,
             fragmentations: counts.fragmentations,
             fragmentations_without_room: counts.no_room,
-            impacts_guarded: counts.guarded,
-            guarded_kept,
+            tc_bounces: counts.tc_bounces,
+            tc_kept,
             impacts_overlapping: counts.overlapping,
             impacts_walls: counts.walls,
             events: counts.events,

@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::engine::hard::{Balance, Clock, Counts, Simulation, Snapshot};
+use crate::engine::hard::{Clock, Counts, Simulation, Snapshot};
+use crate::ledger::{Balance, Momentum};
 use crate::math::Vec3;
 use crate::measure::{SizeClass, size_classes};
 
@@ -34,6 +35,7 @@ impl Now {
     /// Measures a simulation; `mean_radius_at_start` in [m].
     pub fn of(simulation: &Simulation, growth: Growth, mean_radius_at_start: f64, last: &LastRow) -> Self {
         let (momentum, state) = (simulation.momentum(), &simulation.system().state);
+        let all = Momentum { linear: momentum, angular: Vec3::ZERO };
         Self {
             clock: *simulation.clock(),
             growth,
@@ -41,7 +43,7 @@ impl Now {
             balance: simulation.balance(),
             momentum,
             walls: state.ledger.flows.walls,
-            drift: state.ledger.momentum_drift(momentum),
+            drift: state.ledger.momentum_drift(&all).linear,
             counts: state.counts.clone(),
             free_time: last.mean_free_time(&LastRow::of(simulation)),
         }

@@ -4,8 +4,10 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::engine::hard::{Balance, Simulation};
+use crate::engine::hard::Simulation;
 use crate::engine::soft::Limits;
+use crate::ledger::Balance;
+use crate::measure::is_uniform;
 use crate::run::summary::{time_row, wall_row, warnings_row};
 use crate::scenario::Scenario;
 use crate::text::readable;
@@ -15,11 +17,11 @@ use super::growth::Growth;
 use super::scales::Scales;
 
 /// Part of all impacts that bounces made elastic may be before it is said that they can matter.
-const GUARDED_SHARE: f64 = 0.01;
+const TC_SHARE: f64 = 0.01;
 /// Part of the energy that impacts took that such bounces may have kept.
 const KEPT_SHARE: f64 = 1e-3;
 /// Told where they can matter.
-const GUARD_MATTERS: &str = "bounces made elastic against inelastic collapse are more than 1 % of all impacts, or kept more \
+const TC_MATTERS: &str = "bounces made elastic against inelastic collapse are more than 1 % of all impacts, or kept more \
                              than 0.1 % of the energy that impacts took: the gas is too dense or loses too much for hard \
                              spheres; see whether another engine.event_driven.contact_duration changes the answer";
 
@@ -72,33 +74,32 @@ impl HardSummary {
             momentum_drift_relative: simulation.momentum_drift_relative(),
             warnings: state.warnings.counts().clone(),
         }
-        .with_guard()
+        .with_tc_warning()
     }
 
-    /// The same with a warning where the guard against inelastic collapse can matter.
-    fn with_guard(mut self) -> Self {
-        let CountFigures { impacts, impacts_guarded, guarded_kept: kept, .. } = self.counts;
-        let lost = self.energy.normal + self.energy.tangential;
-        let can_matter =
-            impacts_guarded as f64 > GUARDED_SHARE * impacts as f64 || kept > KEPT_SHARE * (lost + kept);
-        if impacts_guarded > 0 && can_matter {
-            self.warnings.insert(GUARD_MATTERS.to_owned(), impacts_guarded);
+    /// The same with a warning where the TC model (bounces made elastic against inelastic collapse) can matter.
+    fn with_tc_warning(mut self) -> Self {
+        let CountFigures { impacts, tc_bounces, tc_kept: kept, .. } = self.counts;
+        let lost = self.energy.normal + self.energy.friction;
+        let can_matter = tc_bounces as f64 > TC_SHARE * impacts as f64 || kept > KEPT_SHARE * (lost + kept);
+        if tc_bounces > 0 && can_matter {
+            self.warnings.insert(TC_MATTERS.to_owned(), tc_bounces);
         }
         self
     }
 
-    /// How much the guard against inelastic collapse did, where it did anything.
-    fn guard_row(&self) -> Option<(&'static str, String)> {
-        let CountFigures { impacts, impacts_guarded, guarded_kept: kept, .. } = self.counts;
-        let share = 100.0 * impacts_guarded as f64 / impacts as f64;
-        let lost = self.energy.normal + self.energy.tangential;
+    /// How much the TC model did, where it did anything.
+    fn tc_row(&self) -> Option<(&'static str, String)> {
+        let CountFigures { impacts, tc_bounces, tc_kept: kept, .. } = self.counts;
+        let share = 100.0 * tc_bounces as f64 / impacts as f64;
+        let lost = self.energy.normal + self.energy.friction;
         let part = 100.0 * kept / (lost + kept);
         let kept = readable(kept, "J");
         let figures = format!(
-            "{impacts_guarded} bounces of pairs that bounced again and again, {share:.2} % of the impacts; they kept {kept}, \
+            "{tc_bounces} bounces of pairs that bounced again and again, {share:.2} % of the impacts; they kept {kept}, \
              {part:.1e} % of what impacts took"
         );
-        (impacts_guarded > 0).then_some(("made elastic", figures))
+        (tc_bounces > 0).then_some(("made elastic", figures))
     }
 
     /// The summary as rows of a table: what, how much.
@@ -112,7 +113,7 @@ impl HardSummary {
             ("largest grain", self.largest_row()),
             ("impacts", self.impacts_row()),
         ];
-        rows.extend(self.guard_row());
+        rows.extend(self.tc_row());
         rows.extend([
             ("temperature", self.temperature_row()),
             ("speed", format!("{} in the mean", readable(self.motion.mean_speed_m_s, "m/s"))),
@@ -136,7 +137,7 @@ impl HardSummary {
             ("self-gravity", format!("from a radius of {radius}; the largest grain has {over:.1e} of that"))
         });
         let biot = self.scales.biot_number.map(|biot| {
-            let holds = if biot < 0.1 { "holds" } else { "does not hold" };
+            let holds = if is_uniform(biot) { "holds" } else { "does not hold" };
             ("Biot number", format!("{biot:.2e}: one temperature for a grain {holds}"))
         });
         let reynolds =
@@ -195,15 +196,10 @@ impl HardSummary {
 mod tests {
     use super::*;
 
-    fn summary(guarded: u64, kept: f64) -> HardSummary {
-        let energy = Balance { normal: 0.9, tangential: 0.1, ..Balance::default() };
-        let counts = CountFigures {
-            impacts: 1000,
-            impacts_guarded: guarded,
-            guarded_kept: kept,
-            ..CountFigures::default()
-        };
-        HardSummary { counts, energy, ..HardSummary::default() }.with_guard()
+    fn summary(tc_bounces: u64, kept: f64) -> HardSummary {
+        let energy = Balance { normal: 0.9, friction: 0.1, ..Balance::default() };
+        let counts = CountFigures { impacts: 1000, tc_bounces, tc_kept: kept, ..CountFigures::default() };
+        HardSummary { counts, energy, ..HardSummary::default() }.with_tc_warning()
     }
 
     /// Up to 1 % of the impacts and 0.1 % of the energy it is told in a row, beyond that in a warning too.
@@ -220,7 +216,7 @@ mod tests {
             "{figures}"
         );
         assert_empty!(few.warnings);
-        assert_eq!(summary(11, 0.5e-3).warnings[GUARD_MATTERS], 11);
-        assert_eq!(summary(9, 1.1e-3).warnings[GUARD_MATTERS], 9);
+        assert_eq!(summary(11, 0.5e-3).warnings[TC_MATTERS], 11);
+        assert_eq!(summary(9, 1.1e-3).warnings[TC_MATTERS], 9);
     }
 }

@@ -2,8 +2,9 @@
 
 use crate::engine::hard::{Descent, EventKind, GrainEvent};
 use crate::folder::names;
+use crate::ledger::{Entry, entry::hard as told};
 use crate::measure::{BreakageRow, DaughterRow, KernelRow};
-use crate::record::columns::{Column, Table, Tables, count, number, number_or_none, word};
+use crate::record::columns::{Column, Table, Tables, count, entry, number, number_or_none, word};
 
 use super::now::{ClassNow, Now};
 use super::panels;
@@ -34,25 +35,26 @@ pub static GRAINS: Table<Now> = Table { file: names::GRAINS, columns: &[
     number("granular_temperature_m2_s2", "m2/s2", "granular temperature", "mean of (v - V)²/3 by number, V the velocity of the center of mass", |now: &Now| now.growth.granular_temperature),
 ] };
 
-/// The column of heat that only the published balance makes; in the sound one it is round-off.
-pub const FALSE_HEAT: &str = "unbalanced_J";
+const fn energy(told: &Entry) -> Column<Now> {
+    entry(told, |now: &Now| &now.balance)
+}
 
 /// The ledger.
 #[rustfmt::skip]
 pub static ENERGY: Table<Now> = Table { file: names::ENERGY, columns: &[
     TIME,
-    number("kinetic_J", "J", "kinetic energy", "now", |now: &Now| now.balance.stored.kinetic).on(&panels::ENERGY),
-    number("thermal_J", "J", "thermal energy", "m C T, now", |now: &Now| now.balance.stored.thermal).on(&panels::HEAT),
-    number("lost_normal_J", "J", "lost along the normal", "kinetic energy lost in impacts since the start", |now: &Now| now.balance.normal).on(&panels::ENERGY),
-    number("lost_friction_J", "J", "lost to friction", "kinetic energy lost across the normals since the start", |now: &Now| now.balance.tangential).on(&panels::ENERGY),
-    number("reaction_J", "J", "set free by reactions", "since the start", |now: &Now| now.balance.reaction).on(&panels::HEAT),
-    number("surface_J", "J", "new surfaces", "their energy", |now: &Now| now.balance.surface).on(&panels::ENERGY),
-    number("heat_J", "J", "heat of impacts", "in the consistent balance what was lost, plus `reaction_J`, less `surface_J`", |now: &Now| now.balance.heat).on(&panels::HEAT),
-    number(FALSE_HEAT, "J", "heat from nowhere", "made out of nothing by a published sum, round-off in the consistent balance; the drift leaves it out, and the closing table has it as \"false heat\"", |now: &Now| now.balance.unbalanced).on(&panels::HEAT),
-    number("cooled_J", "J", "given off", "heat given to gas and surroundings", |now: &Now| now.balance.cooled).on(&panels::HEAT),
-    number("kinetic_drift_relative", "", "drift of kinetic energy", "what losses do not explain, over that at the start", |now: &Now| now.balance.kinetic_drift_relative),
-    number("drift_J", "J", "not explained", "energy of all kinds", |now: &Now| now.balance.drift),
-    number("drift_relative", "", "energy drift", "`drift_J` over all energy that was there or came in", |now: &Now| now.balance.drift_relative).glance(11),
+    energy(&told::KINETIC).on(&panels::ENERGY),
+    energy(&told::THERMAL).on(&panels::HEAT),
+    energy(&told::NORMAL).on(&panels::ENERGY),
+    energy(&told::FRICTION).on(&panels::ENERGY),
+    energy(&told::REACTION).on(&panels::HEAT),
+    energy(&told::SURFACE).on(&panels::ENERGY),
+    energy(&told::HEAT).on(&panels::HEAT),
+    energy(&told::UNBALANCED).on(&panels::HEAT),
+    energy(&told::COOLED).on(&panels::HEAT),
+    energy(&told::KINETIC_DRIFT_RELATIVE),
+    energy(&told::DRIFT),
+    energy(&told::DRIFT_RELATIVE).glance(11),
 ] };
 
 /// Momenta.
@@ -79,7 +81,7 @@ pub static IMPACTS: Table<Now> = Table { file: names::IMPACTS, columns: &[
     count("merges", "merges", "impacts after which the two were one", |now: &Now| now.counts.merges).on(&panels::IMPACTS).glance(8),
     count("fragmentations", "breakages", "grains that broke", |now: &Now| now.counts.fragmentations).on(&panels::IMPACTS).glance(9),
     count("fragmentations_without_room", "breakages without room", "grains that stayed whole since there was no room for their fragments", |now: &Now| now.counts.no_room),
-    count("guarded", "bounces made elastic", "since their pair had bounced again and again just before", |now: &Now| now.counts.guarded),
+    count("tc_bounces", "bounces made elastic", "by the TC model, since their pair had bounced again and again just before", |now: &Now| now.counts.tc_bounces),
     count("overlapping", "impacts of spheres that overlapped", "after a merge, a step, or at a face", |now: &Now| now.counts.overlapping),
     count("walls", "bounces off walls", "", |now: &Now| now.counts.walls).on(&panels::IMPACTS),
     count("iterations", "iterations", "of all coupled solves", |now: &Now| now.counts.iterations),

@@ -8,9 +8,8 @@ use serde_json::{Value as Json, json};
 
 use super::*;
 use crate::acoustics::PulseCount;
-use crate::engine::soft::{Supplies, Supply};
+use crate::ledger::{Flows, Ledger, Momentum, Opening, Stored, Supplies, Supply};
 use crate::math::Vec3;
-use crate::measure::{Flows, Ledger, Momentum, StoredEnergy};
 
 /// Radii [m] and places [m] of the grains by their names: 0 presses on 1, cement holds 2 to 1, the pairs 3-4 and 5 alone are
 /// 10 mm away, and 6 is farther.
@@ -109,31 +108,32 @@ pub fn ledger() -> Ledger {
     };
     let mut supplies = Supplies::default();
     (supplies.drag, supplies.gravity, supplies.field) = (supply(-2.125), supply(5.0), supply(9.5));
-    Ledger {
-        stored_at_start: StoredEnergy {
+    let start = Opening {
+        stored: Stored {
             kinetic: 1.0,
             spin: 0.6,
             elastic: 0.35,
             tangential_spring: 0.4,
             bonds: 0.15,
             near_field: 0.45,
+            thermal: 0.0,
         },
-        momentum_at_start: Momentum {
-            linear: Vec3::new(0.9, -1.3, 2.2),
-            angular: Vec3::new(0.31, 0.62, -0.17),
-        },
-        flows: Flows {
-            rays: supply(20.0),
-            supplies,
-            damping: 3.25,
-            tangential: 4.5,
-            bond_damping: 6.5,
-            broken_bonds: 7.75,
-        },
-        momentum_size_at_start: 40.0,
-        scale: 1000.0,
-        worst: 0.0625,
-    }
+        momentum: Momentum { linear: Vec3::new(0.9, -1.3, 2.2), angular: Vec3::new(0.31, 0.62, -0.17) },
+        momentum_size: 40.0,
+        mass: 1.5,
+    };
+    let mut ledger = Ledger::of_soft(start, RADII.len());
+    ledger.flows = Flows {
+        rays: supply(20.0),
+        supplies,
+        damping: 3.25,
+        tangential: 4.5,
+        bond_damping: 6.5,
+        broken_bonds: 7.75,
+        ..Flows::default()
+    };
+    (ledger.scale, ledger.worst) = (1000.0, 0.0625);
+    ledger
 }
 
 /// The clusters at the start.
@@ -245,7 +245,7 @@ fn vector(vector: Vec3) -> Json {
 /// What the sums over grains come to, worked out here from the numbers above.
 pub struct ByHand {
     /// Energies now [J].
-    pub stored: StoredEnergy,
+    pub stored: Stored,
     /// Linear [kg m/s] and angular [kg m²/s] momentum now.
     pub momentum: [Vec3; 2],
     /// The same that impulses do not explain.
@@ -283,19 +283,20 @@ pub fn by_hand() -> ByHand {
             near_field += 8.987_551_786_2e9 * charge(a) * charge(b) / (PERMITTIVITY * distance(a, b));
         }
     }
-    let books = ledger();
-    let (flows, start) = (&books.flows, &books.momentum_at_start);
+    let ledger = ledger();
+    let (flows, start) = (&ledger.flows, &ledger.start.momentum);
     let supplies = [flows.rays, flows.supplies.drag, flows.supplies.gravity, flows.supplies.field];
     let impulse: Vec3 = supplies.iter().map(|supply| supply.force).sum();
     let twist: Vec3 = supplies.iter().map(|supply| supply.torque).sum();
     ByHand {
-        stored: StoredEnergy {
+        stored: Stored {
             kinetic,
             spin: spinning,
             elastic: 8.0 / 15.0 * effective * shared.sqrt() * overlap.powf(2.5),
             tangential_spring: Vec3::from(SPRING.0).norm_squared() / (2.0 * SPRING.1),
             bonds,
             near_field,
+            thermal: 0.0,
         },
         momentum,
         drift: [momentum[0] - start.linear - impulse, momentum[1] - start.angular - twist],
@@ -305,18 +306,11 @@ pub fn by_hand() -> ByHand {
 /// What energies are due under the names of the table and of the summary, drawn up from [`by_hand`] and the flows of
 /// [`ledger`].
 pub fn energies() -> [(&'static str, f64); 16] {
-    let (stored, start) = (by_hand().stored, ledger().stored_at_start);
-    let all = |stored: &StoredEnergy| {
-        stored.kinetic
-            + stored.spin
-            + stored.elastic
-            + stored.tangential_spring
-            + stored.bonds
-            + stored.near_field
-    };
+    let (stored, start) = (by_hand().stored, ledger().start.stored);
     // Of the 4.5 J that tangential forces took, the springs gave back what they had more at the start.
     let friction = 4.5 + 0.4 - stored.tangential_spring;
-    let drift = all(&stored) - all(&start) - (20.0 + 5.0 + 9.5) + (2.125 + 3.25 + friction + 6.5 + 7.75);
+    let drift = stored.mechanical() - start.mechanical() - (20.0 + 5.0 + 9.5)
+        + (2.125 + 3.25 + friction + 6.5 + 7.75);
     [
         ("kinetic_J", stored.kinetic),
         ("spin_J", stored.spin),

@@ -2,7 +2,8 @@
 
 use crate::acoustics::{BeamPower, PulseCount};
 use crate::engine::soft::{Clock, Simulation};
-use crate::measure::{Balance, ClusterSummary, Moments, Momentum, mean_nearest_distance, moments};
+use crate::ledger::{Balance, Momentum};
+use crate::measure::{ClusterSummary, Moments, mean_nearest_distance, moments};
 
 use super::summary::Clusters;
 use super::together::{Together, dispersion_since};

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::acoustics::{BeamPower, PulseCount};
 use crate::engine::soft::{Pulses, Simulation};
-use crate::measure::Balance;
+use crate::ledger::Balance;
 use crate::run::summary::{time_row, wall_row, warnings_row};
 use crate::text::readable;
 

@@ -3,7 +3,8 @@
 use crate::contact::bond::Break;
 use crate::contact::network::BondEvent;
 use crate::folder::names;
-use crate::record::columns::{Column, Table, Tables, count, number, number_or_none, word};
+use crate::ledger::{Entry, entry::soft as told};
+use crate::record::columns::{Column, Table, Tables, count, entry, number, number_or_none, word};
 
 use super::now::Now;
 use super::panels::{
@@ -12,26 +13,30 @@ use super::panels::{
 
 const TIME: Column<Now> = number("time_s", "s", "time", "simulated", |now: &Now| now.clock.time);
 
+const fn energy(told: &Entry) -> Column<Now> {
+    entry(told, |now: &Now| &now.balance)
+}
+
 /// The ledger.
 #[rustfmt::skip]
 pub static ENERGY: Table<Now> = Table { file: names::ENERGY, columns: &[
     TIME,
-    number("kinetic_J", "J", "kinetic energy", "of centers, added mass included", |now: &Now| now.balance.stored.kinetic).on(&STORES).glance(9),
-    number("spin_J", "J", "energy of spin", "", |now: &Now| now.balance.stored.spin).on(&STORES),
-    number("elastic_J", "J", "elastic energy", "in contacts, along the normal", |now: &Now| now.balance.stored.elastic).on(&STORES),
-    number("tangential_spring_J", "J", "energy of tangential springs", "in contacts", |now: &Now| now.balance.stored.tangential_spring).on(&STORES),
-    number("bonds_J", "J", "energy of bonds", "elastic; negative for `strain_bond`", |now: &Now| now.balance.stored.bonds).on(&STORES),
-    number("near_field_J", "J", "energy of the near field", "potential", |now: &Now| now.balance.stored.near_field).on(&STORES),
-    number("work_rays_J", "J", "put in by rays", "since the start", |now: &Now| now.balance.rays).on(&FLOWS),
-    number("work_gravity_J", "J", "put in by gravity", "since the start", |now: &Now| now.balance.gravity).on(&FLOWS),
-    number("work_fields_J", "J", "put in by fields", "since the start", |now: &Now| now.balance.fields).on(&FLOWS),
-    number("lost_drag_J", "J", "lost to drag", "since the start; negative where the medium drives the grains", |now: &Now| now.balance.drag).on(&FLOWS),
-    number("lost_contact_damping_J", "J", "lost in contacts", "in their dashpots, since the start", |now: &Now| now.balance.damping).on(&FLOWS),
-    number("lost_friction_J", "J", "lost to friction", "since the start", |now: &Now| now.balance.friction).on(&FLOWS),
-    number("lost_bond_damping_J", "J", "lost in bonds", "in their dashpots, since the start", |now: &Now| now.balance.bond_damping).on(&FLOWS),
-    number("lost_broken_bonds_J", "J", "lost with broken bonds", "since the start", |now: &Now| now.balance.broken_bonds).on(&FLOWS),
-    number("drift_J", "J", "not explained", "by the stores and the channels", |now: &Now| now.balance.drift).on(&FLOWS),
-    number("drift_relative", "", "energy drift", "over the most energy so far that was there or came in and is explained", |now: &Now| now.balance.drift_relative).glance(11),
+    energy(&told::KINETIC).on(&STORES).glance(9),
+    energy(&told::SPIN).on(&STORES),
+    energy(&told::ELASTIC).on(&STORES),
+    energy(&told::TANGENTIAL_SPRING).on(&STORES),
+    energy(&told::BONDS).on(&STORES),
+    energy(&told::NEAR_FIELD).on(&STORES),
+    energy(&told::RAYS).on(&FLOWS),
+    energy(&told::GRAVITY).on(&FLOWS),
+    energy(&told::FIELDS).on(&FLOWS),
+    energy(&told::DRAG).on(&FLOWS),
+    energy(&told::DAMPING).on(&FLOWS),
+    energy(&told::FRICTION).on(&FLOWS),
+    energy(&told::BOND_DAMPING).on(&FLOWS),
+    energy(&told::BROKEN_BONDS).on(&FLOWS),
+    energy(&told::DRIFT).on(&FLOWS),
+    energy(&told::DRIFT_RELATIVE).glance(11),
 ] };
 
 /// Momenta.

@@ -83,7 +83,7 @@ fn inside(check: &mut Check, key: &str, beam: &Beam, acoustics: &Acoustics) {
         let message = "lies outside acoustics.region, where rays live".to_owned();
         return check.fail_with(&format!("{key}.start"), message, "enlarge the region or leave it out");
     }
-    if !beam.starts_inside(region) {
+    if !beam.disc().lies_in(region) {
         let message = "part of the disc of rays lies outside acoustics.region, where rays live".to_owned();
         check.fail_with(&format!("{key}.radius"), message, "enlarge the region or leave it out");
     }

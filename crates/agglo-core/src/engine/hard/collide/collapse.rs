@@ -1,4 +1,4 @@
-//! Inelastic collapse: bounces that follow one another ever faster, infinitely many in a finite time.
+//! The TC model of inelastic collapse: bounces that follow one another ever faster, infinitely many in a finite time.
 //!
 //! # Equation
 //! A bounce is elastic if its pair has bounced with one another n times before, each time less than t_c after the last, and

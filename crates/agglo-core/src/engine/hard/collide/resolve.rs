@@ -79,7 +79,7 @@ impl HardSystem {
         let loses = outcome.restitution < 1.0 || outcome.energy.tangential > 0.0;
         let bounces = !outcome.sticks && outcome.fragments == [1, 1];
         if bounces && loses && self.contact_duration > 0.0 && self.collapses(collision) {
-            self.state.counts.guarded += 1;
+            self.state.counts.tc_bounces += 1;
             self.state.ledger.flows.kept += outcome.energy.normal + outcome.energy.tangential;
             return self.laws.elastic([a, b], collision.normal);
         }

@@ -3,10 +3,11 @@
 use serde::{Deserialize, Serialize};
 
 use crate::domain::{Volume, resolution};
-use crate::engine::hard::record::{Counts, Descent, EventKind, GrainEvent, HardLedger};
+use crate::engine::hard::record::{Counts, Descent, EventKind, GrainEvent};
 use crate::engine::hard::spheres::Spheres;
 use crate::engine::{SimError, Warnings};
 use crate::impact::{Body, Draws, ImpactLaws, Outcome};
+use crate::ledger::Ledger;
 use crate::math::Vec3;
 use crate::measure::SizeRates;
 
@@ -19,7 +20,7 @@ pub struct HardSystemState {
     /// The spheres.
     pub spheres: Spheres,
     /// The ledger.
-    pub ledger: HardLedger,
+    pub ledger: Ledger,
     /// Counts.
     pub counts: Counts,
     /// Collision and aggregation by size.
@@ -74,11 +75,11 @@ impl HardSystem {
     }
 
     pub(super) fn book(&mut self, collision: &Collision, outcome: &Outcome) {
-        let (ledger, bodies) = (&mut self.state.ledger, &collision.bodies);
-        ledger.add(&outcome.energy);
+        let (flows, bodies) = (&mut self.state.ledger.flows, &collision.bodies);
+        flows.collisions.add(&outcome.energy);
         if bodies.iter().any(|body| body.heat_capacity == 0.0) {
             let kept = |k: usize| bodies[k].heat_capacity * (outcome.temperatures[k] - bodies[k].temperature);
-            ledger.add_unkept(outcome.energy.heat - (kept(0) + kept(1)));
+            flows.unkept.add(outcome.energy.heat - (kept(0) + kept(1)));
         }
     }
 

@@ -371,7 +371,7 @@ fn books_close() {
             assert!(state.counts.merges + state.counts.fragmentations > 20, "{boundary}: {:?}", state.counts);
             let mass: f64 = state.spheres.bulk.iter().map(|bulk| bulk.mass).sum();
             // Sums of 200 terms over some thousand collisions.
-            assert_close!(mass, state.ledger.mass_at_start, 1e-13, "in kg");
+            assert_close!(mass, state.ledger.start.mass, 1e-13, "in kg");
             assert!(balance.kinetic_drift_relative.abs() < 1e-12, "{boundary} {engine} {balance:?}");
             assert!(balance.drift_relative.abs() < 1e-12, "{boundary} {engine} {balance:?}");
             assert_below!(simulation.momentum_drift_relative(), 1e-12);

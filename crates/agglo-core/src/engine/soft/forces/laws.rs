@@ -5,10 +5,10 @@ use crate::contact::{Bonds, ContactLaws, PairTable};
 use crate::fields::near_field::{NearField, Source};
 use crate::fields::{Channel, Drag, Fields, Flow, FlowAt, Grain, spin_coefficient};
 use crate::law::Chosen;
+use crate::ledger::{Supplies, Supply};
 use crate::math::Vec3;
 use crate::particles::{Material, Motion, Particles};
 
-use super::loads::{Supplies, Supply};
 use super::response::Response;
 use crate::engine::soft::settings::Settings;
 

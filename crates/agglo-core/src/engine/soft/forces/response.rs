@@ -20,9 +20,10 @@
 //! | g      | `spin`       | N m s   | torque over angular velocity |
 //! | h      |              | s/kg    | φ Δt/m |
 
+use crate::ledger::Correction;
 use crate::math::Vec3;
 
-use super::loads::{Correction, LoadViews};
+use super::loads::LoadViews;
 
 /// Slopes of the forces on one grain over its velocity and spin.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

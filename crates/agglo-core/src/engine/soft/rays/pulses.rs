@@ -14,9 +14,9 @@ use crate::particles::Particles;
 use crate::units::Velocity;
 
 use super::flight::validate_flight;
-use crate::engine::soft::forces::loads::Supply;
 use crate::engine::soft::settings::Settings;
 use crate::engine::soft::system::System;
+use crate::ledger::Supply;
 
 /// A pulse that starts at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -209,7 +209,7 @@ impl Pulses {
                 );
                 warnings.add_times(&text, u64::from(rays));
             }
-            let arrival = beam.first_meeting(targets.positions, targets.radii);
+            let arrival = beam.first_hit(targets.positions, targets.radii);
             if let Some(text) =
                 warning_of_launch(launch.beam, arrival, setup.medium.sound_speed.si(), end - now)
             {

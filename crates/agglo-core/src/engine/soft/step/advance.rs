@@ -4,8 +4,9 @@ use std::ops::Range;
 
 use crate::math::{Vec3, parallel};
 
-use crate::engine::soft::forces::loads::{Correction, LoadViews};
+use crate::engine::soft::forces::loads::LoadViews;
 use crate::engine::soft::system::{LEAF, System};
+use crate::ledger::Correction;
 
 /// What one update of the trial motion amounts to.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

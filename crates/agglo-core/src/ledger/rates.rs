@@ -1,0 +1,122 @@
+//! The rates at which forces feed or drain the ledger.
+
+use std::ops::Add;
+
+use serde::{Deserialize, Serialize};
+
+use crate::contact::pass::ContactRates;
+use crate::math::Vec3;
+
+/// What an outer agent does to all grains together, per second.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Supply {
+    /// Power put in [W].
+    pub power: f64,
+    /// Force [N].
+    pub force: Vec3,
+    /// Torque about the origin [N m].
+    pub torque: Vec3,
+}
+
+impl Supply {
+    /// A force at a point of a grain with this position and velocity.
+    #[inline]
+    pub fn of(force: Vec3, position: Vec3, velocity: Vec3) -> Self {
+        Self { power: force.dot(velocity), force, torque: position.cross(force) }
+    }
+
+    /// The weighted sum with another.
+    #[must_use]
+    pub fn plus(self, other: Self, weight: f64) -> Self {
+        Self {
+            power: self.power + weight * other.power,
+            force: self.force + other.force * weight,
+            torque: self.torque + other.torque * weight,
+        }
+    }
+}
+
+impl Add for Supply {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        self.plus(other, 1.0)
+    }
+}
+
+/// Supplies of single-grain forces, by channel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Supplies {
+    /// Drag of the medium (its power is mostly negative).
+    pub drag: Supply,
+    /// Weight and buoyancy.
+    pub gravity: Supply,
+    /// Electric and magnetic forces.
+    pub field: Supply,
+}
+
+impl Supplies {
+    /// Forces [N] and a torque [N m] by which the loads on a grain at a point [m] changed when its velocity was solved
+    /// for. What they supply is of second order in the step and left out.
+    #[inline]
+    pub fn note_correction(&mut self, position: Vec3, drag: Vec3, magnetic: Vec3, spun: Vec3) {
+        self.drag.force += drag;
+        self.drag.torque += position.cross(drag) + spun;
+        self.field.force += magnetic;
+        self.field.torque += position.cross(magnetic);
+    }
+}
+
+impl Add for Supplies {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self {
+            drag: self.drag + other.drag,
+            gravity: self.gravity + other.gravity,
+            field: self.field + other.field,
+        }
+    }
+}
+
+/// What solving for velocities changes in the ledger of a step.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Correction {
+    /// Changes of the supplies at the end of the step.
+    pub supplies: Supplies,
+    /// Change of drag over that of velocity, both within the step [W]: -ΔF · Δv - ΔM · Δw.
+    pub bend: f64,
+}
+
+impl Add for Correction {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self { supplies: self.supplies + other.supplies, bend: self.bend + other.bend }
+    }
+}
+
+/// All rates at one time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Rates {
+    /// Power lost in contact dashpots [W].
+    pub damping: f64,
+    /// Power that friction and tangential springs take from the motion [W].
+    pub tangential: f64,
+    /// Power lost in the dashpots of bonds [W].
+    pub bond_damping: f64,
+    /// Single-grain forces.
+    pub supplies: Supplies,
+    /// By how much drag changed within the step that led here, over how velocities did: -ΔF · Δv - ΔM · Δw [W].
+    pub bend: f64,
+}
+
+impl Rates {
+    /// Puts the parts together.
+    pub fn new(contact: &ContactRates, bond_damping: f64, supplies: Supplies) -> Self {
+        Self { damping: contact.damping, tangential: contact.tangential, bond_damping, supplies, bend: 0.0 }
+    }
+
+    /// Brings in what solving for velocities changed in the step that leads here.
+    pub fn correct(&mut self, correction: Correction) {
+        self.supplies = self.supplies + correction.supplies;
+        self.bend = correction.bend;
+    }
+}
