@@ -17,12 +17,11 @@
 use std::borrow::Cow;
 use std::fmt;
 
-use exmex::{Differentiate, Express, FlatEx};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 
 use crate::math::Vec3;
-use crate::math::formula::{self, Parsed};
+use crate::math::formula::{self, Formula};
 use crate::units::{Dimension, kind_of, parse_quantity};
 
 /// One component of a field: `"0.1 T"`, or `"0.1*sin(6.28*t) + 3*x"` in SI units.
@@ -35,57 +34,16 @@ pub struct Expression<const KG: i8, const M: i8, const S: i8, const K: i8, const
 #[derive(Clone, Debug)]
 enum Value {
     Constant(f64),
-    Formula { formula: Box<FlatEx<f64>>, arguments: Vec<usize> },
-}
-
-/// The derivative of an [`Expression`] along one axis.
-#[derive(Clone, Debug)]
-pub struct Slope(Derivative);
-
-#[derive(Clone, Debug)]
-enum Derivative {
-    Zero,
-    Formula(Value),
-    /// A function of the expression has none.
-    Unknown,
-}
-
-impl Slope {
-    /// Its value at a point [m] and time [s]; nothing where the expression has no derivative.
-    #[inline]
-    pub fn at(&self, point: Vec3, time: f64) -> Option<f64> {
-        match &self.0 {
-            Derivative::Zero => Some(0.0),
-            Derivative::Formula(value) => Some(value.at(point, time)),
-            Derivative::Unknown => None,
-        }
-    }
-}
-
-impl Value {
-    #[inline]
-    fn at(&self, point: Vec3, time: f64) -> f64 {
-        match self {
-            Self::Constant(value) => *value,
-            Self::Formula { formula, arguments } => {
-                let known = [point.x, point.y, point.z, time, std::f64::consts::PI];
-                let mut given = [0.0; 5];
-                for (slot, which) in given.iter_mut().zip(arguments) {
-                    *slot = known[*which];
-                }
-                formula.eval(&given[..arguments.len()]).unwrap_or(f64::NAN)
-            }
-        }
-    }
+    /// Names are the numbers of what they stand for in [`VARIABLES`].
+    Formula(Box<Formula<usize>>),
 }
 
 /// Three components of a field.
 pub type FieldVector<const KG: i8, const M: i8, const S: i8, const K: i8, const A: i8> =
     [Expression<KG, M, S, K, A>; 3];
 
-/// What a formula may name: where, when, and one constant that is not a reason to call it a formula.
-const VARIABLES: [&str; 5] = ["x", "y", "z", "t", "pi"];
-const PI_SLOT: usize = 4;
+/// What a formula may name: where and when.
+const VARIABLES: [&str; 4] = ["x", "y", "z", "t"];
 
 impl<const KG: i8, const M: i8, const S: i8, const K: i8, const A: i8> Expression<KG, M, S, K, A> {
     /// Reads a constant with its unit, or a formula in SI units.
@@ -98,55 +56,56 @@ impl<const KG: i8, const M: i8, const S: i8, const K: i8, const A: i8> Expressio
             Ok(value) => return Ok(Self { text: text.to_owned(), value: Value::Constant(value) }),
             Err(reason) => reason.to_string(),
         };
-        let Parsed { expression: formula, names } = match formula::parse(text) {
-            Ok(parsed) => parsed,
+        let find = |name: &str| {
+            VARIABLES.iter().position(|known| *known == name).ok_or_else(|| {
+                let advice = formula::advice(name).map(|advice| format!("; {advice}")).unwrap_or_default();
+                format!(
+                    "\"{text}\" uses \"{name}\"; a formula knows x, y, z [m] and t [s], a constant needs a unit, such as \"{}\"{advice}",
+                    kind_of(dimension).example
+                )
+            })
+        };
+        match Formula::new(text, find) {
+            Ok(formula) if formula.names().is_empty() => Err(reason),
+            Ok(formula) => Ok(Self { text: text.to_owned(), value: Value::Formula(Box::new(formula)) }),
             // What only looks like a formula is a constant that is broken.
             Err(why) if why.contains("is not a formula") => {
-                return Err(format!("{reason}, or a formula in x, y, z, t"));
+                Err(format!("{reason}, or a formula in x, y, z, t"))
             }
-            Err(why) => return Err(why),
-        };
-        if let Some(stranger) = names.iter().find(|name| !VARIABLES.contains(&name.as_str())) {
-            let kind = kind_of(dimension);
-            let advice = formula::advice(stranger).map(|advice| format!("; {advice}")).unwrap_or_default();
-            return Err(format!(
-                "\"{text}\" uses \"{stranger}\"; a formula knows x, y, z [m] and t [s], a constant needs a unit, such as \"{}\"{advice}",
-                kind.example
-            ));
+            Err(why) => Err(why),
         }
-        let arguments: Vec<usize> =
-            names.iter().filter_map(|name| VARIABLES.iter().position(|known| known == name)).collect();
-        if arguments.iter().all(|&which| which == PI_SLOT) {
-            return Err(reason);
-        }
-        Ok(Self { text: text.to_owned(), value: Value::Formula { formula: Box::new(formula), arguments } })
     }
 
     /// The value at a point [m] and time [s], in SI units.
     #[inline]
     pub fn at(&self, point: Vec3, time: f64) -> f64 {
-        self.value.at(point, time)
+        match &self.value {
+            Value::Constant(value) => *value,
+            Value::Formula(formula) => {
+                let known = [point.x, point.y, point.z, time];
+                formula.at(|name| known[name])
+            }
+        }
     }
 
-    /// The derivative along x, y, z or t, counted from 0.
-    pub fn slope(&self, axis: usize) -> Slope {
-        let Value::Formula { formula, arguments } = &self.value else { return Slope(Derivative::Zero) };
-        let Some(place) = arguments.iter().position(|which| *which == axis) else {
-            return Slope(Derivative::Zero);
-        };
-        let Ok(slope) = (**formula).clone().partial(place) else { return Slope(Derivative::Unknown) };
-        // The derivative has the formula's own names for its variables.
-        let same = |name: &String| formula.var_names().iter().position(|own| own == name);
-        let arguments =
-            slope.var_names().iter().filter_map(|name| same(name).map(|at| arguments[at])).collect();
-        Slope(Derivative::Formula(Value::Formula { formula: Box::new(slope), arguments }))
+    /// The slopes along x, y, z [per m] and t [per s] at a point [m] and time [s].
+    #[inline]
+    pub fn slopes_at(&self, point: Vec3, time: f64) -> [f64; 4] {
+        match &self.value {
+            Value::Constant(_) => [0.0; 4],
+            Value::Formula(formula) => {
+                let known = [point.x, point.y, point.z, time];
+                let along = |name: usize| std::array::from_fn(|way| if way == name { 1.0 } else { 0.0 });
+                formula.with_slopes(|name| known[name], along).1
+            }
+        }
     }
 
     /// The value if it is the same everywhere and always.
     pub fn constant(&self) -> Option<f64> {
         match &self.value {
             Value::Constant(value) => Some(*value),
-            Value::Formula { .. } => None,
+            Value::Formula(_) => None,
         }
     }
 }

@@ -1,20 +1,12 @@
 //! Formulas of parameters and of columns of a summary, in SI units, in the language of [`crate::math::formula`].
 //!
 //! Names may have dots: `0.7*growth_deficit + 0.3*energy.heat_J/v^2`. Which names there are is said where a formula is
-//! bound to them; `pi` is 3.14159... in all of them.
+//! bound to them.
 
-use exmex::{Express, FlatEx};
+use crate::math::formula;
 
-use crate::math::formula::{self, PI, Parsed};
-
-/// A formula and where the values of its names are found.
-#[derive(Clone, Debug)]
-pub struct Formula {
-    text: String,
-    expression: Box<FlatEx<f64>>,
-    sources: Vec<Source>,
-    names_pi: bool,
-}
+/// A formula of parameters and columns.
+pub type Formula = formula::Formula<Source>;
 
 /// Where the value of a name is found.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,50 +15,15 @@ pub enum Source {
     Parameter(usize),
     /// Among the columns, with this number.
     Column(usize),
-    /// It is always the same.
-    Constant(f64),
 }
 
-impl Formula {
-    /// Reads a formula whose names are found by `find`.
-    ///
-    /// # Errors
-    /// Says what is wrong with the text, or what `find` says of a name.
-    pub fn new(text: &str, mut find: impl FnMut(&str) -> Result<Source, String>) -> Result<Self, String> {
-        let Parsed { expression, names } = formula::parse(text)?;
-        let mut source = |name: &String| {
-            if name == PI { Ok(Source::Constant(std::f64::consts::PI)) } else { find(name) }
-        };
-        let sources = names.iter().map(&mut source).collect::<Result<Vec<_>, _>>()?;
-        let names_pi = names.iter().any(|name| name == PI);
-        Ok(Self { text: text.to_owned(), expression: Box::new(expression), sources, names_pi })
-    }
-
-    /// Whether it has neither a parameter nor a column in it.
-    pub fn is_constant(&self) -> bool {
-        self.sources.iter().all(|source| matches!(source, Source::Constant(_)))
-    }
-
-    /// Whether it has the constant `pi` in it.
-    pub fn names_pi(&self) -> bool {
-        self.names_pi
-    }
-
-    /// Its text.
-    pub fn text(&self) -> &str {
-        &self.text
-    }
-
-    /// Its value for values of the parameters and of the columns; not a number where it has none.
-    pub fn at(&self, parameters: &[f64], columns: &[f64]) -> f64 {
-        let value = |source: &Source| match *source {
-            Source::Parameter(number) => parameters.get(number).copied(),
-            Source::Column(number) => columns.get(number).copied(),
-            Source::Constant(value) => Some(value),
-        };
-        let given: Vec<f64> = self.sources.iter().map(|source| value(source).unwrap_or(f64::NAN)).collect();
-        self.expression.eval(&given).unwrap_or(f64::NAN)
-    }
+/// The value of a formula for values of the parameters and of the columns; not a number where it has none.
+pub fn value_of(formula: &Formula, parameters: &[f64], columns: &[f64]) -> f64 {
+    let value = |source: Source| match source {
+        Source::Parameter(number) => parameters.get(number).copied(),
+        Source::Column(number) => columns.get(number).copied(),
+    };
+    formula.at(|source| value(source).unwrap_or(f64::NAN))
 }
 
 #[cfg(test)]
@@ -82,7 +39,7 @@ mod tests {
             "pulses.0.power_in_W" => Ok(Source::Column(2)),
             _ => Err(format!("who is {name}?")),
         };
-        Ok(Formula::new(text, find)?.at(&[2.0, 3.0], &[0.5, 1e3, 7.0]))
+        Ok(value_of(&Formula::new(text, find)?, &[2.0, 3.0], &[0.5, 1e3, 7.0]))
     }
 
     /// The same arithmetic in Rust; two roundings may differ in order.

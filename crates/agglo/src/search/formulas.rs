@@ -83,7 +83,7 @@ impl Reader<'_> {
     }
 
     fn with_names(&self, formula: Formula) -> Result<Formula, String> {
-        if !formula.is_constant() {
+        if !formula.names().is_empty() {
             return Ok(formula);
         }
         let text = formula.text();

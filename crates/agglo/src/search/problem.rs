@@ -11,7 +11,7 @@ use super::axes::{self, Knob};
 use super::base::BaseScenario;
 use super::campaign::LimitKept;
 use super::file::Campaign;
-use super::formula::Formula;
+use super::formula::{Formula, value_of};
 use super::formulas::{Corridor, Cost, Reader};
 use super::setter::Setter;
 use super::space::{self, Axis};
@@ -108,7 +108,7 @@ impl Problem {
         let numbers = self.numbers(&candidate.values);
         let of = |limit: &Corridor| {
             let values: Vec<f64> =
-                replicates.iter().map(|quantities| limit.formula.at(&numbers, quantities)).collect();
+                replicates.iter().map(|quantities| value_of(&limit.formula, &numbers, quantities)).collect();
             let moments = Moments::of(&values);
             let known = |quantity: f64| Some(quantity).filter(|quantity| quantity.is_finite());
             LimitKept {
@@ -204,20 +204,20 @@ impl Problem {
         let follow = self
             .derived
             .iter()
-            .map(move |(setter, formula)| (setter, setter.number(formula.at(&numbers, &[]))));
+            .map(move |(setter, formula)| (setter, setter.number(value_of(&formula, &numbers, &[]))));
         set.chain(follow)
     }
 
     /// Costs of quantities; `numbers` are the parameters as numbers.
     fn costs_of(&self, numbers: &[f64], quantities: &[f64]) -> Vec<f64> {
-        self.objectives.iter().map(|cost| cost.sign * cost.formula.at(numbers, quantities)).collect()
+        self.objectives.iter().map(|cost| cost.sign * value_of(&cost.formula, numbers, quantities)).collect()
     }
 
     /// The first objective or limit that has no value for these quantities.
     fn without_value(&self, numbers: &[f64], quantities: &[f64]) -> Option<&str> {
         let objectives = self.objectives.iter().map(|cost| &cost.formula);
         let mut formulas = objectives.chain(self.limits.iter().map(|limit| &limit.formula));
-        formulas.find(|formula| !formula.at(numbers, quantities).is_finite()).map(Formula::text)
+        formulas.find(|formula| !value_of(formula, numbers, quantities).is_finite()).map(Formula::text)
     }
 }
 
@@ -231,7 +231,7 @@ impl Model for Problem {
     fn candidate(&self, point: &[f64]) -> Candidate {
         let values = space::values(&self.axes, point);
         let numbers = self.numbers(&values);
-        let missed = |corridor: &Corridor| corridor.missed(&[corridor.formula.at(&numbers, &[])]);
+        let missed = |corridor: &Corridor| corridor.missed(&[value_of(&corridor.formula, &numbers, &[])]);
         // An empty sum would be -0, which orders before 0.
         let violation = self.constraints.iter().map(missed).fold(0.0, |sum, part| sum + part);
         Candidate { point: point.to_vec(), values, violation }
@@ -282,7 +282,7 @@ impl Model for Problem {
         let moments: Vec<Moments> = (0..self.objectives.len()).map(|at| Moments::of(&of(at))).collect();
         let limits = self.limits.iter().map(|limit| {
             let values: Vec<f64> =
-                replicates.iter().map(|quantities| limit.formula.at(&numbers, quantities)).collect();
+                replicates.iter().map(|quantities| value_of(&limit.formula, &numbers, quantities)).collect();
             limit.missed(&values)
         });
         Fitness {
