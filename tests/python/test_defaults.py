@@ -89,8 +89,6 @@ time.end = "4 ms"
 [engine.verlet]
 [materials.glass]
 density = "2500 kg/m3"
-youngs_modulus = "10 MPa"
-poisson_ratio = 0.2
 sound_speed = "5000 m/s"
 contact_stiffness = "10 MPa"
 [[grains]]

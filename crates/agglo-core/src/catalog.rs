@@ -2,9 +2,9 @@
 //! of its table.
 
 use crate::acoustics::RayForce;
-use crate::contact::{Bonds, Damping, Friction, Normal};
+use crate::contact::{Bonds, Custom, Damping, Friction, Normal};
 use crate::fields::near_field::NearFieldLaw;
-use crate::fields::{Drag, Gravity, Lorentz, Magnetic, NearField};
+use crate::fields::{self, Drag, Gravity, Lorentz, Magnetic, NearField};
 use crate::impact::{Cooling, Fragmentation, HeatBalance, Restitution, Tangential};
 use crate::law::Entry;
 use crate::pages::{OF_SINGLE_FILES, Page};
@@ -12,11 +12,12 @@ use crate::pages::{OF_SINGLE_FILES, Page};
 /// The families.
 const FAMILIES: &[&[Entry]] = &[
     Normal::LAWS,
+    &[Custom::ENTRY],
     Damping::LAWS,
     Friction::LAWS,
     Bonds::LAWS,
     NearFieldLaw::LAWS,
-    &[Gravity::ENTRY, Drag::ENTRY, Lorentz::ENTRY, Magnetic::ENTRY],
+    &[Gravity::ENTRY, Drag::ENTRY, Lorentz::ENTRY, Magnetic::ENTRY, fields::Custom::ENTRY],
     Restitution::LAWS,
     &[Tangential::ENTRY, HeatBalance::ENTRY, Fragmentation::ENTRY, Cooling::ENTRY],
     RayForce::LAWS,

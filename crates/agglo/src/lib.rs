@@ -60,8 +60,12 @@
 //! | read what a law says of itself              | [`pages`]                                                          |
 //! | draw charts, pictures and pages             | the crate `agglo-view`                                             |
 //!
-//! The folder `examples` has five programs to begin with. Quantities are in SI units. What can go wrong has an error of its
-//! own in each part, and becomes [`Error`] by `?`.
+//! # To begin with
+//! The folder `examples` of this crate has programs to start from: `own_loop` (steps one by one, with kicks that the ledger knows
+//! of), `rays` (sound on given spheres), `collision` (the outcome of one), `own_cost` (an optimizer with a cost of one's own) and
+//! `read_run` (what stands in a folder). A loop that does not care for the kind of spheres takes an [`engine::Simulation`].
+//!
+//! Quantities are in SI units. What can go wrong has an error of its own in each part, and becomes [`Error`] by `?`.
 //!
 //! The modules stand in the order in which data flows. Those of the physics are of the crate `agglo-core`.
 

@@ -56,9 +56,16 @@ fn the_channels_of_energy_add_up_to_the_drift() {
     for scenario in [STAGGERED, VERLET] {
         let energy = &summary(scenario)["energy"];
         let sum = |keys: &[&str]| keys.iter().map(|key| number(energy, key)).sum::<f64>();
-        let stores =
-            sum(&["kinetic_J", "spin_J", "elastic_J", "tangential_spring_J", "bonds_J", "near_field_J"]);
-        let works = sum(&["work_rays_J", "work_gravity_J", "work_fields_J"]);
+        let stores = sum(&[
+            "kinetic_J",
+            "spin_J",
+            "elastic_J",
+            "tangential_spring_J",
+            "bonds_J",
+            "near_field_J",
+            "fields_J",
+        ]);
+        let works = sum(&["work_rays_J", "work_gravity_J", "work_fields_J", "work_custom_J"]);
         let losses = sum(&[
             "lost_drag_J",
             "lost_contact_damping_J",

@@ -3,17 +3,22 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Damping, Elastic, Friction, Normal, PairConstants, Touch};
-use crate::law::Chosen;
-use crate::math::{Pace, Real};
-use crate::particles::Mixture;
+use super::{Custom, Damping, Elastic, Friction, Normal, PairConstants, Touch};
+use crate::law::{Chosen, Faults, HIGHEST_EXPONENT};
+use crate::math::Pace;
+use crate::math::roots::root_between;
+use crate::particles::{Material, Mixture};
 
 /// The laws of contact of a scenario: what repels, what dissipates, what resists sliding.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ContactLaws {
-    /// The elastic repulsion along the line of centers.
-    pub normal: Normal,
+    /// The elastic repulsion along the line of centers; it or `custom` must be given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub normal: Option<Normal>,
+    /// A force along the line of centers as a formula, which adds to `normal`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub custom: Option<Custom>,
     /// The dissipation along the line of centers; none if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub damping: Option<Damping>,
@@ -25,9 +30,19 @@ pub struct ContactLaws {
 impl ContactLaws {
     /// All that the scenario has chosen.
     pub fn chosen(&self) -> impl Iterator<Item = Chosen<'_>> {
+        let along = self.normal.iter().map(Normal::chosen).chain(self.custom.iter().map(Custom::chosen));
         let damping = self.damping.iter().map(Damping::chosen);
         let friction = self.friction.iter().map(Friction::chosen);
-        std::iter::once(self.normal.chosen()).chain(damping).chain(friction)
+        along.chain(damping).chain(friction)
+    }
+
+    /// What is wrong with the laws together; keys are relative to the table of contact.
+    pub fn faults(&self, faults: &mut Faults) {
+        if self.normal.is_none() && self.custom.is_none() {
+            let message =
+                "has neither normal nor custom: nothing would act along the line of centers".to_owned();
+            faults.fail_with("", message, "for example [contact.normal.hertz]");
+        }
     }
 
     /// Whether contacts have a memory.
@@ -52,23 +67,56 @@ impl ContactLaws {
         }
     }
 
-    /// What the elastic law makes of a contact.
+    /// What the elastic laws make of a contact: what is built in where grains touch, and the formula at rest.
     #[inline]
-    pub fn elastic<F: Real>(
-        &self,
-        pair: &PairConstants<F>,
-        touch: &Touch<F>,
-        with_stiffness: bool,
-    ) -> Elastic<F> {
-        let stiffness =
-            if with_stiffness { self.normal.tangent_stiffness(pair, touch) } else { F::default() };
-        Elastic { force: self.normal.force(pair, touch), stiffness, exponent: self.normal.exponent() }
+    pub fn elastic(&self, pair: &PairConstants, touch: &Touch, with_stiffness: bool) -> Elastic {
+        let mut elastic = Elastic::default();
+        if let Some(law) = self.normal.as_ref().filter(|_| touch.overlap > 0.0) {
+            let stiffness = if with_stiffness { law.tangent_stiffness(pair, touch) } else { 0.0 };
+            elastic = Elastic { force: law.force(pair, touch), stiffness, exponent: law.exponent() };
+        }
+        if let Some(law) = &self.custom {
+            elastic.force += law.force(pair, touch, 0.0);
+            if with_stiffness {
+                elastic.stiffness += law.slopes(pair, touch, 0.0)[0];
+                elastic.exponent = local_exponent(&elastic, touch.overlap);
+            }
+        }
+        elastic
     }
 
-    /// How fast the laws are in a contact with this overlap: along the line of centers or across it.
+    /// Energy stored along the line of centers [J].
+    pub fn energy(&self, pair: &PairConstants, touch: &Touch) -> f64 {
+        let normal = self.normal.as_ref().filter(|_| touch.overlap > 0.0);
+        normal.map_or(0.0, |law| law.energy(pair, touch))
+            + self.custom.as_ref().map_or(0.0, |law| law.energy(pair, touch))
+    }
+
+    /// How far beyond touching the laws act [m].
+    #[inline]
+    pub fn reach(&self) -> f64 {
+        self.custom.as_ref().map_or(0.0, Custom::reach)
+    }
+
+    /// How fast a wave crosses a grain of this radius [m], where a step must not outrun it either.
+    pub fn wave_pace(&self, material: &Material, radius: f64) -> Pace {
+        self.normal.as_ref().map_or(Pace::NONE, |law| law.wave_pace(material, radius))
+    }
+
+    /// How fast the laws are in a contact that reaches this overlap: along the line of centers or across it.
     pub fn pace(&self, pair: &PairConstants, touch: &Touch) -> Pace {
+        self.pace_beside(pair, touch, self.custom.as_ref().map_or(Pace::NONE, |law| law.pace(pair, touch)))
+    }
+
+    /// How fast the laws are in a contact with this overlap and this rate of it [m/s].
+    pub fn pace_at(&self, pair: &PairConstants, touch: &Touch, speed: f64) -> Pace {
+        let custom = self.custom.as_ref().map_or(Pace::NONE, |law| law.pace_at(pair, touch, speed));
+        if touch.overlap > 0.0 { self.pace_beside(pair, touch, custom) } else { custom }
+    }
+
+    fn pace_beside(&self, pair: &PairConstants, touch: &Touch, custom: Pace) -> Pace {
         let (elastic, mass) = (self.elastic(pair, touch, true), touch.effective_mass);
-        let spring = self.normal.pace(pair, touch);
+        let spring = self.normal.as_ref().map_or(Pace::NONE, |law| law.pace(pair, touch)) + custom;
         let dashpot = self.damping.as_ref().map_or(Pace::NONE, |law| law.pace(pair, touch, &elastic));
         // A law across the line of centers follows the stiffest that the contact was on its way to this overlap.
         let stiffest = Elastic { stiffness: spring.square * mass, ..elastic };
@@ -79,18 +127,68 @@ impl ContactLaws {
         (spring + dashpot).max(across)
     }
 
+    /// Overlap [m] at which two grains have given all of an energy [J] to the contact; nothing if they have not where
+    /// the center of one lies at that of the other.
+    pub fn deepest_overlap(&self, pair: &PairConstants, touch: &Touch, energy: f64) -> Option<f64> {
+        let left = |overlap: f64| self.energy(pair, &Touch { overlap, ..*touch }) - energy;
+        let most = touch.radius_sum;
+        let ends = [left(0.0), left(most)];
+        if ends[0] >= 0.0 {
+            return Some(0.0);
+        }
+        (ends[1] >= 0.0).then(|| root_between(left, [0.0, most], ends, 1e-12 * most).at)
+    }
+
     /// The laws without those that can outgrow the elastic contact: how fast the rest is at the deepest overlap holds
     /// for all others.
     #[must_use]
     pub fn bounded(&self) -> Self {
         let damping = self.damping.clone().filter(|law| !law.outgrows_contact());
         let friction = self.friction.clone().filter(|law| !law.outgrows_contact());
-        Self { normal: self.normal.clone(), damping, friction }
+        Self { damping, friction, ..self.clone() }
     }
 
-    /// Whether one of the laws can outgrow the elastic contact.
+    /// Whether one of the laws can outgrow the elastic contact; a formula of the speed may grow with it without a bound.
     pub fn outgrow_contact(&self) -> bool {
-        self.damping.as_ref().is_some_and(Damping::outgrows_contact)
+        self.custom.as_ref().is_some_and(Custom::has_speed)
+            || self.damping.as_ref().is_some_and(Damping::outgrows_contact)
             || self.friction.as_ref().is_some_and(Friction::outgrows_contact)
+    }
+}
+
+/// n where a force grows like overlap^n, from the force and its slope at an overlap [m]; at least 1, and 1 where the force
+/// does not grow.
+#[inline]
+fn local_exponent(elastic: &Elastic, overlap: f64) -> f64 {
+    let grows = elastic.force > 0.0 && elastic.stiffness > 0.0;
+    if grows { (overlap * elastic.stiffness / elastic.force).clamp(1.0, HIGHEST_EXPONENT) } else { 1.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::normal::{Hertz, Hooke};
+    use crate::units::Quantity;
+
+    /// Hertz: δ = (15 m* v²/(16 E* √R*))^(2/5); Hooke: v √(m*/k); both by hand, and nothing where grains pass through.
+    #[test]
+    fn deepest_overlaps_are_those_of_the_closed_forms() {
+        let of = |normal| ContactLaws { normal: Some(normal), custom: None, damping: None, friction: None };
+        let pair = PairConstants { effective_modulus: 3e9, ..Default::default() };
+        let touch = Touch::new([1e-3, 4e-3], [1e-6, 2e-6], [0.0; 2], 5e-3);
+        let (mass, speed) = (touch.effective_mass, 0.7);
+        let energy = 0.5 * mass * speed * speed;
+        let by_hand = (15.0 * mass * speed * speed / (16.0 * 3e9 * touch.effective_radius.sqrt())).powf(0.4);
+        let hertz = of(Normal::Hertz(Hertz {})).deepest_overlap(&pair, &touch, energy);
+        assert_close!(hertz.unwrap(), by_hand, 1e-8, "in m");
+        let hooke = of(Normal::Hooke(Hooke { stiffness: Quantity(2e4) }));
+        assert_close!(
+            hooke.deepest_overlap(&pair, &touch, energy).unwrap(),
+            speed * (mass / 2e4).sqrt(),
+            1e-8,
+            "in m"
+        );
+        let all = 0.5 * 2e4 * touch.radius_sum * touch.radius_sum;
+        assert_eq!(hooke.deepest_overlap(&pair, &touch, 1.001 * all), None);
     }
 }

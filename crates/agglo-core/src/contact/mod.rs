@@ -5,6 +5,7 @@
 
 pub mod bond;
 pub mod closeness;
+mod custom;
 pub mod damping;
 mod elastic;
 pub mod friction;
@@ -22,6 +23,7 @@ pub(crate) mod check;
 mod collision;
 
 pub use bond::Bonds;
+pub use custom::{ContactFormula, Custom, OfPair};
 pub use damping::Damping;
 pub use elastic::Elastic;
 pub use friction::Friction;

@@ -62,7 +62,8 @@ mod tests {
             dynamic_friction: Some(0.2),
         };
         let laws = ContactLaws {
-            normal: Normal::Hertz(Hertz {}),
+            normal: Some(Normal::Hertz(Hertz {})),
+            custom: None,
             damping: Some(Damping::Restitution(Restitution { restitution: 0.9 })),
             friction: Some(Friction::Mindlin(Mindlin {
                 static_friction: 0.5,

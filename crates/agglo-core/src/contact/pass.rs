@@ -1,4 +1,4 @@
-//! The one loop over pairs: which touch, and what the contact laws make of it.
+//! The one loop over pairs: which touch, or are within the reach of a law, and what the contact laws make of it.
 //!
 //! Each touching pair is computed once. Its load stands at the pair's number until the grains gather theirs, in a
 //! fixed order. Memory of contacts (tangential springs) is committed only when a step is accepted, so a step can
@@ -32,6 +32,8 @@ pub struct ContactLoad {
 pub struct ContactRates {
     /// Power lost in normal dashpots [W].
     pub damping: f64,
+    /// Power that a formula of contact puts in where it drives grains [W].
+    pub driven: f64,
     /// Power that tangential forces take from the motion [W].
     pub tangential: f64,
     /// Largest overlap over the sum of radii, with the pair's grains.
@@ -43,7 +45,12 @@ pub struct ContactRates {
 impl ContactRates {
     fn join(a: Self, b: Self) -> Self {
         let worst = if b.worst_strain > a.worst_strain { b } else { a };
-        Self { damping: a.damping + b.damping, tangential: a.tangential + b.tangential, ..worst }
+        Self {
+            damping: a.damping + b.damping,
+            driven: a.driven + b.driven,
+            tangential: a.tangential + b.tangential,
+            ..worst
+        }
     }
 }
 
@@ -96,6 +103,13 @@ pub struct ContactWorld<'a> {
     pub elapsed: f64,
     /// Length of the step [s], for laws that carry it.
     pub dt: f64,
+}
+
+impl ContactWorld<'_> {
+    /// How far beyond touching the laws act [m].
+    fn beyond(&self) -> f64 {
+        self.laws.map_or(0.0, ContactLaws::reach)
+    }
 }
 
 struct Slot<'a> {
@@ -210,12 +224,13 @@ fn compute_owners(
     let mut rates = ContactRates::default();
     let grains = world.grains;
     let base = world.list.starts()[range.start] as usize;
+    let beyond = world.beyond();
     for owner in range {
         let (at, radius) = (world.now.position[owner], grains.radius[owner]);
         for pair in world.list.owned(owner) {
             let partner = world.list.partners()[pair] as usize;
             let apart = world.now.position[partner] - at;
-            let reach = radius + grains.radius[partner];
+            let reach = radius + grains.radius[partner] + beyond;
             let squared = apart.norm_squared();
             let touching = squared < reach * reach;
             let here = pair - base;
@@ -267,6 +282,12 @@ impl<'a> Contact<'a> {
         }
     }
 
+    /// The bond that acts in contact.
+    #[inline]
+    fn bond<'b>(&self, world: &'b ContactWorld<'_>) -> Option<&'b StrainBond> {
+        world.bonds.and_then(Bonds::in_contact).filter(|_| self.touch.overlap > 0.0)
+    }
+
     /// Velocity [m/s] of the partner's surface relative to the owner's at the contact.
     #[inline]
     fn relative_velocity(&self, motion: &Motion<'_>) -> Vec3 {
@@ -295,13 +316,21 @@ impl<'a> Contact<'a> {
         let separation = velocity.dot(*normal);
         let slip = velocity - *normal * separation;
         let (mut repulsion, mut tangential, mut spring) = (0.0, Vec3::ZERO, TangentialSpring::default());
+        let is_touching = touch.overlap > 0.0;
         if let Some(laws) = world.laws {
             let elastic = laws.elastic(constants, touch, laws.takes_stiffness());
-            let dashpot =
-                laws.damping.as_ref().map_or(0.0, |law| law.coefficient(constants, touch, &elastic));
+            let damping = laws.damping.as_ref().filter(|_| is_touching);
+            let dashpot = damping.map_or(0.0, |law| law.coefficient(constants, touch, &elastic));
             repulsion = elastic.force - dashpot * separation;
             rates.damping += dashpot * separation * separation;
-            if let Some(law) = &laws.friction {
+            if let Some(law) = &laws.custom {
+                let beyond_rest = law.beyond_rest(constants, touch, -separation);
+                repulsion += beyond_rest;
+                let lost = -beyond_rest * separation;
+                rates.damping += lost.max(0.0);
+                rates.driven += (-lost).max(0.0);
+            }
+            if let Some(law) = laws.friction.as_ref().filter(|_| is_touching) {
                 let way = if law.has_memory() { self.way(world, slip) } else { Sliding::default() };
                 let sliding = Sliding {
                     normal: *normal,
@@ -316,7 +345,7 @@ impl<'a> Contact<'a> {
                 (tangential, spring) = law.force(constants, touch, &sliding, before.unwrap_or(&nothing));
             }
         }
-        if let Some(bond) = world.bonds.and_then(Bonds::in_contact) {
+        if let Some(bond) = self.bond(world) {
             repulsion -= bond.attraction(touch);
             tangential += self.strain_bond_slip(bond, slip, world.dt);
         }
@@ -358,7 +387,7 @@ pub struct ContactEnergy {
     pub bond: f64,
 }
 
-/// Goes through all touching pairs at the present positions and joins what `look` makes of each.
+/// Goes through all pairs on which laws act at the present positions and joins what `look` makes of each.
 fn over_contacts<R: Send + Sync + Copy>(
     world: &ContactWorld<'_>,
     nothing: R,
@@ -366,13 +395,14 @@ fn over_contacts<R: Send + Sync + Copy>(
     join: impl Fn(R, R) -> R + Sync,
 ) -> R {
     let owners = world.now.position.len();
+    let beyond = world.beyond();
     let leaf = |range: Range<usize>, ()| {
         let mut found = nothing;
         for owner in range {
             for pair in world.list.owned(owner) {
                 let partner = world.list.partners()[pair] as usize;
                 let apart = world.now.position[partner] - world.now.position[owner];
-                let reach = world.grains.radius[owner] + world.grains.radius[partner];
+                let reach = world.grains.radius[owner] + world.grains.radius[partner] + beyond;
                 if apart.norm_squared() < reach * reach {
                     found = join(found, look(&Contact::new(world, [owner, partner], apart, apart.norm())));
                 }
@@ -386,8 +416,8 @@ fn over_contacts<R: Send + Sync + Copy>(
 /// Adds up the normal energies at the present positions; for records, not for steps.
 pub fn contact_energy(world: &ContactWorld<'_>) -> ContactEnergy {
     let energy = |contact: &Contact<'_>| ContactEnergy {
-        normal: world.laws.map_or(0.0, |laws| laws.normal.energy(contact.constants, &contact.touch)),
-        bond: world.bonds.and_then(Bonds::in_contact).map_or(0.0, |bond| bond.energy(&contact.touch)),
+        normal: world.laws.map_or(0.0, |laws| laws.energy(contact.constants, &contact.touch)),
+        bond: contact.bond(world).map_or(0.0, |bond| bond.energy(&contact.touch)),
     };
     let sum = |a: ContactEnergy, b: ContactEnergy| ContactEnergy {
         normal: a.normal + b.normal,
@@ -399,8 +429,10 @@ pub fn contact_energy(world: &ContactWorld<'_>) -> ContactEnergy {
 /// How fast the fastest of all touching pairs is at the present positions.
 pub fn contact_pace(world: &ContactWorld<'_>) -> Pace {
     let pace = |contact: &Contact<'_>| {
-        let laws = world.laws.map_or(Pace::NONE, |laws| laws.pace(contact.constants, &contact.touch));
-        match world.bonds.and_then(Bonds::in_contact) {
+        let speed = -contact.relative_velocity(&world.now).dot(contact.normal);
+        let pace = |laws: &ContactLaws| laws.pace_at(contact.constants, &contact.touch, speed);
+        let laws = world.laws.map_or(Pace::NONE, pace);
+        match contact.bond(world) {
             Some(bond) => laws + bond.pace(&contact.touch),
             None => laws,
         }

@@ -45,10 +45,12 @@ const LONGEST_SERIES: u32 = 2000;
 /// The geometry and inertia of one touching pair, as the laws see it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Touch<F = f64> {
-    /// δ = R_i + R_j - d [m], > 0.
+    /// δ = R_i + R_j - d [m], > 0; below 0 for a law that acts beyond touching.
     pub overlap: F,
     /// R_i + R_j [m].
     pub radius_sum: F,
+    /// Radius of the smaller grain [m].
+    pub smaller_radius: F,
     /// R* = R_i R_j / (R_i + R_j) [m].
     pub effective_radius: F,
     /// m* = m_i m_j / (m_i + m_j) [kg].
@@ -65,6 +67,7 @@ impl<F: Real> Touch<F> {
         Self {
             overlap: radius_sum - distance,
             radius_sum,
+            smaller_radius: radii[0].min(radii[1]),
             effective_radius: radii[0] * radii[1] / radius_sum,
             effective_mass: masses[0] * masses[1] / (masses[0] + masses[1]),
             stiffness: F::of(0.5) * (stiffness[0] + stiffness[1]),

@@ -29,6 +29,19 @@ pub enum Channel {
     Gravity,
     /// Electric and magnetic fields, and whatever acts from outside.
     Field,
+    /// What depends on the velocity: lost to the medium, or put in by it.
+    Drag,
+}
+
+/// A part of the force of a field, as the ledger books it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Part {
+    /// Where it is booked.
+    pub channel: Channel,
+    /// Force [N].
+    pub force: Vec3,
+    /// Power that it puts in from outside [W]: none of the work on a potential that is stored.
+    pub power: f64,
 }
 
 /// What a force on single grains can do.
@@ -38,6 +51,23 @@ pub trait FieldLaw: Law {
 
     /// Force [N].
     fn force(&self, grain: &Grain) -> Vec3;
+
+    /// Its parts as the ledger books them, two at most: all in one channel if it says nothing else.
+    #[inline]
+    fn parts(&self, grain: &Grain) -> [Option<Part>; 2] {
+        let force = self.force(grain);
+        [Some(Part { channel: Self::CHANNEL, force, power: force.dot(grain.velocity) }), None]
+    }
+
+    /// Energy stored [J] by a grain in the field, where it is known.
+    fn energy(&self, _: &Grain) -> f64 {
+        0.0
+    }
+
+    /// Whether it stores energy.
+    fn stores(&self) -> bool {
+        false
+    }
 
     /// How fast it is by the change of the force along the way, and by rotation, where this mass [kg] resists it: the
     /// grain's own, and that of the fluid that it moves.

@@ -1,5 +1,6 @@
 //! Forces on single grains, and between grains at a distance.
 
+mod custom;
 mod drag;
 mod expression;
 mod flow;
@@ -12,11 +13,12 @@ pub mod near_field;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use custom::{Custom, FieldFormula, OfGrain};
 pub use drag::{Drag, DragLaw, Validity, spin_coefficient};
 pub use expression::{Expression, FieldVector, evaluate};
 pub use flow::{Flow, FlowAt, FlowField};
 pub use gravity::Gravity;
-pub use law::{Channel, FieldLaw, Grain};
+pub use law::{Channel, FieldLaw, Grain, Part};
 pub use lorentz::Lorentz;
 pub use magnetic::Magnetic;
 pub use near_field::NearField;
@@ -62,12 +64,24 @@ macro_rules! fields {
                 .flatten()
             }
 
-            /// Looks at the force of each field on a grain [N], and where the ledger books its work.
+            /// Looks at each part of the force of each field on a grain.
             #[inline]
-            pub fn each_force(&self, grain: &Grain, mut look: impl FnMut(Channel, Vec3)) {
+            pub fn each_part(&self, grain: &Grain, mut look: impl FnMut(Part)) {
                 $(if let Some(law) = &self.$word {
-                    look($Law::CHANNEL, FieldLaw::force(law, grain));
+                    FieldLaw::parts(law, grain).into_iter().flatten().for_each(&mut look);
                 })+
+            }
+
+            /// Energy stored [J] by a grain in the fields whose energy is known.
+            pub fn energy(&self, grain: &Grain) -> f64 {
+                let mut sum = 0.0;
+                $(sum += self.$word.as_ref().map_or(0.0, |law| FieldLaw::energy(law, grain));)+
+                sum
+            }
+
+            /// Whether a field stores energy.
+            pub fn store(&self) -> bool {
+                $(self.$word.as_ref().is_some_and(FieldLaw::stores))||+
             }
 
             /// How fast each field is where this mass [kg] resists it, in the order of [`Self::SINGLE`].
@@ -108,4 +122,5 @@ fields! {
     gravity: Gravity, "Weight, with buoyancy if wanted.";
     lorentz: Lorentz, "Electric and magnetic force on charges.";
     magnetic: Magnetic, "Magnetic force on magnetizable grains.";
+    custom: Custom, "A force as formulas of place, velocity and time.";
 }

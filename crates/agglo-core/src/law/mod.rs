@@ -8,7 +8,7 @@ mod faults;
 pub use faults::{Fault, Faults, HIGHEST_EXPONENT};
 
 use crate::acoustics::Medium;
-use crate::particles::Property;
+use crate::particles::{Material, Property};
 
 /// A law as its file writes it.
 ///
@@ -60,8 +60,21 @@ impl Needs {
     }
 }
 
-/// What there is besides the law.
+/// A grain that there will be, on which a law can be tried.
 #[derive(Clone, Copy, Debug)]
+pub struct Sample<'a> {
+    /// Radius [m].
+    pub radius: f64,
+    /// Mass [kg].
+    pub mass: f64,
+    /// Charge [C].
+    pub charge: f64,
+    /// What it is made of.
+    pub material: &'a Material,
+}
+
+/// What there is besides the law.
+#[derive(Clone, Debug)]
 pub struct Context<'a> {
     /// The fluid around the grains.
     pub medium: &'a Medium,
@@ -73,6 +86,8 @@ pub struct Context<'a> {
     pub is_charged: bool,
     /// Whether the engine takes steps of its own, as that of soft spheres and the time-stepped one of hard spheres do.
     pub is_stepped: bool,
+    /// The smallest and the largest grain of each group, as far as they are known.
+    pub samples: Vec<Sample<'a>>,
 }
 
 /// A law that a scenario has chosen, whatever its family.

@@ -1,15 +1,21 @@
 //! The ledger drawn up at one moment.
 
-use std::fmt;
+use serde::{Deserialize, Serialize};
 
-use serde::de::{Error, IgnoredAny, MapAccess, Visitor};
-use serde::ser::SerializeMap;
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-use super::{Entries, Flows, Stored};
+use super::{Flows, Stored};
 
 /// Heat from nothing below this part of all heat is rounding.
 const ROUNDING: f64 = 1e-12;
+
+/// Which entries are told of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Entries {
+    /// Those of soft spheres.
+    #[default]
+    Soft,
+    /// Those of hard spheres.
+    Hard,
+}
 
 /// The ledger drawn up at one moment. In files it is a map of its [`Entries`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -28,6 +34,8 @@ pub struct Balance {
     pub gravity: f64,
     /// Work of electric and magnetic fields [J].
     pub fields: f64,
+    /// Put in by hooks and kicks, and by a formula of contact where it drives grains [J].
+    pub custom: f64,
     /// Lost to drag [J]; negative where the medium drives the grains.
     pub drag: f64,
     /// Lost in contact dashpots [J].
@@ -67,10 +75,12 @@ impl Balance {
         let drag = 0.0 - flows.supplies.drag.power;
         let (rays, gravity, fields) =
             (flows.rays.power, flows.supplies.gravity.power, flows.supplies.field.power);
+        let custom = flows.supplies.hook.power + flows.driven;
         let lost = drag + flows.damping + rubbed + flows.bond_damping + flows.broken_bonds;
         let mechanical_at_start = start.mechanical();
         let after_collisions = mechanical_at_start - collisions.normal - collisions.tangential;
-        let mechanical_drift = stored.mechanical() - after_collisions - (rays + gravity + fields - lost);
+        let mechanical_drift =
+            stored.mechanical() - after_collisions - (rays + gravity + fields + custom - lost);
         let cooled = flows.cooled + pending;
         let thermal_drift =
             stored.thermal - (start.thermal + collisions.heat - flows.unkept.value() - cooled);
@@ -83,6 +93,7 @@ impl Balance {
             rays,
             gravity,
             fields,
+            custom,
             drag,
             damping: flows.damping,
             friction: rubbed + collisions.tangential,
@@ -106,11 +117,6 @@ impl Balance {
         over(self.drift, all)
     }
 
-    /// Whether every entry is a number.
-    pub fn is_finite(&self) -> bool {
-        self.entries.all().iter().all(|entry| (entry.of)(self).is_finite())
-    }
-
     /// The larger of the drifts of motion and of all energy, without its sign.
     pub fn unexplained(&self) -> f64 {
         self.drift_relative.abs().max(self.kinetic_drift_relative.abs())
@@ -125,57 +131,7 @@ impl Balance {
     }
 }
 
-fn over(part: f64, whole: f64) -> f64 {
+/// The part of a whole; 0 where there is none.
+pub(super) fn over(part: f64, whole: f64) -> f64 {
     if whole > 0.0 { part / whole } else { 0.0 }
-}
-
-impl Serialize for Balance {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let entries = self.entries.all();
-        let mut map = serializer.serialize_map(Some(entries.len()))?;
-        entries.iter().try_for_each(|entry| map.serialize_entry(entry.name, &(entry.of)(self)))?;
-        map.end()
-    }
-}
-
-impl<'de> Deserialize<'de> for Balance {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_map(Named)
-    }
-}
-
-/// Reads a balance from the names of its entries, whatever else there is.
-struct Named;
-
-impl<'de> Visitor<'de> for Named {
-    type Value = Balance;
-
-    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("a map of the entries of a ledger")
-    }
-
-    fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<Balance, M::Error> {
-        let is_known = |name: &str| [Entries::Soft, Entries::Hard].iter().any(|entries| has(*entries, name));
-        let mut found: Vec<(String, f64)> = Vec::new();
-        while let Some(name) = map.next_key::<String>()? {
-            if is_known(&name) {
-                found.push((name, map.next_value()?));
-            } else {
-                map.next_value::<IgnoredAny>()?;
-            }
-        }
-        // Only one kind has heat.
-        let is_hard = found.iter().any(|(name, _)| !has(Entries::Soft, name));
-        let entries = if is_hard { Entries::Hard } else { Entries::Soft };
-        let mut balance = Balance { entries, ..Balance::default() };
-        for entry in entries.all() {
-            let value = found.iter().find(|(name, _)| name == entry.name).map(|(_, value)| *value);
-            (entry.put)(&mut balance, value.ok_or_else(|| M::Error::missing_field(entry.name))?);
-        }
-        Ok(balance)
-    }
-}
-
-fn has(entries: Entries, name: &str) -> bool {
-    entries.all().iter().any(|entry| entry.name == name)
 }

@@ -1,9 +1,7 @@
 //! What is told of the ledger: an entry is declared once, with its name in tables and summaries, what people call it, what it
 //! means, and how it is taken from the balance.
 
-use serde::{Deserialize, Serialize};
-
-use super::Balance;
+use super::balance::{Balance, Entries};
 
 /// An entry of the balance.
 #[derive(Clone, Copy, Debug)]
@@ -22,14 +20,11 @@ pub struct Entry {
     pub(super) put: fn(&mut Balance, f64),
 }
 
-/// Which entries are told of.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Entries {
-    /// Those of soft spheres.
-    #[default]
-    Soft,
-    /// Those of hard spheres.
-    Hard,
+impl Balance {
+    /// Whether every entry is a number.
+    pub fn is_finite(&self) -> bool {
+        self.entries.all().iter().all(|entry| (entry.of)(self).is_finite())
+    }
 }
 
 impl Entries {
@@ -73,10 +68,12 @@ pub mod soft {
         TANGENTIAL_SPRING = stored.tangential_spring, "tangential_spring_J", "J", "energy of tangential springs", "in contacts";
         BONDS = stored.bonds, "bonds_J", "J", "energy of bonds", "elastic; negative for `strain_bond`";
         NEAR_FIELD = stored.near_field, "near_field_J", "J", "energy of the near field", "potential";
+        FIELD_ENERGY = stored.fields, "fields_J", "J", "energy in fields", "potential, of fields whose energy is given";
         AT_START = mechanical_at_start, "at_start_J", "J", "energy at the start", "all that was held";
         RAYS = rays, "work_rays_J", "J", "put in by rays", "since the start";
         GRAVITY = gravity, "work_gravity_J", "J", "put in by gravity", "since the start";
         FIELDS = fields, "work_fields_J", "J", "put in by fields", "since the start";
+        CUSTOM = custom, "work_custom_J", "J", "put in by custom laws", "by hooks and kicks, and by `contact.custom` where it drives grains, since the start";
         DRAG = drag, "lost_drag_J", "J", "lost to drag", "since the start; negative where the medium drives the grains";
         DAMPING = damping, "lost_contact_damping_J", "J", "lost in contacts", "in their dashpots, since the start";
         FRICTION = friction, "lost_friction_J", "J", "lost to friction", "since the start";

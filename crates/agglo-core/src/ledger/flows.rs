@@ -11,10 +11,12 @@ use crate::math::{Sum, Vec3};
 pub struct Flows {
     /// Rays: energy put in [J], impulse [N s] and angular impulse [N m s].
     pub rays: Supply,
-    /// Drag, gravity, fields: energy put in [J], impulse [N s] and angular impulse [N m s].
+    /// Drag, gravity, fields, hooks and kicks: energy put in [J], impulse [N s] and angular impulse [N m s].
     pub supplies: Supplies,
     /// Lost in contact dashpots [J].
     pub damping: f64,
+    /// Put in by a formula of contact where it drives grains [J].
+    pub driven: f64,
     /// Taken from the motion by friction and tangential springs [J].
     pub tangential: f64,
     /// Lost in the dashpots of bonds [J].
@@ -80,6 +82,7 @@ impl Flows {
         let (early, late) = ((1.0 - phi) * dt, phi * dt);
         let sum = |a: f64, b: f64| early * a + late * b;
         self.damping += sum(before.damping, after.damping);
+        self.driven += sum(before.driven, after.driven);
         self.tangential += sum(before.tangential, after.tangential);
         self.bond_damping += sum(before.bond_damping, after.bond_damping);
         let (old, new, own) = (&before.supplies, &after.supplies, &mut self.supplies);
@@ -87,11 +90,13 @@ impl Flows {
         own.drag.power += early * phi * after.bend;
         own.gravity = own.gravity.plus(old.gravity, early).plus(new.gravity, late);
         own.field = own.field.plus(old.field, early).plus(new.field, late);
+        own.hook = own.hook.plus(old.hook, early).plus(new.hook, late);
     }
 
     /// Impulse [N s] and angular impulse [N m s] of all that acts from outside.
     pub(super) fn impulse(&self) -> Momentum {
-        let all = self.rays + self.supplies.drag + self.supplies.gravity + self.supplies.field;
+        let Supplies { drag, gravity, field, hook } = self.supplies;
+        let all = self.rays + drag + gravity + field + hook;
         Momentum { linear: all.force + self.walls, angular: all.torque }
     }
 }

@@ -10,14 +10,15 @@
 mod balance;
 pub mod entry;
 mod flows;
+mod named;
 mod rates;
 mod stored;
 
 #[cfg(test)]
 mod tests;
 
-pub use balance::Balance;
-pub use entry::{Entries, Entry};
+pub use balance::{Balance, Entries};
+pub use entry::Entry;
 pub use flows::{CollisionFlows, Flows};
 pub use rates::{Correction, Rates, Supplies, Supply};
 pub use stored::{Momentum, Stored};
@@ -90,15 +91,19 @@ impl Ledger {
         let first = &self.start.stored;
         let at_start = first.kinetic
             + first.spin
-            + first.elastic
+            + first.elastic.abs()
             + first.tangential_spring
             + first.bonds.abs()
-            + first.near_field.abs();
+            + first.near_field.abs()
+            + first.fields.abs();
         let since = balance.rays.abs()
             + balance.gravity.abs()
             + balance.fields.abs()
+            + balance.custom.abs()
             + balance.drag.abs()
-            + balance.stored.near_field.abs();
+            + (-balance.stored.elastic).max(0.0)
+            + balance.stored.near_field.abs()
+            + balance.stored.fields.abs();
         at_start.max(at_start + since - balance.drift.abs())
     }
 
@@ -106,8 +111,8 @@ impl Ledger {
     pub fn balance(&self, stored: Stored, pending: f64) -> Balance {
         let mut balance = Balance::of(self.entries, &self.start.stored, &self.flows, stored, pending);
         balance.drift_relative = match self.entries {
-            Entries::Soft if balance.drift == 0.0 => 0.0,
-            Entries::Soft => balance.drift / self.scale.max(self.explained(&balance)),
+            // A ledger that is not opened, as while grains come to rest, has no scale.
+            Entries::Soft => balance::over(balance.drift, self.scale.max(self.explained(&balance))),
             Entries::Hard => balance.drift_of_all(&self.start.stored),
         };
         balance

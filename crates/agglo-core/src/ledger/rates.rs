@@ -50,8 +50,10 @@ pub struct Supplies {
     pub drag: Supply,
     /// Weight and buoyancy.
     pub gravity: Supply,
-    /// Electric and magnetic forces.
+    /// Electric and magnetic forces, and fields given by formulas.
     pub field: Supply,
+    /// A hook.
+    pub hook: Supply,
 }
 
 impl Supplies {
@@ -73,6 +75,7 @@ impl Add for Supplies {
             drag: self.drag + other.drag,
             gravity: self.gravity + other.gravity,
             field: self.field + other.field,
+            hook: self.hook + other.hook,
         }
     }
 }
@@ -98,6 +101,8 @@ impl Add for Correction {
 pub struct Rates {
     /// Power lost in contact dashpots [W].
     pub damping: f64,
+    /// Power that a formula of contact puts in where it drives grains [W].
+    pub driven: f64,
     /// Power that friction and tangential springs take from the motion [W].
     pub tangential: f64,
     /// Power lost in the dashpots of bonds [W].
@@ -111,7 +116,8 @@ pub struct Rates {
 impl Rates {
     /// Puts the parts together.
     pub fn new(contact: &ContactRates, bond_damping: f64, supplies: Supplies) -> Self {
-        Self { damping: contact.damping, tangential: contact.tangential, bond_damping, supplies, bend: 0.0 }
+        let ContactRates { damping, driven, tangential, .. } = *contact;
+        Self { damping, driven, tangential, bond_damping, supplies, bend: 0.0 }
     }
 
     /// Brings in what solving for velocities changed in the step that leads here.

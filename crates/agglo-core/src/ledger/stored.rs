@@ -19,6 +19,8 @@ pub struct Stored {
     pub bonds: f64,
     /// Potential energy of the near field.
     pub near_field: f64,
+    /// Potential energy in fields whose energy is given.
+    pub fields: f64,
     /// Thermal energy m C T of hard spheres.
     pub thermal: f64,
 }
@@ -26,7 +28,13 @@ pub struct Stored {
 impl Stored {
     /// All but heat [J].
     pub fn mechanical(&self) -> f64 {
-        self.kinetic + self.spin + self.elastic + self.tangential_spring + self.bonds + self.near_field
+        self.kinetic
+            + self.spin
+            + self.elastic
+            + self.tangential_spring
+            + self.bonds
+            + self.near_field
+            + self.fields
     }
 }
 

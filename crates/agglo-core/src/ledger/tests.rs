@@ -54,13 +54,16 @@ fn losses_below_zero_are_gains_from_nothing() {
 #[test]
 fn what_is_not_finite_is_never_perfect() {
     type Spoil = fn(&mut Ledger, &mut Stored, f64);
-    let entries: [Spoil; 14] = [
+    let entries: [Spoil; 17] = [
         |_, stored, bad| stored.kinetic = bad,
         |_, stored, bad| stored.spin = bad,
         |_, stored, bad| stored.elastic = bad,
         |_, stored, bad| stored.tangential_spring = bad,
         |_, stored, bad| stored.bonds = bad,
         |_, stored, bad| stored.near_field = bad,
+        |_, stored, bad| stored.fields = bad,
+        |ledger, _, bad| ledger.flows.driven = bad,
+        |ledger, _, bad| ledger.flows.supplies.hook.power = bad,
         |ledger, _, bad| ledger.flows.rays.power = bad,
         |ledger, _, bad| ledger.flows.supplies.gravity.power = bad,
         |ledger, _, bad| ledger.flows.supplies.drag.power = bad,

@@ -4,6 +4,7 @@ pub mod formula;
 mod pace;
 pub mod parallel;
 mod prefetch;
+pub mod quadrature;
 mod real;
 pub mod rng;
 pub mod roots;

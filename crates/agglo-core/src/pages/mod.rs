@@ -31,8 +31,10 @@ macro_rules! pages {
 }
 
 pages! {
+    "custom" "contact" "custom" [];
     "lorentz" "fields" "lorentz" [];
     "magnetic" "fields" "magnetic" [];
+    "custom_field" "fields" "custom" [];
     "gravity" "fields" "gravity" [];
     "drag" "fields" "drag" ["stokes" "schiller_naumann"];
     "contact_area" "impact" "contact_area" [];

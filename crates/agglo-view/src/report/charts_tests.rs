@@ -76,6 +76,7 @@ const SHOWN_SOFT: &[Shown] = &[
             ("energy of tangential springs", "tangential_spring_J"),
             ("energy of bonds", "bonds_J"),
             ("energy of the near field", "near_field_J"),
+            ("energy in fields", "fields_J"),
         ],
     ),
     (
@@ -86,6 +87,7 @@ const SHOWN_SOFT: &[Shown] = &[
             ("put in by rays", "work_rays_J"),
             ("put in by gravity", "work_gravity_J"),
             ("put in by fields", "work_fields_J"),
+            ("put in by custom laws", "work_custom_J"),
             ("lost to drag", "lost_drag_J"),
             ("lost in contacts", "lost_contact_damping_J"),
             ("lost to friction", "lost_friction_J"),

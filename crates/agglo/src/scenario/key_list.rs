@@ -129,7 +129,7 @@ impl<'a> List<'a> {
         match dimension_of(schema) {
             Some(dimension) if schema["x-formula"] == true => format!("{} or formula", dimension.symbol()),
             Some(dimension) => given.map_or_else(|| dimension.symbol(), str::to_owned),
-            None => "-".to_owned(),
+            None => given.or(schema["x-unit"].as_str()).unwrap_or("-").to_owned(),
         }
     }
 }

@@ -1,13 +1,16 @@
 //! The laws that a scenario has chosen: the one place that knows where in a scenario laws stand.
 
+use std::collections::BTreeMap;
+
 use super::file::{EngineTable, ScenarioFile};
 use super::types::{Engine, Scenario};
 use crate::acoustics::{Acoustics, Medium};
 use crate::contact::{Bonds, ContactLaws};
 use crate::fields::Fields;
 use crate::impact::Impact;
-use crate::law::{Chosen, Context};
+use crate::law::{Chosen, Context, Sample};
 use crate::packing::GrainGroup;
+use crate::particles::Material;
 
 /// The tables that hold laws.
 #[derive(Clone, Copy, Default)]
@@ -31,14 +34,35 @@ impl<'a> Tables<'a> {
     }
 }
 
-fn context<'a>(medium: &'a Medium, grains: &[GrainGroup], is_stepped: bool) -> Context<'a> {
+fn context<'a>(
+    medium: &'a Medium,
+    materials: &'a BTreeMap<String, Material>,
+    grains: &[GrainGroup],
+    is_stepped: bool,
+) -> Context<'a> {
     Context {
         medium,
         groups: grains.len(),
         largest_radius: grains.iter().map(|group| group.size.largest()).fold(0.0, f64::max),
         is_charged: grains.iter().any(|group| group.charge.si() != 0.0),
         is_stepped,
+        samples: samples(materials, grains),
     }
+}
+
+/// The smallest and the largest grain of each group.
+fn samples<'a>(materials: &'a BTreeMap<String, Material>, grains: &[GrainGroup]) -> Vec<Sample<'a>> {
+    let mut samples = Vec::new();
+    for group in grains {
+        let Some(material) = materials.get(&group.material) else { continue };
+        let [least, most] = [group.size.smallest(), group.size.largest()];
+        for radius in [least, most].into_iter().take(if least < most { 2 } else { 1 }) {
+            let is_size = radius > 0.0 && radius.is_finite() && material.density.si() > 0.0;
+            let (mass, charge) = (material.mass_of_sphere(radius), group.charge.si());
+            samples.extend(is_size.then_some(Sample { radius, mass, charge, material }));
+        }
+    }
+    samples
 }
 
 impl Scenario {
@@ -59,7 +83,7 @@ impl Scenario {
 
     /// What there is besides them.
     pub fn context(&self) -> Context<'_> {
-        context(&self.medium, &self.grains, self.is_stepped())
+        context(&self.medium, &self.materials, &self.grains, self.is_stepped())
     }
 }
 
@@ -78,6 +102,11 @@ impl ScenarioFile {
 
     /// As [`Scenario::context`].
     pub fn context(&self) -> Context<'_> {
-        context(&self.medium, &self.grains, !matches!(self.engine, EngineTable::EventDriven(_)))
+        context(
+            &self.medium,
+            &self.materials,
+            &self.grains,
+            !matches!(self.engine, EngineTable::EventDriven(_)),
+        )
     }
 }

@@ -2,7 +2,8 @@
 
 use serde_json::Value as Json;
 
-use crate::run::{PulseFigures, SoftSummary, Summary};
+use crate::ledger::{Balance, Entries};
+use crate::run::{HardSummary, PulseFigures, SoftSummary, Summary};
 
 /// Quantities that are not the same on another machine or with another number of threads.
 const OF_THE_MACHINE: [&str; 3] = ["seed", "threads", "wall_s"];
@@ -10,7 +11,8 @@ const OF_THE_MACHINE: [&str; 3] = ["seed", "threads", "wall_s"];
 /// The columns that a run's summary can have, in their order: dotted names, list entries with the number 0.
 pub fn known(is_hard: bool) -> Vec<String> {
     let summary = if is_hard {
-        Summary::Hard(Box::default())
+        let energy = Balance { entries: Entries::Hard, ..Balance::default() };
+        Summary::Hard(Box::new(HardSummary { energy, ..HardSummary::default() }))
     } else {
         Summary::Soft(Box::new(SoftSummary {
             pulses: vec![PulseFigures::default()],

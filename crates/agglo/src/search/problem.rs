@@ -204,7 +204,7 @@ impl Problem {
         let follow = self
             .derived
             .iter()
-            .map(move |(setter, formula)| (setter, setter.number(value_of(&formula, &numbers, &[]))));
+            .map(move |(setter, formula)| (setter, setter.number(value_of(formula, &numbers, &[]))));
         set.chain(follow)
     }
 

@@ -9,6 +9,7 @@ extern crate agglo_testing;
 mod common;
 
 mod crowd;
+mod custom;
 mod from;
 mod halving;
 mod hard;

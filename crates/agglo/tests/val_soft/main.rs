@@ -10,7 +10,9 @@ mod common;
 
 mod automatic_step;
 mod bonds;
+mod custom;
 mod fields;
+mod hook;
 mod impact;
 mod ledger;
 mod oblique;

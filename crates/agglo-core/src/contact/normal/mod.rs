@@ -11,7 +11,6 @@ pub use law::NormalLaw;
 pub use strain_power::StrainPower;
 
 use super::{PairConstants, Touch};
-use crate::math::roots::root_between;
 use crate::math::{Pace, Real};
 use crate::particles::Material;
 
@@ -56,15 +55,6 @@ impl Normal {
     #[inline]
     pub fn exponent(&self) -> f64 {
         each_normal!(self, law => law.exponent())
-    }
-
-    /// Overlap [m] at which two grains have given all of an energy [J] to the contact; nothing if they have not where
-    /// the center of one lies at that of the other.
-    pub fn deepest_overlap(&self, pair: &PairConstants, touch: &Touch, energy: f64) -> Option<f64> {
-        let left = |overlap: f64| self.energy(pair, &Touch { overlap, ..*touch }) - energy;
-        let most = touch.radius_sum;
-        let at_most = left(most);
-        (at_most >= 0.0).then(|| root_between(left, [0.0, most], [-energy, at_most], 1e-12 * most).at)
     }
 }
 
@@ -112,26 +102,5 @@ mod tests {
             let ratio = law.force(&pair, &touch(2e-9)) / law.force(&pair, &touch(1e-9));
             assert_near!(ratio.log2(), law.exponent(), 1e-6);
         }
-    }
-
-    /// Hertz: δ = (15 m* v²/(16 E* √R*))^(2/5); Hooke: v √(m*/k); both by hand, and nothing where grains pass through.
-    #[test]
-    fn deepest_overlaps_are_those_of_the_closed_forms() {
-        let pair = PairConstants { effective_modulus: 3e9, ..Default::default() };
-        let touch = Touch::new([1e-3, 4e-3], [1e-6, 2e-6], [0.0; 2], 5e-3);
-        let (mass, speed) = (touch.effective_mass, 0.7);
-        let energy = 0.5 * mass * speed * speed;
-        let by_hand = (15.0 * mass * speed * speed / (16.0 * 3e9 * touch.effective_radius.sqrt())).powf(0.4);
-        let hertz = Normal::Hertz(Hertz {}).deepest_overlap(&pair, &touch, energy);
-        assert_close!(hertz.unwrap(), by_hand, 1e-8, "in m");
-        let hooke = Normal::Hooke(Hooke { stiffness: Quantity(2e4) });
-        assert_close!(
-            hooke.deepest_overlap(&pair, &touch, energy).unwrap(),
-            speed * (mass / 2e4).sqrt(),
-            1e-8,
-            "in m"
-        );
-        let all = 0.5 * 2e4 * touch.radius_sum * touch.radius_sum;
-        assert_eq!(hooke.deepest_overlap(&pair, &touch, 1.001 * all), None);
     }
 }

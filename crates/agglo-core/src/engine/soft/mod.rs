@@ -2,6 +2,8 @@
 
 mod forces;
 mod guard;
+mod hook;
+mod outside;
 mod rays;
 #[cfg(test)]
 mod relations_tests;
@@ -19,8 +21,9 @@ mod types;
 mod validate;
 
 pub use forces::laws::Laws;
-pub use forces::loads::Loads;
+pub use forces::loads::{LoadViews, Loads};
 pub use forces::truncation::{Truncation, truncation};
+pub use hook::{Hook, Scene};
 pub use rays::{FirstPulse, Pulses};
 pub use relax::{RestWatch, Resting};
 pub use settings::{Relaxation, Settings};

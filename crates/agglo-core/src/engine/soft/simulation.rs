@@ -65,6 +65,7 @@ pub struct SimulationState<'a> {
     pub(super) tempo: Option<Tempo>,
     pub(super) paces: Paces,
     pub(super) truncation: Option<Truncation>,
+    pub(super) is_hooked: bool,
 }
 
 impl SimulationState<'_> {
@@ -87,7 +88,7 @@ pub struct Simulation {
     pub warnings: Warnings,
     /// Bonds that broke or were made since they were last taken.
     pub events: Vec<BondEvent>,
-    clock: Clock,
+    pub(super) clock: Clock,
     pub(super) scheme: Scheme,
     pub(super) limits: Limits,
     /// The automatic step; nothing where the step is given.
@@ -99,6 +100,8 @@ pub struct Simulation {
     /// Steps between two sortings of the grains.
     pub(super) sort_every: u64,
     end: f64,
+    /// Whether the loads have those of a hook in them.
+    pub(super) is_hooked: bool,
 }
 
 impl Simulation {
@@ -150,6 +153,7 @@ impl Simulation {
             limits: settings.limits.clone(),
             sort_every: SORT_EVERY,
             end: settings.end,
+            is_hooked: false,
         }
     }
 
@@ -192,6 +196,7 @@ impl Simulation {
             limits: settings.limits.clone(),
             sort_every: SORT_EVERY,
             end: settings.end,
+            is_hooked: state.is_hooked,
         })
     }
 
@@ -211,6 +216,7 @@ impl Simulation {
             tempo: self.tempo,
             truncation: self.truncation,
             paces: self.paces,
+            is_hooked: self.is_hooked,
         }
     }
 
@@ -246,6 +252,7 @@ impl Simulation {
     /// [`SimError`] where the step does not converge or passes a limit; the grains are then where they were before the
     /// step, while rays may have flown on.
     pub fn step(&mut self) -> Result<(), SimError> {
+        self.warn_of_lost_hook();
         self.sort_grains_when_due();
         let (dt, lands_on) = self.next_step();
         self.launch_due(dt)?;
@@ -256,6 +263,7 @@ impl Simulation {
         self.system.commit();
         self.advance_clock(&step, dt, lands_on);
         self.change_bonds();
+        self.system.tell_hook(self.clock.time);
         self.look_when_due()
     }
 
@@ -413,7 +421,8 @@ impl Simulation {
     }
 
     pub(super) fn acting_laws(&self) -> String {
-        let names = self.system.laws.names();
+        let mut names: Vec<&str> = self.system.laws.names();
+        names.extend(self.system.hook.as_ref().map(|attached| attached.hook.name()));
         if names.is_empty() { "no law at all".to_owned() } else { names.join(", ") }
     }
 

@@ -6,7 +6,7 @@ use crate::contact::pass::contact_energy;
 use crate::ledger::{Balance, Momentum, Stored};
 use crate::math::parallel;
 
-use super::forces::laws::source;
+use super::forces::laws::{Laws, source};
 use super::simulation::Simulation;
 use super::system::LEAF;
 
@@ -33,6 +33,7 @@ impl Simulation {
             tangential_spring: system.spring_energy(),
             bonds: contact.bond + system.network.energy(grains),
             near_field: self.near_field_energy(),
+            fields: self.field_energy(),
             thermal: 0.0,
         }
     }
@@ -66,6 +67,19 @@ impl Simulation {
     /// Relative drift of linear momentum now.
     pub fn momentum_drift_relative(&self) -> f64 {
         self.ledger.momentum_drift_relative(&self.momentum(), self.momentum_size())
+    }
+
+    fn field_energy(&self) -> f64 {
+        let Laws { fields, .. } = &self.system.laws;
+        if !fields.store() {
+            return 0.0;
+        }
+        let (grains, time) = (&self.system.grains, self.clock().time);
+        let energy = |at: usize| {
+            let motion = (grains.position[at], grains.velocity[at]);
+            fields.energy(&self.system.laws.grain(grains, at, motion, time))
+        };
+        self.sum(energy, |a, b| a + b, 0.0)
     }
 
     fn near_field_energy(&self) -> f64 {

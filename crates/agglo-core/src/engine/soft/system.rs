@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::contact::ContactLaws;
 use crate::contact::network::{BondEvent, Network};
 use crate::contact::pass::{ContactRates, ContactWorld, Contacts, Remembered};
 use crate::ledger::{Rates, Supplies};
@@ -11,6 +12,7 @@ use crate::particles::{Motion, Particles};
 
 use super::forces::laws::{Laws, near_force, source};
 use super::forces::loads::{LoadViews, Loads};
+use super::hook::{Attached, Hook, Scene};
 use super::skin::Skin;
 
 /// Grains per leaf of the parallel loops.
@@ -56,6 +58,7 @@ pub struct System {
     pub trial: Trial,
     /// Masses that resist acceleration [kg].
     pub inertial_mass: Vec<f64>,
+    pub(super) hook: Option<Attached>,
     pub(super) contacts: Contacts,
     list: PairList,
     near: PairList,
@@ -81,6 +84,7 @@ impl System {
             has_ray_loads: false,
             rays_are_impulses: true,
             rates: Rates::default(),
+            hook: None,
             contacts: Contacts::default(),
             list: PairList::default(),
             near: PairList::default(),
@@ -129,7 +133,7 @@ impl System {
     /// As `evaluate`, with memory that is carried on by `elapsed` [s].
     fn evaluate_after(&mut self, elapsed: f64, time: f64, dt: f64) {
         self.bring_lists_up_to_date();
-        let Self { grains, laws, network, contacts, list, near, trial, .. } = self;
+        let Self { grains, laws, network, contacts, list, near, trial, hook, .. } = self;
         let now = Motion { position: &trial.position, velocity: &trial.velocity, spin: &trial.spin };
         let before = Motion { position: &grains.position, velocity: &grains.velocity, spin: &grains.spin };
         let world = ContactWorld {
@@ -145,7 +149,11 @@ impl System {
         };
         trial.contact = contacts.compute(&world);
         let bond_damping = network.compute(grains, &before, &now, elapsed);
-        let gather = Gather { grains, laws, network, contacts, list, near, now, time };
+        if let Some(hook) = hook {
+            hook.look(&Scene { time, grains, motion: now });
+        }
+        let hook = hook.as_ref().map(|hook| &hook.loads);
+        let gather = Gather { grains, laws, network, contacts, list, near, now, time, hook };
         let supplies = parallel::over(
             0..grains.len(),
             LEAF,
@@ -154,6 +162,39 @@ impl System {
             &|a, b| a + b,
         );
         trial.rates = Rates::new(&trial.contact, bond_damping, supplies);
+    }
+
+    /// What a hook sees of the committed motion at a time [s].
+    fn scene(&self, time: f64) -> Scene<'_> {
+        Scene { time, grains: &self.grains, motion: self.motion() }
+    }
+
+    /// Attaches a hook at a time [s]; unless `is_in_loads` its forces are added to those of the committed motion.
+    pub(super) fn attach(&mut self, hook: Box<dyn Hook>, time: f64, is_in_loads: bool) {
+        let mut attached = Attached { hook, loads: Loads::none(self.grains.len()) };
+        attached.look(&self.scene(time));
+        if !is_in_loads {
+            for at in 0..self.grains.len() {
+                let supply = Attached::supply(&attached.loads, &self.motion(), at);
+                self.rates.supplies.hook = self.rates.supplies.hook + supply;
+                self.loads.force[at] += attached.loads.force[at];
+                self.loads.torque[at] += attached.loads.torque[at];
+            }
+        }
+        self.hook = Some(attached);
+    }
+
+    /// Tells the hook where a step led.
+    pub(super) fn tell_hook(&mut self, time: f64) {
+        if let Some(mut attached) = self.hook.take() {
+            attached.hook.after_step(&self.scene(time));
+            self.hook = Some(attached);
+        }
+    }
+
+    /// How fast the hook is, as far as it says.
+    pub(super) fn hook_pace(&self, time: f64) -> Option<Pace> {
+        self.hook.as_ref().and_then(|attached| attached.hook.pace(&self.scene(time)))
     }
 
     /// Makes the trial the state.
@@ -175,8 +216,13 @@ impl System {
     /// Evaluates the loads at the committed motion, before the first step; `dt` [s] is the length of that. No time
     /// has passed for springs of contacts and bonds, which begin without load unless they bring one along.
     pub fn evaluate_start(&mut self, dt: f64) {
+        self.evaluate_again(0.0, dt);
+    }
+
+    /// The same at a time [s], where velocities were changed from outside.
+    pub fn evaluate_again(&mut self, time: f64, dt: f64) {
         self.list_neighbors();
-        self.evaluate_after(0.0, 0.0, dt);
+        self.evaluate_after(0.0, time, dt);
         self.commit_motion();
         self.contacts.commit_unmoved();
     }
@@ -312,7 +358,8 @@ impl System {
     /// Lists the pairs anew, at the trial or the committed positions.
     fn rebuild(&mut self, at_trial: bool, remembered: &[Remembered]) {
         let positions = if at_trial { &self.trial.position } else { &self.grains.position };
-        self.list.build(positions, &self.grains.radius, 0.0, self.skin.thickness());
+        let reach = self.laws.contact.as_ref().map_or(0.0, ContactLaws::reach);
+        self.list.build(positions, &self.grains.radius, reach, self.skin.thickness());
         self.contacts.relist(&self.list, remembered, self.laws.contact.as_ref());
     }
 
@@ -356,6 +403,8 @@ struct Gather<'a> {
     near: &'a PairList,
     now: Motion<'a>,
     time: f64,
+    /// What a hook adds.
+    hook: Option<&'a Loads>,
 }
 
 impl Gather<'_> {
@@ -385,6 +434,11 @@ impl Gather<'_> {
                 let single = self.laws.on_single(self.grains, &self.now, grain, self.time, &mut supplies);
                 force += single.force;
                 torque += single.torque;
+            }
+            if let Some(loads) = self.hook {
+                supplies.hook = supplies.hook + Attached::supply(loads, &self.now, grain);
+                force += loads.force[grain];
+                torque += loads.torque[grain];
             }
             views.force[slot] = force;
             views.torque[slot] = torque;

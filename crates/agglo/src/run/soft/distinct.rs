@@ -48,6 +48,8 @@ pub const SHEAR: [f64; 3] = [0.0, 0.0, 0.8];
 pub const LENGTHS: [f64; 2] = [2.99e-3 / 1.01, 3.54e-3 / 0.98];
 /// Relative permittivity of the near field.
 pub const PERMITTIVITY: f64 = 2.0;
+/// Stiffness [N/m] of a trap along y.
+pub const TRAP: f64 = 3e4;
 /// Simulated time [s] and length of the last step [s].
 pub const TIMES: [f64; 2] = [0.5, 3e-3];
 
@@ -108,6 +110,7 @@ pub fn ledger() -> Ledger {
     };
     let mut supplies = Supplies::default();
     (supplies.drag, supplies.gravity, supplies.field) = (supply(-2.125), supply(5.0), supply(9.5));
+    supplies.hook = supply(1.75);
     let start = Opening {
         stored: Stored {
             kinetic: 1.0,
@@ -116,6 +119,7 @@ pub fn ledger() -> Ledger {
             tangential_spring: 0.4,
             bonds: 0.15,
             near_field: 0.45,
+            fields: 0.55,
             thermal: 0.0,
         },
         momentum: Momentum { linear: Vec3::new(0.9, -1.3, 2.2), angular: Vec3::new(0.31, 0.62, -0.17) },
@@ -127,6 +131,7 @@ pub fn ledger() -> Ledger {
         rays: supply(20.0),
         supplies,
         damping: 3.25,
+        driven: 0.875,
         tangential: 4.5,
         bond_damping: 6.5,
         broken_bonds: 7.75,
@@ -168,6 +173,7 @@ pub fn scenario() -> Scenario {
          [bonds.beam]\nyoungs_modulus = \"{:e} Pa\"\nshear_ratio = {}\ntensile_strength = \"1 TPa\"\n\
          shear_strength = \"1 TPa\"\ngap = 0.05\n\
          [fields.near_field.law.coulomb]\nrelative_permittivity = {PERMITTIVITY:?}\n\
+         [fields.custom]\nforce = [\"0\", \"-{TRAP:?}*y\", \"0\"]\nenergy = \"{TRAP:?}/2*y^2\"\n\
          [measures]\ncluster_gap = 0.5\n[limits]\ndrift_warning = 0.003\n\
          [acoustics.force.impulse]\nduration = \"2 ms\"\n{}{}",
         material("glass"),
@@ -285,7 +291,8 @@ pub fn by_hand() -> ByHand {
     }
     let ledger = ledger();
     let (flows, start) = (&ledger.flows, &ledger.start.momentum);
-    let supplies = [flows.rays, flows.supplies.drag, flows.supplies.gravity, flows.supplies.field];
+    let Supplies { drag, gravity, field, hook } = flows.supplies;
+    let supplies = [flows.rays, drag, gravity, field, hook];
     let impulse: Vec3 = supplies.iter().map(|supply| supply.force).sum();
     let twist: Vec3 = supplies.iter().map(|supply| supply.torque).sum();
     ByHand {
@@ -296,6 +303,7 @@ pub fn by_hand() -> ByHand {
             tangential_spring: Vec3::from(SPRING.0).norm_squared() / (2.0 * SPRING.1),
             bonds,
             near_field,
+            fields: PLACES.iter().map(|[_, y, _]| TRAP / 2.0 * y * y).sum(),
             thermal: 0.0,
         },
         momentum,
@@ -305,11 +313,11 @@ pub fn by_hand() -> ByHand {
 
 /// What energies are due under the names of the table and of the summary, drawn up from [`by_hand`] and the flows of
 /// [`ledger`].
-pub fn energies() -> [(&'static str, f64); 16] {
+pub fn energies() -> [(&'static str, f64); 18] {
     let (stored, start) = (by_hand().stored, ledger().start.stored);
     // Of the 4.5 J that tangential forces took, the springs gave back what they had more at the start.
     let friction = 4.5 + 0.4 - stored.tangential_spring;
-    let drift = stored.mechanical() - start.mechanical() - (20.0 + 5.0 + 9.5)
+    let drift = stored.mechanical() - start.mechanical() - (20.0 + 5.0 + 9.5 + 2.625)
         + (2.125 + 3.25 + friction + 6.5 + 7.75);
     [
         ("kinetic_J", stored.kinetic),
@@ -318,9 +326,11 @@ pub fn energies() -> [(&'static str, f64); 16] {
         ("tangential_spring_J", stored.tangential_spring),
         ("bonds_J", stored.bonds),
         ("near_field_J", stored.near_field),
+        ("fields_J", stored.fields),
         ("work_rays_J", 20.0),
         ("work_gravity_J", 5.0),
         ("work_fields_J", 9.5),
+        ("work_custom_J", 2.625),
         ("lost_drag_J", 2.125),
         ("lost_contact_damping_J", 3.25),
         ("lost_friction_J", friction),

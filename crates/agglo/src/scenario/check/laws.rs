@@ -8,6 +8,9 @@ use crate::particles::property::PROPERTIES;
 use crate::scenario::file::ScenarioFile;
 
 pub(super) fn check(check: &mut Check, scenario: &ScenarioFile) {
+    if let Some(laws) = &scenario.contact {
+        check.under("contact", |check| laws.faults(check));
+    }
     let context = scenario.context();
     for law in scenario.laws() {
         law.faults(check, &context);

@@ -3,7 +3,7 @@
 use crate::acoustics::Medium;
 use crate::contact::{Bonds, ContactLaws, PairTable};
 use crate::fields::near_field::{NearField, Source};
-use crate::fields::{Channel, Drag, Fields, Flow, FlowAt, Grain, spin_coefficient};
+use crate::fields::{Channel, Drag, Fields, Flow, FlowAt, Grain, Part, spin_coefficient};
 use crate::law::Chosen;
 use crate::ledger::{Supplies, Supply};
 use crate::math::Vec3;
@@ -133,18 +133,20 @@ impl Laws {
     ) -> SingleLoad {
         let (position, velocity, radius) = (motion.position[at], motion.velocity[at], grains.radius[at]);
         let mut total = SingleLoad::default();
-        let mut book = |channel: &mut Supply, force: Vec3| {
-            *channel = *channel + Supply::of(force, position, velocity);
+        let mut book = |channel: &mut Supply, force: Vec3, power: f64| {
+            *channel = *channel + Supply { power, force, torque: position.cross(force) };
             total.force += force;
         };
         let grain = self.grain(grains, at, (position, velocity), time);
-        self.fields.each_force(&grain, |channel, force| match channel {
-            Channel::Gravity => book(&mut supplies.gravity, force),
-            Channel::Field => book(&mut supplies.field, force),
+        self.fields.each_part(&grain, |Part { channel, force, power }| match channel {
+            Channel::Gravity => book(&mut supplies.gravity, force, power),
+            Channel::Field => book(&mut supplies.field, force, power),
+            Channel::Drag => book(&mut supplies.drag, force, power),
         });
         if let Some(drag) = &self.fields.drag {
             let (flow, spin) = (self.flow_at(position, time), motion.spin[at]);
-            book(&mut supplies.drag, drag.force(&self.medium, radius, velocity, &flow));
+            let force = drag.force(&self.medium, radius, velocity, &flow);
+            book(&mut supplies.drag, force, force.dot(velocity));
             total.torque = Drag::torque(&self.medium, radius, spin, &flow);
             supplies.drag.power += total.torque.dot(spin);
             supplies.drag.torque += total.torque;

@@ -14,6 +14,8 @@ const LOOK_EVERY: usize = 100;
 const UNEXPLAINED: &str =
     "energy that the ledger does not explain is above limits.drift_warning: make the step smaller";
 
+const DRIVEN: &str = "contact.custom: its part with speed drives grains instead of slowing them; what it puts in is in work_custom_J";
+
 impl Simulation {
     /// Steps between two looks: fewer where grains are few and a look costs little.
     fn look_every(&self) -> u64 {
@@ -34,6 +36,9 @@ impl Simulation {
     pub(in crate::engine::soft) fn look(&mut self) -> Result<(), SimError> {
         self.warn_of_drag();
         self.warn_of_places();
+        if self.system.rates.driven > 0.0 {
+            self.warnings.add(DRIVEN);
+        }
         self.look_at_the_step();
         self.look_at_the_energy()
     }

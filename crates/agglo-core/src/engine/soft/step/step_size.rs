@@ -61,6 +61,8 @@ pub struct Paces {
     pub fields: [Pace; Fields::SINGLE.len()],
     /// The near field.
     pub near_field: Pace,
+    /// A hook, as far as it says.
+    pub hook: Pace,
 }
 
 impl Paces {
@@ -74,6 +76,7 @@ impl Paces {
             contact: contact.max(system.with_contacts(contact_pace)),
             bonds: system.network.pace(&system.grains),
             near_field: near_field(system, &extremes, strain).max(system.near_pace_now()),
+            hook: system.hook_pace(time).unwrap_or(Pace::NONE),
             ..singles(system, time)
         }
     }
@@ -100,7 +103,8 @@ impl Paces {
     fn named(&self) -> impl Iterator<Item = (&'static str, Pace)> {
         let fields = Fields::SINGLE.iter().copied().zip(self.fields);
         let before = [("contact", self.contact), ("bonds", self.bonds), ("fields.drag", self.drag)];
-        before.into_iter().chain(fields).chain([("fields.near_field", self.near_field)])
+        let after = [("fields.near_field", self.near_field), ("the hook", self.hook)];
+        before.into_iter().chain(fields).chain(after)
     }
 }
 
@@ -147,7 +151,7 @@ fn contact(system: &System, partners: &[usize], strain: f64, with_waves: bool) -
     let grains = &system.grains;
     system.over_grains(|at| {
         let material = &system.laws.materials[grains.material[at] as usize];
-        let alone = if with_waves { laws.normal.wave_pace(material, grains.radius[at]) } else { Pace::NONE };
+        let alone = if with_waves { laws.wave_pace(material, grains.radius[at]) } else { Pace::NONE };
         let with = |&partner: &usize| {
             let ends = [at, partner];
             let radii = ends.map(|k| grains.radius[k]);
