@@ -150,6 +150,12 @@ replicates = 2
     assert mean["y"][0] == pytest.approx(sum(first) / 4, rel=1e-12)
     labels = "document.getElementById('chart-parallel').data[0].dimensions.map(({ label }) => label)"
     assert page.evaluate(labels) == ["v_m_s", "hardness_Pa", "growth_deficit"]
+    pairs = page.lines("pairs")
+    # A histogram for each parameter and a cell for their pair, with the best quarter, but at least 50, of the candidates.
+    assert [line["name"] for line in pairs] == ["v_m_s", "hardness_Pa", ""]
+    columns = (evaluations["v_m_s"], evaluations["hardness_Pa"], evaluations["stage"])
+    wanted = sorted((v, hardness) for v, hardness, stage in zip(*columns, strict=True) if stage == "search")
+    assert sorted(zip(pairs[2]["x"], pairs[2]["y"], strict=True)) == wanted
     assert page.tab.locator("table").first.locator("tr").count() == 3, "not two best and a header"
     page.tab.locator("a", has_text="The run of the best candidate").click()
     page.tab.wait_for_selector("#replay[data-ready]")
@@ -186,3 +192,44 @@ def test_a_study_of_sensitivity_what_moves_what(opened_clean, searched):
     page = opened_clean(folder)
     sizes = table(folder / "sensitivity.csv")["mean_size"]
     assert page.lines("sensitivity-0")[0]["y"] == sizes[:2]
+
+
+def test_shares_in_the_variance_have_their_own_intervals(opened_clean, searched):
+    folder = searched("study", '\n[[objectives]]\nminimize = "growth_deficit"\n[plan.sobol_indices]\nsamples = 16\n')
+    page = opened_clean(folder)
+    shares = table(folder / "sensitivity.csv")
+    bars = page.evaluate(
+        """() => document.getElementById("chart-sensitivity-0").data.map(({ y, error_y: { array, arrayminus } }) =>
+          [y.map((value, at) => value - arrayminus[at]), y.map((value, at) => value + array[at])])"""
+    )
+    for name, (lower, upper) in zip(("first", "total"), bars, strict=True):
+        # Taking off the value and adding it again rounds a few times, to parts of the value of the order of 1.
+        assert lower == pytest.approx(shares[f"{name}_lower"][:2], abs=1e-14)
+        assert upper == pytest.approx(shares[f"{name}_upper"][:2], abs=1e-14)
+
+
+def test_a_refinement_of_less_than_two_tens_has_ticks_that_tell_the_scale(opened_clean, finished, tmp_path):
+    head = SEARCH.split("[[parameters]]")[0]
+    file = tmp_path / "search.toml"
+    file.write_text(
+        head
+        + """[[objectives]]
+minimize = "growth_deficit"
+[[parameters]]
+name = "v"
+key = "grains.0.velocity_spread.uniform.bounds.0"
+range.choices = ["20 m/s", "40 m/s", "80 m/s", "160 m/s"]
+[plan.refinement]
+tolerance = 0.1
+[ensemble]
+common_random_numbers = true
+[ensemble.until.fixed]
+replicates = 8
+"""
+    )
+    folder = finished("study", file)
+    page = opened_clean(folder)
+    assert page.tab.locator("#chart-outcome-0 .xtick text").all_text_contents() == ["20", "50", "100"]
+    # Eight replicates of a level are enough to see how they scatter.
+    counts = page.lines("distribution-0")[0]["y"]
+    assert sum(counts) == 8

@@ -7,6 +7,7 @@
 #[macro_use]
 extern crate agglo_testing;
 
+pub mod chart;
 pub mod pictures;
 pub mod plot;
 #[cfg(feature = "render")]

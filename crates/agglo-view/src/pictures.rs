@@ -2,18 +2,18 @@
 
 use std::path::{Path, PathBuf};
 
-use agglo::folder::names::picture;
+use agglo::folder::names;
 use agglo::record::{RecordError, atomic};
 use agglo::search::analysis::{
-    Convergence, EvaluationRow, Evaluations, Generation, Moments, Objective, Status, Target, Verdict,
+    Convergence, EvaluationRow, Evaluations, Generation, Level, Moments, Objective, Status, Target, Verdict,
     differences, elementary_effects, observed_order, settled, variance_shares, varies,
 };
 use agglo::search::{Campaign, Plan};
 
-use crate::plot::{
-    Axis, Bars, Front, FrontPoint, Histogram, Histograms, Line, LinePanel, Lines, Pairs, Parallel, Series,
-    Settled, Staircase,
+use crate::chart::{
+    Axis, Bar, Bars, Candidates, Chart, Curves, Drawn, Histogram, Look, Place, Reference, Series, Spread,
 };
+use crate::plot::picture as svg_of;
 
 /// Most panels of a picture that has one for each measure.
 const PANELS: usize = 6;
@@ -47,7 +47,7 @@ pub fn search_pictures(folder: &Path, evaluations: &Evaluations) -> Result<Vec<P
     if evaluations.ranked().is_empty() {
         return Ok(files);
     }
-    let mut keep = |name: &str, svg: String| write(folder, name, &svg).map(|file| files.push(file));
+    let mut keep = |name: &str, picture: Picture| picture.write(folder, name).map(|file| files.push(file));
     keep("cost", costs(evaluations))?;
     keep("parallel", parallel(evaluations))?;
     keep("pairs", pairs(evaluations))?;
@@ -73,7 +73,7 @@ pub fn study_pictures(
     if evaluations.rows.is_empty() || evaluations.targets().is_empty() {
         return Ok(files);
     }
-    let mut keep = |name: &str, svg: String| write(folder, name, &svg).map(|file| files.push(file));
+    let mut keep = |name: &str, picture: Picture| picture.write(folder, name).map(|file| files.push(file));
     match plan {
         Plan::Refinement(refinement) => keep("refinement", staircase(evaluations, refinement.tolerance))?,
         Plan::Morris(_) => keep("sensitivity", effects(evaluations))?,
@@ -89,10 +89,32 @@ pub fn study_pictures(
     Ok(files)
 }
 
-fn write(folder: &Path, name: &str, svg: &str) -> Result<PathBuf, RecordError> {
-    let path = folder.join(picture(name));
-    atomic::write(&path, svg.as_bytes())?;
-    Ok(path)
+/// Charts that stand in one file.
+struct Picture {
+    title: String,
+    /// What it shows, in words.
+    description: String,
+    charts: Vec<Chart>,
+}
+
+impl Picture {
+    fn of(title: String, description: String, drawn: impl IntoIterator<Item = Drawn>) -> Self {
+        let chart = |drawn| Chart { drawn, ..Chart::default() };
+        Self { title, description, charts: drawn.into_iter().map(chart).collect() }
+    }
+
+    fn write(&self, folder: &Path, name: &str) -> Result<PathBuf, RecordError> {
+        let path = folder.join(names::picture(name));
+        atomic::write(&path, svg_of(&self.title, &self.description, &self.charts).as_bytes())?;
+        Ok(path)
+    }
+}
+
+/// A line through points with a band about it.
+fn line(name: &str, points: impl Iterator<Item = [f64; 2]>, band: Vec<[f64; 2]>) -> Series {
+    let (x, y) = points.map(|[x, y]| (x, y)).unzip();
+    let spread = if band.is_empty() { Spread::Unknown } else { Spread::Band(band) };
+    Series { spread, ..Series::new(name, x, y) }
 }
 
 fn titled(evaluations: &Evaluations, what: &str) -> String {
@@ -113,32 +135,24 @@ fn is_to_be_large(evaluations: &Evaluations) -> bool {
 }
 
 /// The first objective over the generations, and below the measures of the best candidate so far.
-fn costs(evaluations: &Evaluations) -> String {
+fn costs(evaluations: &Evaluations) -> Picture {
     let generations = evaluations.generations();
     let sign = sign(evaluations);
     let at = |g: &Generation, cost: f64| [f64::from(g.number), sign * cost];
     let with_costs = || generations.iter().filter(|g| g.mean.is_finite());
     let best_row = |g: &Generation| Some((f64::from(g.number), &evaluations.rows[g.best?]));
     let best = || generations.iter().filter_map(best_row);
-    let range = Line {
-        name: "mean, least to largest".to_owned(),
-        points: with_costs().map(|g| at(g, g.mean)).collect(),
-        band: with_costs().map(|g| [sign * g.costs[0], sign * g.costs[2]]).collect(),
-    };
-    let lines = vec![
-        Line {
-            name: "best so far ± standard error".to_owned(),
-            points: best().map(|(number, row)| [number, sign * row.costs[0]]).collect(),
-            band: best().map(|(_, row)| around(sign * row.costs[0], row.standard_errors.first())).collect(),
-        },
-        range,
-        Line {
-            name: "median".to_owned(),
-            points: with_costs().map(|g| at(g, g.costs[1])).collect(),
-            band: Vec::new(),
-        },
+    let x = Axis::new("generation", "");
+    let best_costs = best().map(|(number, row)| [number, sign * row.costs[0]]);
+    let best_errors = best().map(|(_, row)| around(sign * row.costs[0], row.standard_errors.first()));
+    let ends = with_costs().map(|g| [sign * g.costs[0], sign * g.costs[2]]);
+    let series = vec![
+        line("best so far ± standard error", best_costs, best_errors.collect()),
+        line("mean, least to largest", with_costs().map(|g| at(g, g.mean)), ends.collect()),
+        line("median", with_costs().map(|g| at(g, g.costs[1])), Vec::new()),
     ];
-    let mut panels = vec![LinePanel { y: cost_axis(evaluations), lines }];
+    let curves = |y: Axis, series| Drawn::Curves(Curves { x: x.clone(), y, series, references: Vec::new() });
+    let mut panels = vec![curves(cost_axis(evaluations), series)];
     let has_replicates = best().all(|(_, row)| !row.replicates.is_empty());
     // A measure that is the objective itself is in the first panel already.
     let is_new =
@@ -146,27 +160,15 @@ fn costs(evaluations: &Evaluations) -> String {
     let measures = evaluations.measures.iter().enumerate().filter(|(_, axis)| has_replicates && is_new(axis));
     for (number, axis) in measures.take(PANELS - 1) {
         let moments = || best().map(|(generation, row)| (generation, row.measure(number)));
-        let line = Line {
-            name: "of the best so far".to_owned(),
-            points: moments().map(|(generation, m)| [generation, m.mean]).collect(),
-            band: moments().map(|(_, m)| around(m.mean, Some(&m.standard_error()))).collect(),
-        };
-        panels.push(LinePanel { y: axis.clone(), lines: vec![line] });
+        let means = moments().map(|(generation, m)| [generation, m.mean]);
+        let errors = moments().map(|(_, m)| around(m.mean, Some(&m.standard_error()))).collect();
+        panels.push(curves(axis.clone(), vec![line("of the best so far", means, errors)]));
     }
     let (first, last) = (best().next(), best().next_back());
     let cost = |row: Option<(f64, &EvaluationRow)>| row.map_or(f64::NAN, |(_, row)| sign * row.costs[0]);
-    Lines {
-        title: titled(evaluations, "cost by generation"),
-        description: format!(
-            "In {} generations the best goes from {} to {}.",
-            generations.len(),
-            cost(first),
-            cost(last)
-        ),
-        x: Axis::new("generation", ""),
-        panels,
-    }
-    .svg()
+    let words =
+        format!("In {} generations the best goes from {} to {}.", generations.len(), cost(first), cost(last));
+    Picture::of(titled(evaluations, "cost by generation"), words, panels)
 }
 
 fn around(value: f64, error: Option<&f64>) -> [f64; 2] {
@@ -175,35 +177,29 @@ fn around(value: f64, error: Option<&f64>) -> [f64; 2] {
 }
 
 /// Every candidate across its parameters and its first objective, or its first measure in a study without objectives.
-fn parallel(evaluations: &Evaluations) -> String {
+fn parallel(evaluations: &Evaluations) -> Picture {
     let targets = evaluations.targets();
-    let Some(target) = targets.first() else { return String::new() };
+    let Some(target) = targets.first() else { return Picture::of(String::new(), String::new(), []) };
     let outcomes = evaluations.target(target);
-    let rows: Vec<Vec<f64>> = evaluations
-        .rows
-        .iter()
-        .zip(&outcomes)
-        .filter(|(row, _)| row.status == Status::Feasible)
-        .filter_map(|(row, outcome)| Some([row.values.as_slice(), &[(*outcome)?[0]]].concat()))
-        .collect();
-    let is_large_first = is_to_be_large(evaluations);
-    let extreme = if is_large_first { "largest" } else { "smallest" };
-    Parallel {
-        title: titled(evaluations, "all candidates"),
-        description: format!(
-            "Each of {} lines is a candidate that keeps all limits; those with the {extreme} {} are thick and on top.",
-            rows.len(),
-            target.axis.name
-        ),
-        axes: evaluations.parameters.iter().cloned().chain([target.axis.clone()]).collect(),
-        rows,
-        is_large_first,
-    }
-    .svg()
+    let feasible = evaluations.rows.iter().zip(&outcomes).filter(|(row, _)| row.status == Status::Feasible);
+    let known = feasible.filter_map(|(row, outcome)| Some((row, (*outcome)?[0])));
+    let with_outcome =
+        |(row, outcome): (&EvaluationRow, f64)| ([&row.values[..], &[outcome]].concat(), outcome);
+    let (rows, shades): (Vec<Vec<f64>>, Vec<f64>) = known.map(with_outcome).unzip();
+    let is_large_good = is_to_be_large(evaluations);
+    let extreme = if is_large_good { "largest" } else { "smallest" };
+    let words = format!(
+        "Each of {} lines is a candidate that keeps all limits; those with the {extreme} {} are thick and on top.",
+        rows.len(),
+        target.axis.name
+    );
+    let axes = evaluations.parameters.iter().cloned().chain([target.axis.clone()]).collect();
+    let candidates = Candidates { axes, rows, shade: target.axis.clone(), shades, is_large_good };
+    Picture::of(titled(evaluations, "all candidates"), words, [Drawn::Parallel(candidates)])
 }
 
 /// The best quarter of the candidates, but at least 50, in all pairs of the parameters that it narrows most.
-fn pairs(evaluations: &Evaluations) -> String {
+fn pairs(evaluations: &Evaluations) -> Picture {
     let ranked = evaluations.ranked();
     let good = &ranked[..ranked.len().min((ranked.len() / 4).max(50))];
     let shown = narrowed(evaluations, good);
@@ -213,22 +209,21 @@ fn pairs(evaluations: &Evaluations) -> String {
         "parameters"
     };
     let values = |row: &EvaluationRow| shown.iter().map(|&axis| row.values[axis]).collect();
-    let is_large_first = is_to_be_large(evaluations);
-    Pairs {
-        title: titled(evaluations, "the good region"),
-        description: format!(
-            "The best {} of {} candidates that keep all limits, in all pairs of {which}; the best are {} and on top.",
-            good.len(),
-            ranked.len(),
-            if is_large_first { "bright" } else { "dark" }
-        ),
+    let is_large_good = is_to_be_large(evaluations);
+    let words = format!(
+        "The best {} of {} candidates that keep all limits, in all pairs of {which}; the best are {} and on top.",
+        good.len(),
+        ranked.len(),
+        if is_large_good { "bright" } else { "dark" }
+    );
+    let candidates = Candidates {
         axes: shown.iter().map(|&axis| evaluations.parameters[axis].clone()).collect(),
         rows: good.iter().map(|&(row, _)| values(&evaluations.rows[row])).collect(),
         shade: cost_axis(evaluations),
         shades: good.iter().map(|&(_, cost)| sign(evaluations) * cost).collect(),
-        is_large_first,
-    }
-    .svg()
+        is_large_good,
+    };
+    Picture::of(titled(evaluations, "the good region"), words, [Drawn::Pairs(candidates)])
 }
 
 /// The parameters, at most so many that names and marks stay readable, whose good values scatter least in the cube.
@@ -245,32 +240,38 @@ fn narrowed(evaluations: &Evaluations, good: &[(usize, f64)]) -> Vec<usize> {
     axes
 }
 
-fn front(evaluations: &Evaluations) -> String {
+fn front(evaluations: &Evaluations) -> Picture {
     let best = evaluations.front();
-    let shown = evaluations
-        .rows
-        .iter()
-        .enumerate()
-        .filter(|(_, row)| row.feasible_cost().is_some() && row.costs.len() == 2);
+    let is_shown = |row: &EvaluationRow| row.feasible_cost().is_some() && row.costs.len() == 2;
     let [x, y] = [&evaluations.objectives[0], &evaluations.objectives[1]];
-    let points = shown.map(|(number, row)| FrontPoint {
-        costs: [x.sign() * row.costs[0], y.sign() * row.costs[1]],
-        standard_errors: [0, 1].map(|cost| known(row.standard_errors.get(cost))),
-        is_on_front: best.contains(&number),
-    });
-    Front {
-        title: titled(evaluations, "two costs"),
-        description: format!("{} candidates are beaten by no other in both costs.", best.len()),
+    let of = |is_on_front: bool| -> Vec<&EvaluationRow> {
+        let all = evaluations.rows.iter().enumerate();
+        let on = all.filter(|(number, row)| is_shown(row) && best.contains(number) == is_on_front);
+        on.map(|(_, row)| row).collect()
+    };
+    let series = |name: &str, look: Look, rows: &[&EvaluationRow]| {
+        let column = |number: usize, sign: f64| rows.iter().map(|row| sign * row.costs[number]).collect();
+        Series { look, ..Series::new(name, column(0, x.sign()), column(1, y.sign())) }
+    };
+    let mut front = of(true);
+    front.sort_by(|a, b| (x.sign() * a.costs[0]).total_cmp(&(x.sign() * b.costs[0])));
+    let errors = |number: usize| front.iter().map(|row| known(row.standard_errors.get(number))).collect();
+    // What lies on the bad side of the stairs is beaten.
+    let look = if x.is_to_be_large { Look::StairsBefore } else { Look::StairsAfter };
+    let on_front =
+        Series { spread: Spread::Errors(errors(1)), x_errors: errors(0), ..series("front", look, &front) };
+    let curves = Curves {
         x: x.axis.clone(),
         y: y.axis.clone(),
-        points: points.collect(),
-        is_large_right: x.is_to_be_large,
-    }
-    .svg()
+        series: vec![series("beaten", Look::Faint, &of(false)), on_front],
+        references: Vec::new(),
+    };
+    let words = format!("{} candidates are beaten by no other in both costs.", best.len());
+    Picture::of(titled(evaluations, "two costs"), words, [Drawn::Curves(curves)])
 }
 
 /// Each target over the levels of refinement.
-fn staircase(evaluations: &Evaluations, tolerance: f64) -> String {
+fn staircase(evaluations: &Evaluations, tolerance: f64) -> Picture {
     let mut words = Vec::new();
     let mut x = evaluations.parameters[0].clone();
     x.is_log = x.labels.is_empty()
@@ -280,20 +281,25 @@ fn staircase(evaluations: &Evaluations, tolerance: f64) -> String {
         let (from, verdict) = settled(&differences(&levels, tolerance, evaluations.replicates));
         let from = from.map(|level| fineness[level]);
         let order = observed_order(&levels, evaluations.replicates);
-        let limit = if let Convergence::Converging(order) = order { Some(order.limit) } else { None };
         words.push(format!("{}: {}", target.axis.name, said(order, from.map(|from| x.cell(from)), verdict)));
-        let value = levels.last().map_or(f64::NAN, |level| level.moments().mean);
-        let plotted = levels.iter().zip(&fineness).map(|(level, &fineness)| crate::plot::Level {
-            fineness,
-            mean: level.moments().mean,
-            standard_error: known(Some(&level.moments().standard_error())),
-        });
-        let settled = Settled { value, tolerance: tolerance * value.abs(), from, limit };
-        (target.axis.clone(), plotted.collect(), settled)
+        let moments: Vec<Moments> = levels.iter().map(Level::moments).collect();
+        let value = moments.last().map_or(f64::NAN, |moments| moments.mean);
+        let reference = |name: &str, at: Place| Reference { name: name.to_owned(), at };
+        let tolerance = tolerance * value.abs();
+        let band = Place::Heights([value - tolerance, value + tolerance]);
+        let mut references = vec![reference("within the tolerance of the last", band)];
+        references.extend(from.map(|from| reference("settled from", Place::Across(from))));
+        if let Convergence::Converging(order) = order {
+            references.push(reference("extrapolated", Place::Height(order.limit)));
+        }
+        let errors = moments.iter().map(|moments| known(Some(&moments.standard_error()))).collect();
+        let means = moments.iter().map(|moments| moments.mean).collect();
+        let look = Look::Dotted;
+        let series = Series { look, spread: Spread::Errors(errors), ..Series::new("", fineness, means) };
+        Drawn::Curves(Curves { x: x.clone(), y: target.axis.clone(), series: vec![series], references })
     };
-    let panels = evaluations.targets().into_iter().take(PANELS).map(panel).collect();
-    let title = titled(evaluations, "convergence");
-    Staircase { title, description: words.join(" "), x: x.clone(), panels }.svg()
+    let panels: Vec<Drawn> = evaluations.targets().into_iter().take(PANELS).map(panel).collect();
+    Picture::of(titled(evaluations, "convergence"), words.join(" "), panels)
 }
 
 /// An error, or 0, which is not drawn, where it is not known.
@@ -325,10 +331,6 @@ fn points_of(evaluations: &Evaluations) -> Vec<Vec<f64>> {
     evaluations.rows.iter().map(|row| row.point.clone()).collect()
 }
 
-fn names(evaluations: &Evaluations) -> Vec<String> {
-    evaluations.parameters.iter().map(|axis| axis.name.clone()).collect()
-}
-
 /// Says in the title that a target does not vary, so that a picture without bars explains itself.
 fn of_target(evaluations: &Evaluations, what: &str, target: &Target<'_>) -> String {
     let outcomes = evaluations.target(target);
@@ -338,21 +340,18 @@ fn of_target(evaluations: &Evaluations, what: &str, target: &Target<'_>) -> Stri
 }
 
 /// Elementary effects on the first target.
-fn effects(evaluations: &Evaluations) -> String {
+fn effects(evaluations: &Evaluations) -> Picture {
     let target = evaluations.targets()[0];
     let effects = elementary_effects(&points_of(evaluations), &evaluations.target(&target));
-    let sizes = Series {
+    let sizes = Bar {
         name: "mean size of effects ± standard error".to_owned(),
         values: effects.iter().map(|effect| effect.mean_size).collect(),
-        intervals: effects
-            .iter()
-            .map(|effect| around(effect.mean_size, Some(&effect.standard_error)))
-            .collect(),
+        spread: Spread::Errors(effects.iter().map(|effect| effect.standard_error).collect()),
     };
-    let spreads = Series {
+    let spreads = Bar {
         name: "standard deviation of effects".to_owned(),
         values: effects.iter().map(|effect| effect.standard_deviation).collect(),
-        intervals: Vec::new(),
+        spread: Spread::Unknown,
     };
     let noise = effects.iter().map(|effect| effect.noise).fold(f64::NAN, f64::max);
     let noise = if noise.is_nan() {
@@ -360,87 +359,72 @@ fn effects(evaluations: &Evaluations) -> String {
     } else {
         format!("effects below {noise:.2e} are within the noise")
     };
-    Bars {
-        title: of_target(evaluations, "effects on", &target),
-        description: format!("Change of {} per whole range of each parameter; {noise}.", target.axis.name),
-        axis: Axis::new(
-            &format!("change of {} over the parameter's range", target.axis.name),
-            &target.axis.unit,
-        ),
-        names: names(evaluations),
-        series: vec![sizes, spreads],
-    }
-    .svg()
+    let name = &target.axis.name;
+    let axis = Axis::new(&format!("change of {name} over the parameter's range"), &target.axis.unit);
+    let words = format!("Change of {name} per whole range of each parameter; {noise}.");
+    bars(evaluations, of_target(evaluations, "effects on", &target), words, axis, vec![sizes, spreads])
+}
+
+/// Bars for each parameter.
+fn bars(evaluations: &Evaluations, title: String, words: String, axis: Axis, series: Vec<Bar>) -> Picture {
+    let names = evaluations.parameters.iter().map(|axis| axis.name.clone()).collect();
+    let bars = Bars { label: "parameter".to_owned(), names, axis, series };
+    Picture::of(title, words, [Drawn::Bars(bars)])
 }
 
 /// Shares in the variance of the first target.
-fn shares(evaluations: &Evaluations, bootstraps: u32, level: f64, seed: u64) -> String {
+fn shares(evaluations: &Evaluations, bootstraps: u32, level: f64, seed: u64) -> Picture {
     let target = evaluations.targets()[0];
     let outcomes = evaluations.target(&target);
     let shares = variance_shares(evaluations.parameters.len(), &outcomes, bootstraps, level, seed);
     let all = &shares.parameters;
-    let alone = Series {
+    let alone = Bar {
         name: "alone".to_owned(),
         values: all.iter().map(|share| share.first).collect(),
-        intervals: all.iter().map(|share| share.first_interval).collect(),
+        spread: Spread::Intervals(all.iter().map(|share| share.first_interval).collect()),
     };
-    let total = Series {
+    let total = Bar {
         name: "with all others".to_owned(),
         values: all.iter().map(|share| share.total).collect(),
-        intervals: all.iter().map(|share| share.total_interval).collect(),
+        spread: Spread::Intervals(all.iter().map(|share| share.total_interval).collect()),
     };
     let noise = if shares.noise_share.is_nan() {
         "how much of the variance is noise of the replicates is not known".to_owned()
     } else {
         format!("noise of the replicates has up to {:.1} % of the variance", 100.0 * shares.noise_share)
     };
-    Bars {
-        title: of_target(evaluations, "shares in the variance of", &target),
-        description: format!(
-            "Share of each parameter, with {:.0} % confidence intervals; {noise}.",
-            100.0 * level
-        ),
-        axis: Axis::new(&format!("share in the variance of {}", target.axis.name), ""),
-        names: names(evaluations),
-        series: vec![alone, total],
-    }
-    .svg()
+    let words =
+        format!("Share of each parameter, with {:.0} % confidence intervals; {noise}.", 100.0 * level);
+    let axis = Axis::new(&format!("share in the variance of {}", target.axis.name), "");
+    let title = of_target(evaluations, "shares in the variance of", &target);
+    bars(evaluations, title, words, axis, vec![alone, total])
 }
 
 /// Each target over the first parameter, or over the number of the candidate where words are listed.
-fn outcomes(evaluations: &Evaluations) -> String {
+fn outcomes(evaluations: &Evaluations) -> Picture {
+    let x = evaluations.parameters.first().cloned().unwrap_or_default();
     let panel = |target: Target<'_>| {
         let outcomes = evaluations.target(&target);
-        let mut known: Vec<(f64, [f64; 2])> = evaluations
+        let known = evaluations
             .rows
             .iter()
             .zip(&outcomes)
-            .filter_map(|(row, outcome)| Some((row.values.first().copied()?, (*outcome)?)))
-            .collect();
+            .filter_map(|(row, outcome)| Some((row.values.first().copied()?, (*outcome)?)));
+        let mut known: Vec<(f64, [f64; 2])> = known.collect();
         known.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let line = Line {
-            name: "mean ± standard error".to_owned(),
-            points: known.iter().map(|(x, [mean, _])| [*x, *mean]).collect(),
-            band: known.iter().map(|(_, [mean, error])| around(*mean, Some(error))).collect(),
-        };
-        LinePanel { y: target.axis.clone(), lines: vec![line] }
+        let band = known.iter().map(|(_, [mean, error])| around(*mean, Some(error))).collect();
+        let means = known.iter().map(|(x, [mean, _])| [*x, *mean]);
+        let series = vec![line("mean ± standard error", means, band)];
+        Drawn::Curves(Curves { x: x.clone(), y: target.axis.clone(), series, references: Vec::new() })
     };
-    let x = evaluations.parameters.first().cloned().unwrap_or_default();
-    Lines {
-        title: titled(evaluations, "outcomes"),
-        description: format!(
-            "Means and standard errors over {} for {} candidates.",
-            x.name,
-            evaluations.rows.len()
-        ),
-        x,
-        panels: evaluations.targets().into_iter().take(PANELS).map(panel).collect(),
-    }
-    .svg()
+    let panels: Vec<Drawn> = evaluations.targets().into_iter().take(PANELS).map(panel).collect();
+    let count = evaluations.rows.len();
+    let words = format!("Means and standard errors over {} for {count} candidates.", x.name);
+    Picture::of(titled(evaluations, "outcomes"), words, panels)
 }
 
 /// Replicates of each candidate, for each measure, as long as there is room.
-fn histograms(evaluations: &Evaluations) -> String {
+fn histograms(evaluations: &Evaluations) -> Picture {
     let mut panels = Vec::new();
     for (number, row) in evaluations.rows.iter().enumerate().filter(|(_, row)| row.replicates.len() >= 8) {
         let candidate = match (evaluations.parameters.as_slice(), row.values.as_slice()) {
@@ -453,19 +437,13 @@ fn histograms(evaluations: &Evaluations) -> String {
             let moments = row.measure(measure);
             let named = Axis { name: format!("{}, {candidate}", axis.name), ..axis.clone() };
             let mean = Some([moments.mean, moments.standard_error()]);
-            panels.push(Histogram { mean, ..Histogram::of(named, &values) });
+            panels.push(Drawn::Histogram(Histogram { mean, ..Histogram::of(named, &values) }));
         }
     }
     panels.truncate(HISTOGRAMS);
-    Histograms {
-        title: titled(evaluations, "distributions"),
-        description: format!(
-            "Values of single replicates, {} histograms, with mean and standard error.",
-            panels.len()
-        ),
-        panels,
-    }
-    .svg()
+    let count = panels.len();
+    let words = format!("Values of single replicates, {count} histograms, with mean and standard error.");
+    Picture::of(titled(evaluations, "distributions"), words, panels)
 }
 
 #[cfg(test)]

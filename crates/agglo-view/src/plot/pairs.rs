@@ -1,30 +1,11 @@
 //! Every parameter against every other, in a lower triangle, with the distribution of each on the diagonal.
 
-use super::Axis;
 use super::color::{GRID, INK, viridis};
-use super::histogram::Histogram;
+use super::histogram::{bars, heights};
 use super::panel::{Panel, Shades};
 use super::scale::Scale;
 use super::svg::{Anchor, Area, Pen, Style, Svg, text_width};
-
-/// Candidates in all pairs of their parameters.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Pairs {
-    /// Title of the picture.
-    pub title: String,
-    /// What it shows, in words.
-    pub description: String,
-    /// What the parameters are.
-    pub axes: Vec<Axis>,
-    /// One value for each axis, for each candidate.
-    pub rows: Vec<Vec<f64>>,
-    /// What the colors stand for.
-    pub shade: Axis,
-    /// The value that gives each candidate its color.
-    pub shades: Vec<f64>,
-    /// Whether large color values are good, and not small ones.
-    pub is_large_first: bool,
-}
+use crate::chart::{Axis, Candidates, Histogram};
 
 /// Where the cells are [px].
 const LEFT: f64 = 84.0;
@@ -32,76 +13,73 @@ const TOP: f64 = 54.0;
 const REACH: f64 = 700.0;
 const SMALL: f64 = 11.0;
 
-impl Pairs {
-    /// The picture; candidates with good color values lie on top.
-    pub fn svg(&self) -> String {
-        let mut svg = Svg::new(TOP + REACH + 66.0, &self.title, &self.description);
-        if self.axes.is_empty() {
-            return svg.finish();
-        }
-        let mut order: Vec<usize> = (0..self.rows.len().min(self.shades.len())).collect();
-        order.retain(|&index| self.rows[index].len() == self.axes.len() && self.shades[index].is_finite());
-        order.sort_by(|&a, &b| self.shades[b].total_cmp(&self.shades[a]));
-        if self.is_large_first {
-            order.reverse();
-        }
-        let shades = Shades::over(&self.shade, order.iter().map(|&index| self.shades[index]));
-        let scales: Vec<Scale> = (0..self.axes.len())
-            .map(|axis| Scale::of(&self.axes[axis], order.iter().map(|&index| self.rows[index][axis])))
-            .collect();
-        for row in 0..self.axes.len() {
-            for column in 0..row {
-                self.cell(&mut svg, [column, row], &scales, &order, &shades);
-            }
-            self.diagonal(&mut svg, row, &scales[row], &order);
-            self.names(&mut svg, row, &scales[row]);
-        }
-        if self.axes.len() > 1 {
-            let bar = Area { left: 700.0, top: TOP + 40.0, width: 16.0, height: 0.26 * REACH };
-            shades.bar(&mut svg, bar, &self.shade);
-        }
-        svg.finish()
-    }
+/// Height with all that belongs to it [px].
+pub const HEIGHT: f64 = TOP + REACH + 36.0;
 
+/// What is drawn, and from where on.
+struct Pairs<'a> {
+    axes: &'a [Axis],
+    /// Candidates and their color values, the best last.
+    rows: Vec<(&'a Vec<f64>, f64)>,
+    top: f64,
+}
+
+/// Draws them from `top` on; candidates with good color values lie on top.
+pub fn draw(candidates: &Candidates, svg: &mut Svg, top: f64) {
+    let Candidates { axes, shade, .. } = candidates;
+    let mut rows = candidates.ranked();
+    rows.reverse();
+    let pairs = Pairs { axes, rows, top: top + TOP };
+    let shades = Shades::over(shade, pairs.rows.iter().map(|(_, shade)| *shade));
+    let column = |axis: usize| pairs.rows.iter().map(move |(row, _)| row[axis]);
+    let scales: Vec<Scale> =
+        axes.iter().enumerate().map(|(number, axis)| Scale::of(axis, column(number))).collect();
+    for row in 0..axes.len() {
+        for column in 0..row {
+            pairs.cell(svg, [column, row], &scales, &shades);
+        }
+        pairs.diagonal(svg, row, &scales[row]);
+        pairs.names(svg, row, &scales[row]);
+    }
+    if axes.len() > 1 {
+        let bar = Area { left: 700.0, top: pairs.top + 40.0, width: 16.0, height: 0.26 * REACH };
+        shades.bar(svg, bar, shade);
+    }
+}
+
+impl Pairs<'_> {
     fn area(&self, column: usize, row: usize) -> Area {
         let each = REACH / self.axes.len() as f64;
         let gap = (0.06 * each).min(8.0);
         Area {
             left: LEFT + column as f64 * each,
-            top: TOP + row as f64 * each,
+            top: self.top + row as f64 * each,
             width: each - gap,
             height: each - gap,
         }
     }
 
-    fn cell(
-        &self,
-        svg: &mut Svg,
-        [column, row]: [usize; 2],
-        scales: &[Scale],
-        order: &[usize],
-        shades: &Shades,
-    ) {
+    fn cell(&self, svg: &mut Svg, [column, row]: [usize; 2], scales: &[Scale], shades: &Shades) {
         let panel = Panel { area: self.area(column, row), x: scales[column].clone(), y: scales[row].clone() };
         border(svg, panel.area);
         let radius = (panel.area.width / 40.0).clamp(1.6, 3.5);
-        for &index in order {
-            if let Some(place) = panel.at([self.rows[index][column], self.rows[index][row]]) {
-                svg.dot(place, radius, viridis(shades.part(self.shades[index])), 0.9);
+        for (values, shade) in &self.rows {
+            if let Some(place) = panel.at([values[column], values[row]]) {
+                svg.dot(place, radius, viridis(shades.part(*shade)), 0.9);
             }
         }
     }
 
     /// Values of one parameter; bins of equal width on its own scale.
-    fn diagonal(&self, svg: &mut Svg, number: usize, scale: &Scale, order: &[usize]) {
+    fn diagonal(&self, svg: &mut Svg, number: usize, scale: &Scale) {
         let area = self.area(number, number);
         border(svg, area);
-        let parts: Vec<f64> = order.iter().map(|&index| scale.part(self.rows[index][number])).collect();
+        let parts: Vec<f64> = self.rows.iter().map(|(row, _)| scale.part(row[number])).collect();
         let choices = self.axes[number].labels.len();
         let histogram = Histogram::of(Axis::default(), &parts);
         let histogram = if choices == 0 { histogram } else { bins_of_choices(&parts, choices) };
-        let panel = Panel { area, x: Scale::between(0.0, 1.0), y: histogram.heights() };
-        histogram.bars(svg, &panel);
+        let panel = Panel { area, x: Scale::between(0.0, 1.0), y: heights(&histogram) };
+        bars(&histogram, svg, &panel);
         if self.axes.len() > 1 {
             let style = Style { size: 12.0, is_bold: true, has_rim: true, ..Style::new(Anchor::Middle) };
             svg.text([area.center()[0], area.top - 2.0], &self.axes[number].name, style);

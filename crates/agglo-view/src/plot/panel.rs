@@ -1,9 +1,9 @@
 //! A pair of axes, and the bar that says what colors mean.
 
-use super::Axis;
 use super::color::{GRID, INK, viridis};
 use super::scale::Scale;
 use super::svg::{Anchor, Area, FONT, Pen, Place, Style, Svg, text_width};
+use crate::chart::Axis;
 
 /// Left edge of panels [px]: room for the marks and the name of the y axis.
 pub(super) const LEFT: f64 = 92.0;
@@ -78,14 +78,11 @@ impl Panel {
         }
     }
 
-    /// A value with its error, up and down.
-    pub fn error_bar(&self, svg: &mut Svg, [x, y]: [f64; 2], error: f64, pen: Pen<'_>) {
-        if !(error > 0.0 && error.is_finite()) {
-            return;
-        }
+    /// A bar from one height to another, with ends.
+    pub fn error_bar(&self, svg: &mut Svg, x: f64, [low, high]: [f64; 2], pen: Pen<'_>) {
         // Below zero a logarithmic axis has no place: the bar then ends at the axis.
-        let low = self.at([x, y - error]).or(self.at([x, self.y.low]));
-        if let (Some(low), Some(high)) = (low, self.at([x, y + error])) {
+        let low = self.at([x, low]).or(self.at([x, self.y.low]));
+        if let (Some(low), Some(high)) = (low, self.at([x, high])) {
             svg.line(low, high, pen);
             for [x, y] in [low, high] {
                 svg.line([x - 4.0, y], [x + 4.0, y], pen);

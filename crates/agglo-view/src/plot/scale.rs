@@ -1,6 +1,6 @@
 //! From values to parts of an axis, and the values at which an axis has marks.
 
-use agglo::search::analysis::Axis;
+use crate::chart::Axis;
 
 /// A marked value of an axis.
 #[derive(Clone, Debug, PartialEq)]

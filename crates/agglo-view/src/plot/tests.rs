@@ -1,7 +1,7 @@
 //! Charts of made-up data: they are well-formed, say what they show, and keep to their frame.
 
 use super::*;
-use crate::plot::scale::Scale;
+use crate::chart::{Axis, Bar, Bars, Candidates, Curves, Heatmap, Look, Place, Reference, Series, Spread};
 use crate::plot::svg::short;
 use agglo::math::rng::{Purpose, Stream};
 use agglo::record::frames::{FieldValues, Frame};
@@ -33,137 +33,120 @@ fn candidates(count: usize) -> (Vec<Axis>, Vec<Vec<f64>>, Vec<f64>) {
     (axes, rows, costs)
 }
 
-fn lines() -> Lines {
+fn chart(drawn: Drawn) -> Chart {
+    Chart { drawn, ..Chart::default() }
+}
+
+fn lines() -> Vec<Chart> {
     let cost = |k: f64| 0.66 + 0.2 * (-k / 6.0).exp();
-    let band = (0..26).map(|k| [f64::from(k), cost(f64::from(k)) + 0.05]);
-    let mean = Line {
-        name: "mean".to_owned(),
-        points: band.clone().collect(),
-        band: band.map(|[_, c]| [c - 0.04, c + 0.06]).collect(),
+    let x: Vec<f64> = (0..26).map(f64::from).collect();
+    let best: Vec<f64> = x.iter().map(|k| cost(*k)).collect();
+    let mean: Vec<f64> = best.iter().map(|cost| cost + 0.05).collect();
+    let band = mean.iter().map(|mean| [mean - 0.04, mean + 0.06]).collect();
+    let size = best.iter().map(|cost| 1.0 / (1.0 - cost)).collect();
+    let panel = |name: &str, series| {
+        let (x, y) = (Axis::new("generation", ""), Axis::new(name, ""));
+        chart(Drawn::Curves(Curves { x, y, series, references: Vec::new() }))
     };
-    let best = (0..26).map(|k| [f64::from(k), cost(f64::from(k))]).collect();
-    let best = Line { name: "best so far".to_owned(), points: best, band: Vec::new() };
-    let size = Line {
-        points: (0..26).map(|k| [f64::from(k), 1.0 / (1.0 - cost(f64::from(k)))]).collect(),
-        ..Line::default()
-    };
-    Lines {
-        title: "Cost in each generation".to_owned(),
-        description: "The cost falls from 0.86 to 0.66.".to_owned(),
-        x: Axis::new("generation", ""),
-        panels: vec![
-            LinePanel { y: Axis::new("cost", ""), lines: vec![best, mean] },
-            LinePanel { y: Axis::new("radius ratio", ""), lines: vec![size] },
-        ],
-    }
+    let mean = Series { spread: Spread::Band(band), ..Series::new("mean", x.clone(), mean) };
+    vec![
+        panel("cost", vec![Series::new("best so far", x.clone(), best), mean]),
+        panel("radius ratio", vec![Series::new("", x, size)]),
+    ]
 }
 
-fn staircase() -> Staircase {
-    let level = |rays: f64, sign: f64| Level {
-        fineness: rays,
-        mean: 1.0 + sign / rays.sqrt(),
-        standard_error: 0.5 / rays.sqrt(),
-    };
-    let levels =
-        [(1e3, 1.0), (2e3, -0.5), (4e3, 0.3), (8e3, 0.2), (2e4, 0.1)].map(|(rays, sign)| level(rays, sign));
-    Staircase {
-        title: "Power absorbed against the number of rays".to_owned(),
-        description: "It settles at 4,000 rays.".to_owned(),
+fn staircase() -> Chart {
+    let rays: Vec<f64> = vec![1e3, 2e3, 4e3, 8e3, 2e4];
+    let offs = [1.0, -0.5, 0.3, 0.2, 0.1];
+    let means = rays.iter().zip(offs).map(|(rays, off)| 1.0 + off / rays.sqrt()).collect();
+    let errors = rays.iter().map(|rays| 0.5 / rays.sqrt()).collect();
+    let reference = |name: &str, at| Reference { name: name.to_owned(), at };
+    chart(Drawn::Curves(Curves {
         x: Axis::new("rays", "").log(),
-        panels: vec![(
-            Axis::new("power", "W"),
-            levels.to_vec(),
-            Settled { value: 1.0007, tolerance: 0.01, from: Some(4e3), limit: Some(1.0) },
-        )],
-    }
-}
-
-fn bars() -> Bars {
-    let total = vec![0.5576, 0.4424, 0.2437];
-    let around = |values: &[f64]| values.iter().map(|v| [v - 0.03, v + 0.03]).collect();
-    let first = vec![0.3139, 0.4424, 0.0];
-    Bars {
-        title: "Shares of the variance of the cost".to_owned(),
-        description: "Sobol indices.".to_owned(),
-        axis: Axis::new("share of the variance", ""),
-        names: ["speed", "hardness", "activation energy"].map(str::to_owned).to_vec(),
-        series: vec![
-            Series { name: "alone".to_owned(), intervals: around(&first), values: first },
-            Series { name: "with all others".to_owned(), intervals: around(&total), values: total },
+        y: Axis::new("power", "W"),
+        series: vec![Series {
+            look: Look::Dotted,
+            spread: Spread::Errors(errors),
+            ..Series::new("", rays, means)
+        }],
+        references: vec![
+            reference("within the tolerance of the last", Place::Heights([0.99, 1.01])),
+            reference("settled from", Place::Across(4e3)),
+            reference("extrapolated", Place::Height(1.0)),
         ],
-    }
+    }))
 }
 
-fn front() -> Front {
+fn bars() -> Chart {
+    let total = vec![0.5576, 0.4424, 0.2437];
+    let around = |values: &[f64]| Spread::Intervals(values.iter().map(|v| [v - 0.03, v + 0.03]).collect());
+    let first = vec![0.3139, 0.4424, 0.0];
+    chart(Drawn::Bars(Bars {
+        label: "parameter".to_owned(),
+        names: ["speed", "hardness", "activation energy"].map(str::to_owned).to_vec(),
+        axis: Axis::new("share of the variance", ""),
+        series: vec![
+            Bar { name: "alone".to_owned(), spread: around(&first), values: first },
+            Bar { name: "with all others".to_owned(), spread: around(&total), values: total },
+        ],
+    }))
+}
+
+fn front() -> Chart {
     let mut stream = Stream::new(5, Purpose::Sampling, 1);
-    let mut points: Vec<FrontPoint> = (0..12)
-        .map(|k| f64::from(k) / 11.0)
-        .map(|t| FrontPoint { costs: [t, 1.0 - t.sqrt()], standard_errors: [0.01, 0.02], is_on_front: true })
-        .collect();
-    points.extend((0..200).map(|_| {
-        let t = stream.uniform();
-        FrontPoint { costs: [t, 1.0 - t.sqrt() + stream.uniform()], ..FrontPoint::default() }
-    }));
-    Front {
-        title: "Two costs".to_owned(),
-        description: "The front.".to_owned(),
+    let front: Vec<f64> = (0..12).map(|k| f64::from(k) / 11.0).collect();
+    let heights = front.iter().map(|t| 1.0 - t.sqrt()).collect();
+    let beaten: Vec<f64> = (0..200).map(|_| stream.uniform()).collect();
+    let above = beaten.iter().map(|t| 1.0 - t.sqrt() + stream.uniform()).collect();
+    let on_front = Series {
+        look: Look::StairsAfter,
+        spread: Spread::Errors(vec![0.02; 12]),
+        x_errors: vec![0.01; 12],
+        ..Series::new("front", front, heights)
+    };
+    chart(Drawn::Curves(Curves {
         x: Axis::new("energy", "J"),
         y: Axis::new("largest fragment", ""),
-        points,
-        is_large_right: false,
-    }
+        series: vec![Series { look: Look::Faint, ..Series::new("beaten", beaten, above) }, on_front],
+        references: Vec::new(),
+    }))
 }
 
-fn all() -> Vec<(&'static str, String)> {
+fn map() -> Chart {
+    let (columns, rows): (Vec<f64>, Vec<f64>) = ((0..20).map(f64::from).collect(), vec![0.0, 1.0, 2.0]);
+    let values = rows.iter().map(|row| columns.iter().map(|x| (x * (row + 1.0)).sin()).collect()).collect();
+    let y = Axis::choice("primaries", &["1", "2–3", "4–7"]);
+    let (x, shade) = (Axis::new("time", "s"), Axis::new("part of the mass", ""));
+    chart(Drawn::Heatmap(Heatmap { x, y, shade, columns, rows, values }))
+}
+
+fn all() -> Vec<(&'static str, Vec<Chart>)> {
     let (axes, rows, costs) = candidates(500);
     let cost = Axis::new("cost", "");
     let with_cost = rows.iter().zip(&costs).map(|(row, cost)| [row.as_slice(), &[*cost]].concat()).collect();
-    let parallel = Parallel {
-        title: "All candidates".to_owned(),
-        description: "Each line a candidate.".to_owned(),
+    let parallel = Candidates {
         axes: axes.iter().cloned().chain([cost.clone()]).collect(),
         rows: with_cost,
-        ..Parallel::default()
-    };
-    let scatter = Scatter {
-        title: "Cost against hardness".to_owned(),
-        description: "Cost falls with hardness.".to_owned(),
-        x: axes[3].clone(),
-        y: axes[0].clone(),
-        points: rows.iter().map(|row| [row[3], row[0]]).collect(),
         shade: cost.clone(),
         shades: costs.clone(),
+        is_large_good: false,
     };
     let histogram = |axis: usize| {
         let values: Vec<f64> = rows.iter().map(|row| row[axis]).collect();
-        Histogram {
-            mean: Some([values.iter().sum::<f64>() / 500.0, 0.01]),
-            ..Histogram::of(axes[axis].clone(), &values)
-        }
+        let mean = Some([values.iter().sum::<f64>() / 500.0, 0.01]);
+        chart(Drawn::Histogram(Histogram { mean, ..Histogram::of(axes[axis].clone(), &values) }))
     };
-    let histograms = Histograms {
-        title: "Measures".to_owned(),
-        description: "How measures are distributed.".to_owned(),
-        panels: [0, 1, 2, 4].map(histogram).to_vec(),
-    };
-    let pairs = Pairs {
-        title: "The good region".to_owned(),
-        description: "Every pair of parameters.".to_owned(),
-        axes,
-        rows,
-        shade: cost,
-        shades: costs,
-        ..Pairs::default()
-    };
+    let histograms = [0, 1, 2, 4].map(histogram).to_vec();
+    let pairs = Candidates { axes, rows, shade: cost, shades: costs, is_large_good: false };
     vec![
-        ("lines", lines().svg()),
-        ("parallel", parallel.svg()),
-        ("scatter", scatter.svg()),
-        ("histograms", histograms.svg()),
-        ("pairs", pairs.svg()),
-        ("staircase", staircase().svg()),
-        ("bars", bars().svg()),
-        ("front", front().svg()),
+        ("lines", lines()),
+        ("parallel", vec![chart(Drawn::Parallel(parallel))]),
+        ("map", vec![map()]),
+        ("histograms", histograms),
+        ("pairs", vec![chart(Drawn::Pairs(pairs))]),
+        ("staircase", vec![staircase()]),
+        ("bars", vec![bars()]),
+        ("front", vec![front()]),
     ]
 }
 
@@ -199,7 +182,8 @@ fn check_frame(name: &str, svg: &str) {
 /// With `AGGLO_PICTURES` set to a folder, the charts are left there to be looked at.
 #[test]
 fn charts_are_well_formed() {
-    for (name, svg) in all() {
+    for (name, charts) in all() {
+        let svg = picture(name, "What it shows.", &charts);
         check_form(name, &svg);
         check_frame(name, &svg);
         if let Some(folder) = std::env::var_os("AGGLO_PICTURES") {
@@ -208,30 +192,32 @@ fn charts_are_well_formed() {
     }
 }
 
+fn alone(drawn: Drawn) -> String {
+    picture("", "", &[chart(drawn)])
+}
+
 /// A dot is where its values say: the middle of the axes is the middle of the panel, on a logarithmic axis by ratios.
 #[test]
 fn dots_are_where_their_values_say() {
-    let scatter = Scatter {
-        x: Axis::new("x", "").log(),
-        points: vec![[1.0, -1.0], [10.0, 0.0], [100.0, 1.0]],
-        ..Scatter::default()
-    };
-    let svg = scatter.svg();
+    let series =
+        Series { look: Look::Points, ..Series::new("", vec![1.0, 10.0, 100.0], vec![-1.0, 0.0, 1.0]) };
+    let x = Axis::new("x", "").log();
+    let svg = alone(Drawn::Curves(Curves { x, series: vec![series], ..Curves::default() }));
     let middle = svg.split("<circle ").nth(2).unwrap();
-    // The panel reaches from 92 to 776 and from 66 to 426.
-    assert!(middle.starts_with("cx=\"434\" cy=\"246\""), "{middle}");
+    // The panel reaches from 92 to 776 and from 66 to 406.
+    assert!(middle.starts_with("cx=\"434\" cy=\"236\""), "{middle}");
 }
 
 /// A bar reaches from nothing to its value, and its interval from one end to the other.
 #[test]
 fn bars_are_as_long_as_their_values_say() {
-    let series = Series { name: String::new(), values: vec![0.5], intervals: vec![[0.25, 1.0]] };
-    let bars = Bars { names: vec![String::new()], series: vec![series], ..Bars::default() };
+    let spread = Spread::Intervals(vec![[0.25, 1.0]]);
+    let series = vec![Bar { name: String::new(), values: vec![0.5], spread }];
+    let svg = alone(Drawn::Bars(Bars { names: vec![String::new()], series, ..Bars::default() }));
     let scale = Scale::over([0.5, 0.25, 1.0], false).with(0.0);
     // The panel reaches from 60 to 776.
     let [zero, low, value, high] = [0.0, 0.25, 0.5, 1.0].map(|value| 60.0 + 716.0 * scale.part(value));
     assert_near!((value - zero) / (high - low), 0.5 / 0.75, 1e-12);
-    let svg = bars.svg();
     assert_contains!(svg, &format!("<rect x=\"{}\"", short(zero)));
     assert_contains!(svg, &format!("width=\"{}\" height=\"14\"", short(value - zero)));
     for [from, to] in [[low, high], [low, low], [high, high]] {
@@ -240,6 +226,25 @@ fn bars_are_as_long_as_their_values_say() {
             line.starts_with(&format!("x1=\"{from}\"")) && line.contains(&format!("x2=\"{to}\""))
         });
         assert!(line.is_some(), "no line from {from} to {to} in {svg}");
+    }
+}
+
+/// A cell reaches half way to its neighbors, and its color is that of its value.
+#[test]
+fn cells_are_as_large_as_their_places_say() {
+    let map = Heatmap {
+        columns: vec![0.0, 1.0, 3.0],
+        rows: vec![0.0, 1.0],
+        values: vec![vec![0.0, 1.0, f64::NAN], vec![0.5, 0.0, 1.0]],
+        ..Heatmap::default()
+    };
+    let svg = alone(Drawn::Heatmap(map));
+    // From -0.5 over 0.5 and 2 to 4 in 590 pixels from 92 on; what is no number is left out.
+    let cells: Vec<&str> = svg.split("<rect ").filter(|rect| rect.contains("height=\"180.3\"")).collect();
+    assert_eq!(cells.len(), 5, "cells of {svg}");
+    let edge = |value: f64| short(92.0 + 590.0 * (value + 0.5) / 4.5);
+    for (cell, left) in cells.iter().zip([-0.5, 0.5, -0.5, 0.5, 2.0]) {
+        assert!(cell.starts_with(&format!("x=\"{}\"", edge(left))), "from {left}: {cell}");
     }
 }
 
@@ -256,28 +261,29 @@ fn quantities_of_vectors_are_their_lengths() {
 
 #[test]
 fn nothing_to_show_is_no_trouble() {
+    let empty_bars = Bars { series: vec![Bar::default()], names: vec![String::new()], ..Bars::default() };
+    let unknown = Series::new("a", vec![f64::NAN], vec![1.0]);
+    let two = Candidates { axes: vec![Axis::default(); 2], ..Candidates::default() };
     let empty = [
-        Lines::default().svg(),
-        Lines { panels: vec![LinePanel::default()], ..Lines::default() }.svg(),
-        Parallel::default().svg(),
-        Parallel { axes: vec![Axis::default()], ..Parallel::default() }.svg(),
-        Scatter::default().svg(),
-        Scatter { points: vec![[f64::NAN, 1.0]], ..Scatter::default() }.svg(),
-        Histograms::default().svg(),
-        Histograms { panels: vec![Histogram::default()], ..Histograms::default() }.svg(),
-        Pairs::default().svg(),
-        Pairs { axes: vec![Axis::default(); 2], ..Pairs::default() }.svg(),
-        Staircase { panels: vec![Default::default()], ..Staircase::default() }.svg(),
-        Bars::default().svg(),
-        Front::default().svg(),
+        Drawn::Curves(Curves::default()),
+        Drawn::Curves(Curves { series: vec![Series::default(), unknown], ..Curves::default() }),
+        Drawn::Bars(Bars::default()),
+        Drawn::Bars(empty_bars),
+        Drawn::Heatmap(Heatmap::default()),
+        Drawn::Heatmap(Heatmap { rows: vec![1.0], values: vec![Vec::new()], ..Heatmap::default() }),
+        Drawn::Histogram(Histogram::default()),
+        Drawn::Parallel(Candidates::default()),
+        Drawn::Parallel(two.clone()),
+        Drawn::Pairs(Candidates::default()),
+        Drawn::Pairs(two),
     ];
-    for (number, svg) in empty.iter().enumerate() {
-        check_form(&number.to_string(), svg);
+    for drawn in empty {
+        check_form(&format!("{drawn:?}"), &alone(drawn.clone()));
     }
+    check_form("no chart", &picture("", "", &[]));
 }
 
 #[test]
 fn words_cannot_break_the_file() {
-    let lines = Lines { title: "a < b & \"c\"\u{7}".to_owned(), ..Lines::default() };
-    assert_contains!(lines.svg(), "a &lt; b &amp; &quot;c&quot; <");
+    assert_contains!(picture("a < b & \"c\"\u{7}", "", &lines()), "a &lt; b &amp; &quot;c&quot; <");
 }

@@ -1,9 +1,10 @@
 //! Which charts a run gets.
 
-use super::chart::{Axis, Chart, Kind, Lines, Series, kept};
 use super::folder::Folder;
+use super::lines::{Lines, kept};
 use super::pulses;
 use super::table::Table;
+use crate::chart::{Axis, Chart, Drawn, Heatmap};
 use agglo::folder::names::SIZES;
 use agglo::impact::heat::Balance;
 use agglo::ledger::entry::hard::UNBALANCED;
@@ -78,17 +79,19 @@ fn sizes(table: &Table) -> Option<Chart> {
         (part > 0.0).then(|| format!("{name} primaries: {part:.1} % of the mass at last"))
     });
     let words = at_last.collect();
-    let y = (0..classes.len()).map(|class| class as f64).collect();
-    let label = "part of the mass".to_owned();
     Some(Chart {
         id: "sizes".to_owned(),
         title: "Sizes over time".to_owned(),
         caption: format!("How much of the mass is in grains of each class of size. From {SIZES}."),
         words,
-        kind: Kind::Map,
-        x: Axis::new("time", "s"),
-        y: Axis { names, ..Axis::new("primaries in a grain", "") },
-        series: vec![Series { name: "mass".to_owned(), x, y, z, label, ..Series::default() }],
+        drawn: Drawn::Heatmap(Heatmap {
+            x: Axis::new("time", "s"),
+            y: Axis { labels: names, ..Axis::new("primaries in a grain", "") },
+            shade: Axis::new("part of the mass", ""),
+            columns: x,
+            rows: (0..classes.len()).map(|class| class as f64).collect(),
+            values: z,
+        }),
     })
 }
 
@@ -109,9 +112,10 @@ mod tests {
         let columns =
             vec![vec![0.0, 1.0, 1.0], vec![1.0, 1.0, 2.0], vec![1.0, 1.0, 3.0], vec![1.0, 0.25, 0.75]];
         let chart = sizes(&Table { names: names.to_vec(), columns, dropped: 0 }).unwrap();
-        assert_eq!(chart.y.names, ["1", "2–3"]);
-        assert_eq!(chart.series[0].x, [0.0, 1.0]);
-        assert_eq!(chart.series[0].z, [[1.0, 0.25], [0.0, 0.75]]);
+        let Drawn::Heatmap(map) = &chart.drawn else { panic!("a map is due") };
+        assert_eq!(map.y.labels, ["1", "2–3"]);
+        assert_eq!((&map.columns, &map.rows), (&vec![0.0, 1.0], &vec![0.0, 1.0]), "times and classes");
+        assert_eq!(map.values, [[1.0, 0.25], [0.0, 0.75]]);
         assert_eq!(chart.words[1], "2–3 primaries: 75.0 % of the mass at last");
     }
 }

@@ -210,17 +210,18 @@ fn assert_shown(engine: &str, shown: &[Shown]) {
     let due: Vec<&str> = shown.iter().map(|(id, ..)| *id).collect();
     assert_eq!(found, due, "charts: found on the left, due on the right");
     for (chart, (id, table, [label, unit], lines)) in charts.iter().zip(shown) {
-        assert_eq!(chart.y, Axis::new(label, unit), "chart {id}: vertical axis");
-        assert_eq!(chart.x, Axis::new("time", "s"), "chart {id}: horizontal axis");
+        let Drawn::Curves(curves) = &chart.drawn else { panic!("chart {id}: lines are due") };
+        assert_eq!(curves.y, Axis::new(label, unit), "chart {id}: vertical axis");
+        assert_eq!(curves.x, Axis::new("time", "s"), "chart {id}: horizontal axis");
         assert!(
             chart.caption.ends_with(&format!("From series/{table}.csv.")),
             "chart {id}: {}",
             chart.caption
         );
-        let found: Vec<&str> = chart.series.iter().map(|series| series.name.as_str()).collect();
+        let found: Vec<&str> = curves.series.iter().map(|series| series.name.as_str()).collect();
         let due: Vec<&str> = lines.iter().map(|(name, _)| *name).collect();
         assert_eq!(found, due, "chart {id}: lines: found on the left, due on the right");
-        for (series, (name, column)) in chart.series.iter().zip(*lines) {
+        for (series, (name, column)) in curves.series.iter().zip(*lines) {
             assert_eq!(*unit, unit_of(column), "chart {id}: unit of {column}");
             let values = folder.table(table).and_then(|table| table.column(column));
             assert_eq!(
@@ -255,6 +256,6 @@ fn heat_from_nowhere_is_shown_where_it_can_be() {
     let folder = distinct(&engine);
     let charts = charts(&folder);
     let heat = charts.iter().find(|chart| chart.id == "heat").unwrap();
-    let line = heat.series.iter().find(|series| series.name.contains("from nowhere")).unwrap();
+    let line = heat.series().iter().find(|series| series.name.contains("from nowhere")).unwrap();
     assert_eq!(Some(&line.y[..]), folder.table("energy").unwrap().column("unbalanced_J"), "unbalanced_J [J]");
 }

@@ -8,9 +8,9 @@ use base64::engine::general_purpose::STANDARD;
 use flate2::Compression;
 use flate2::write::DeflateEncoder;
 
-use super::chart::{Chart, Kind};
 use super::cite::{PAPERS, Paper};
 use super::{Citation, Figures, Line, Listing, Report};
+use crate::chart::{Chart, Drawn};
 use crate::plot::{LINES, Map, NAMED, PLAIN};
 use agglo::folder::names::SCENARIO;
 
@@ -193,7 +193,8 @@ fn card(chart: &Chart) -> String {
     } else {
         format!("<details><summary>In words</summary><ul>{words}</ul></details>\n")
     };
-    let class = if chart.kind == Kind::Parallel { "card whole" } else { "card" };
+    let class =
+        if matches!(chart.drawn, Drawn::Parallel(_) | Drawn::Pairs(_)) { "card whole" } else { "card" };
     format!(
         "<figure class=\"{class}\">\n<h3>{title}</h3>\n<div class=\"chart\" id=\"chart-{id}\" role=\"img\" \
          aria-label=\"{title}. {caption}\"></div>\n<figcaption>{caption}</figcaption>\n{words}</figure>\n"

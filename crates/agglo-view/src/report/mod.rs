@@ -2,13 +2,13 @@
 //! scenario, and what to cite. It is one file and asks nothing of the network.
 
 mod campaign;
-mod chart;
 mod charts;
 mod cite;
 mod columns;
 mod due;
 mod folder;
 mod html;
+mod lines;
 mod listing;
 mod pulses;
 mod replay;
@@ -19,11 +19,11 @@ mod testing;
 
 use std::path::{Path, PathBuf};
 
-pub use chart::{Axis, Chart, Dimension, Kind, Series};
 pub use cite::{Citation, citations, program};
 pub use listing::Line;
 pub use replay::Replay;
 
+use crate::chart::Chart;
 use agglo::folder::names;
 use agglo::record::{RecordError, atomic};
 use folder::Folder;

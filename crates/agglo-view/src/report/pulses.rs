@@ -1,8 +1,9 @@
 //! Charts of single pulses: rays fly for milliseconds where a run lasts for seconds, so that over the whole run their
 //! curves are needles.
 
-use super::chart::{Axis, Chart, Kind, Lines, Series};
+use super::lines::Lines;
 use super::table::Table;
+use crate::chart::{Axis, Chart, Curves, Drawn, Series};
 use agglo::folder::names::RAYS;
 
 /// Rows of a pulse from which on its course can be seen.
@@ -22,13 +23,13 @@ pub fn charts(rays: &Table, lines: &[Lines]) -> Vec<Chart> {
     let pulses = pulses(rays);
     let Some(first) = pulses.first() else { return Vec::new() };
     let zoomed = lines.iter().filter(|lines| lines.table == "rays").filter_map(|lines| {
-        let chart = lines.chart(&first.rows)?;
-        Some(Chart {
-            id: format!("{}-pulse", chart.id),
-            title: format!("{}, pulse {}", chart.title, first.number),
-            x: since_launch(),
-            ..chart
-        })
+        let mut chart = lines.chart(&first.rows)?;
+        if let Drawn::Curves(curves) = &mut chart.drawn {
+            curves.x = since_launch();
+        }
+        chart.id.push_str("-pulse");
+        chart.title = format!("{}, pulse {}", chart.title, first.number);
+        Some(chart)
     });
     std::iter::once(in_flight(&pulses)).chain(zoomed).collect()
 }
@@ -43,8 +44,7 @@ fn in_flight(pulses: &[Pulse]) -> Chart {
         .take(MOST_PULSES)
         .map(|pulse| {
             let column = |name: &str| pulse.rows.column(name).map(<[f64]>::to_vec).unwrap_or_default();
-            let name = format!("pulse {}", pulse.number);
-            Series { name, x: column("time_s"), y: column("in_flight"), ..Series::default() }
+            Series::new(&format!("pulse {}", pulse.number), column("time_s"), column("in_flight"))
         })
         .collect();
     let left_out = if pulses.len() > series.len() {
@@ -57,10 +57,12 @@ fn in_flight(pulses: &[Pulse]) -> Chart {
         title: "Rays in flight after each launch".to_owned(),
         caption: format!("How long rays stay among the grains. From {RAYS}.{left_out}"),
         words: series.iter().map(|series| series.in_words("")).collect(),
-        kind: Kind::Lines,
-        x: since_launch(),
-        y: Axis::new("rays in flight", ""),
-        series,
+        drawn: Drawn::Curves(Curves {
+            x: since_launch(),
+            y: Axis::new("rays in flight", ""),
+            series,
+            references: Vec::new(),
+        }),
     }
 }
 
@@ -129,17 +131,15 @@ mod tests {
         let charts = charts(&rays(), &lines());
         let ids: Vec<&str> = charts.iter().map(|chart| chart.id.as_str()).collect();
         assert_eq!(ids, ["rays-of-pulses", "rays-pulse"]);
-        let names: Vec<&str> = charts[0].series.iter().map(|series| series.name.as_str()).collect();
+        let names: Vec<&str> = charts[0].series().iter().map(|series| series.name.as_str()).collect();
         assert_eq!(names, ["pulse 1", "pulse 2"]);
-        for series in &charts[0].series {
+        for series in charts[0].series() {
             assert_eq!(series.y, [0.0, 50.0, 40.0, 30.0, 20.0, 10.0, 0.0]);
             let off = series.x.iter().zip(0..).map(|(x, tenth)| (x - 0.1 * f64::from(tenth)).abs());
             assert!(off.fold(0.0, f64::max) < 1e-12, "{:?}", series.x);
         }
-        assert_eq!(
-            (charts[1].title.as_str(), charts[1].x.label.as_str()),
-            ("Rays, pulse 1", "time since the launch")
-        );
+        let Drawn::Curves(curves) = &charts[1].drawn else { panic!("lines are due") };
+        assert_eq!((charts[1].title.as_str(), &*curves.x.name), ("Rays, pulse 1", "time since the launch"));
     }
 
     #[test]

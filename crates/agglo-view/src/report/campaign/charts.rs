@@ -1,12 +1,16 @@
 //! Charts of searches, and those that searches and studies share.
 
 use super::folder::Folder;
-use crate::report::chart::{Axis, Chart, Dimension, Kind, Series};
+use crate::chart::{Axis, Candidates, Chart, Curves, Drawn, Look, Series, Spread};
 use agglo::folder::names::{EVALUATIONS, GENERATIONS, SUMMARY};
 use agglo::record::Sheet;
 use agglo::search::optimizer::Method;
 use agglo::text::{column, readable};
 
+/// How many candidates the good region has at least, where there are so many.
+const FEWEST_GOOD: usize = 50;
+/// Most parameters that are shown in pairs.
+const MOST_PAIRED: usize = 6;
 /// How many of the best make a mean, where the method does not say how many parents it has.
 const BEST: usize = 6;
 
@@ -17,7 +21,9 @@ pub fn charts(folder: &Folder) -> Vec<Chart> {
     searched.keep("status", "ok");
     let of_search = if folder.is_study() { Vec::new() } else { vec![costs(folder, &searched)] };
     let parallel = if folder.parameters().len() > 1 { parallel(folder, &searched) } else { None };
-    of_search.into_iter().chain([front(folder, &searched), candidates(folder), parallel]).flatten().collect()
+    let pairs = parallel.as_ref().filter(|_| !folder.is_study()).and_then(|all| pairs(folder, all));
+    let shared = [front(folder, &searched), candidates(folder), parallel, pairs];
+    of_search.into_iter().chain(shared).flatten().collect()
 }
 
 /// The best cost against generations, with the mean of the parents ([B], fig. 4).
@@ -37,15 +43,10 @@ fn costs(folder: &Folder, searched: &Sheet) -> Option<Chart> {
     };
     let (nearest, best) = (of(true), of(false));
     let (kept, mean) = mean_of_best(folder, searched, &generation)?;
-    let line = |name: &str, y: Vec<f64>| Series {
-        name: name.to_owned(),
-        x: generation.clone(),
-        y,
-        ..Series::default()
-    };
+    let line = |name: &str, y: Vec<f64>| Series::new(name, generation.clone(), y);
     let errors = column("best_cost_standard_error")?;
     let mut series = vec![
-        Series { error: errors, ..line("best so far", best) },
+        Series { spread: Spread::Errors(errors), ..line("best so far", best) },
         line(&format!("mean of the best {kept} so far"), mean.into_iter().map(|cost| sign * cost).collect()),
     ];
     series.push(line("best of the generation", signed("cost_lowest")?));
@@ -67,10 +68,12 @@ fn costs(folder: &Folder, searched: &Sheet) -> Option<Chart> {
              {EVALUATIONS}."
         ),
         words: series.iter().map(|series| series.in_words("")).collect(),
-        x: Axis::new("generation", ""),
-        y: Axis::new(&goal, ""),
-        series,
-        ..Chart::default()
+        drawn: Drawn::Curves(Curves {
+            x: Axis::new("generation", ""),
+            y: Axis::new(&goal, ""),
+            series,
+            references: Vec::new(),
+        }),
     })
 }
 
@@ -121,9 +124,9 @@ fn candidates(folder: &Folder) -> Option<Chart> {
         let rows: Vec<usize> = (0..number.len()).filter(|&row| is_of(row) && cost[row].is_finite()).collect();
         let take = |column: &[f64]| rows.iter().map(|&row| column[row]).collect::<Vec<_>>();
         if !rows.is_empty() {
-            let text = rows.iter().map(|&row| in_words(folder, row)).collect();
-            let (x, y, error) = (take(&number), take(&cost), take(&error));
-            series.push(Series { name: name.to_owned(), x, y, error, text, ..Series::default() });
+            let texts = rows.iter().map(|&row| in_words(folder, row)).collect();
+            let (look, spread) = (Look::Points, Spread::Errors(take(&error)));
+            series.push(Series { look, spread, texts, ..Series::new(name, take(&number), take(&cost)) });
         }
     }
     if series.is_empty() {
@@ -137,10 +140,12 @@ fn candidates(folder: &Folder) -> Option<Chart> {
              by themselves. From {EVALUATIONS}."
         ),
         words: series.iter().map(|series| series.in_words("")).collect(),
-        kind: Kind::Points,
-        x: Axis::new("candidate", ""),
-        y: Axis::new(folder.goals().first()?, ""),
-        series,
+        drawn: Drawn::Curves(Curves {
+            x: Axis::new("candidate", ""),
+            y: Axis::new(folder.goals().first()?, ""),
+            series,
+            references: Vec::new(),
+        }),
     })
 }
 
@@ -164,10 +169,8 @@ fn front(folder: &Folder, searched: &Sheet) -> Option<Chart> {
         Some(searched.numbers(name)?.into_iter().map(|cost| sign * cost).collect::<Vec<f64>>())
     };
     let all = Series {
-        name: "candidates".to_owned(),
-        x: signed(first, signs[0])?,
-        y: signed(second, signs[1])?,
-        ..Series::default()
+        look: Look::Faint,
+        ..Series::new("candidates", signed(first, signs[0])?, signed(second, signs[1])?)
     };
     let mut front: Vec<[f64; 2]> = folder
         .summary
@@ -177,13 +180,12 @@ fn front(folder: &Folder, searched: &Sheet) -> Option<Chart> {
         .collect();
     front.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let misses = folder.summary.iter().flat_map(|summary| &summary.front).any(|point| point.violation > 0.0);
-    let beaten = Series {
-        name: if misses { "beaten by no other, all MISS A LIMIT" } else { "beaten by no other" }.to_owned(),
-        x: front.iter().map(|point| point[0]).collect(),
-        y: front.iter().map(|point| point[1]).collect(),
-        ..Series::default()
-    };
-    let [firsts, seconds] = [0, 1].map(|at| column(&front.iter().map(|point| point[at]).collect::<Vec<_>>()));
+    let name = if misses { "beaten by no other, all MISS A LIMIT" } else { "beaten by no other" };
+    let [x, y] = [0, 1].map(|at| front.iter().map(|point| point[at]).collect::<Vec<_>>());
+    let [firsts, seconds] = [&x, &y].map(|values| column(values));
+    // What lies on the bad side of the stairs is beaten.
+    let look = if signs[0] < 0.0 { Look::StairsBefore } else { Look::StairsAfter };
+    let unbeaten = Series { look, ..Series::new(name, x, y) };
     let words =
         firsts.iter().zip(&seconds).map(|(a, b)| format!("{} = {a} with {} = {b}", goals[0], goals[1]));
     Some(Chart {
@@ -194,10 +196,12 @@ fn front(folder: &Folder, searched: &Sheet) -> Option<Chart> {
              {EVALUATIONS} and {SUMMARY}."
         ),
         words: words.collect(),
-        kind: Kind::Points,
-        x: Axis::new(&goals[0], ""),
-        y: Axis::new(&goals[1], ""),
-        series: vec![all, beaten],
+        drawn: Drawn::Curves(Curves {
+            x: Axis::new(&goals[0], ""),
+            y: Axis::new(&goals[1], ""),
+            series: vec![all, unbeaten],
+            references: Vec::new(),
+        }),
     })
 }
 
@@ -207,7 +211,7 @@ fn parallel(folder: &Folder, searched: &Sheet) -> Option<Chart> {
         return None;
     }
     let (costs, goals, signs) = (folder.costs(), folder.goals(), folder.signs());
-    let parameters = folder.parameters().into_iter().filter_map(|name| dimension(searched, name, name));
+    let parameters = folder.parameters().into_iter().filter_map(|name| column_of(searched, name, name));
     // A study without objectives is colored by the first of its outcomes.
     let first = folder.outcomes().first().map(|name| (*name).to_owned());
     let shown: Vec<(String, String, f64)> = if costs.is_empty() {
@@ -217,15 +221,15 @@ fn parallel(folder: &Folder, searched: &Sheet) -> Option<Chart> {
         named.map(|((cost, goal), sign)| ((*cost).to_owned(), goal, sign)).collect()
     };
     let signed = |(name, goal, sign): &(String, String, f64)| {
-        let dimension = dimension(searched, name, goal)?;
-        let values = dimension.values.iter().map(|value| sign * value).collect();
-        Some(Dimension { values, ..dimension })
+        let (axis, values) = column_of(searched, name, goal)?;
+        Some((axis, values.iter().map(|value| sign * value).collect()))
     };
-    let outcomes: Vec<Dimension> = shown.iter().filter_map(signed).collect();
-    let (_, label, sign) = shown.first()?.clone();
-    let colors = outcomes.first()?.values.clone();
-    let dimensions: Vec<Dimension> = parameters.chain(outcomes).collect();
-    let ascending = sign < 0.0;
+    let outcomes: Vec<(Axis, Vec<f64>)> = shown.iter().filter_map(signed).collect();
+    let (shade, shades) = outcomes.first().cloned()?;
+    let is_large_good = shown.first()?.2 < 0.0;
+    let (axes, columns): (Vec<Axis>, Vec<Vec<f64>>) = parameters.chain(outcomes).unzip();
+    let rows =
+        (0..searched.rows.len()).map(|row| columns.iter().map(|column| column[row]).collect()).collect();
     Some(Chart {
         id: "parallel".to_owned(),
         title: "Parameters and goals".to_owned(),
@@ -233,27 +237,57 @@ fn parallel(folder: &Folder, searched: &Sheet) -> Option<Chart> {
             "A line for each candidate; bright ones are better. Drag along an axis to choose a range, drag a name to move \
              its axis. From {EVALUATIONS}."
         ),
-        words: vec![format!("{} candidates over {} axes", searched.rows.len(), dimensions.len())],
-        kind: Kind::Parallel,
-        series: vec![Series { label, colors, ascending, dimensions, ..Series::default() }],
-        ..Chart::default()
+        words: vec![format!("{} candidates over {} axes", searched.rows.len(), axes.len())],
+        drawn: Drawn::Parallel(Candidates { axes, rows, shade, shades, is_large_good }),
     })
 }
 
-fn dimension(sheet: &Sheet, name: &str, label: &str) -> Option<Dimension> {
-    let label = label.to_owned();
+/// The best quarter of the candidates of parallel coordinates, but at least so many, in all pairs of the first parameters.
+fn pairs(folder: &Folder, parallel: &Chart) -> Option<Chart> {
+    let Drawn::Parallel(all) = &parallel.drawn else { return None };
+    let ranked = all.ranked();
+    let good = &ranked[..ranked.len().min((ranked.len() / 4).max(FEWEST_GOOD))];
+    let shown = folder.parameters().len().min(MOST_PAIRED);
+    if good.is_empty() {
+        return None;
+    }
+    Some(Chart {
+        id: "pairs".to_owned(),
+        title: "The good region".to_owned(),
+        caption: format!(
+            "The best {} of {} candidates that keep the limits, in pairs of parameters; bright ones are better. From \
+             {EVALUATIONS}.",
+            good.len(),
+            ranked.len()
+        ),
+        words: (0..shown).map(|axis| range_in_words(all, good, axis)).collect(),
+        drawn: Drawn::Pairs(Candidates {
+            axes: all.axes[..shown].to_vec(),
+            rows: good.iter().map(|(row, _)| row[..shown].to_vec()).collect(),
+            shades: good.iter().map(|(_, shade)| *shade).collect(),
+            ..all.clone()
+        }),
+    })
+}
+
+/// "v_m_s from 20 to 31".
+fn range_in_words(all: &Candidates, good: &[(&Vec<f64>, f64)], axis: usize) -> String {
+    let values = || good.iter().map(|(row, _)| row[axis]);
+    let (least, most) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
+    let Axis { name, labels, .. } = &all.axes[axis];
+    let said = |value: f64| labels.get(value as usize).cloned().unwrap_or_else(|| readable(value, ""));
+    format!("{name} from {} to {}", said(least), said(most))
+}
+
+/// A column as an axis of that name, and its values: numbers, or places in the list of its words.
+fn column_of(sheet: &Sheet, name: &str, label: &str) -> Option<(Axis, Vec<f64>)> {
     let words = sheet.words(name)?;
     if words.iter().all(|word| word.is_empty() || word.parse::<f64>().is_ok()) {
-        return Some(Dimension { label, values: sheet.numbers(name)?, ..Dimension::default() });
+        return Some((Axis::new(label, ""), sheet.numbers(name)?));
     }
     let mut names = words.clone();
     names.sort_unstable();
     names.dedup();
     let place = |word: &&str| names.iter().position(|name| name == word).map_or(f64::NAN, |at| at as f64);
-    Some(Dimension {
-        label,
-        values: words.iter().map(place).collect(),
-        tickvals: (0..names.len()).map(|at| at as f64).collect(),
-        ticktext: names.iter().map(|name| (*name).to_owned()).collect(),
-    })
+    Some((Axis::choice(label, &names), words.iter().map(place).collect()))
 }

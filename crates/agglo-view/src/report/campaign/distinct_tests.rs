@@ -3,8 +3,8 @@
 use std::fs;
 
 use super::*;
+use crate::chart::{Axis, Bars, Chart, Curves, Drawn, Place, Reference, Spread};
 use crate::report::Figures;
-use crate::report::chart::{Axis, Chart, Kind};
 
 /// What is to be large, so that each cost has another sign than its value, with a limit.
 const SEARCH: &str = "version = 1\nseed = 5\nbase.template = \"reacting\"\n[[objectives]]\nmaximize = \"n_f\"\n\
@@ -62,15 +62,51 @@ fn chart<'a>(report: &'a Report, id: &str) -> &'a Chart {
 /// What a series is due: its name, places, heights and errors.
 type Due<'a> = (&'a str, &'a [f64], &'a [f64], &'a [f64]);
 
+fn curves(chart: &Chart) -> &Curves {
+    if let Drawn::Curves(curves) = &chart.drawn {
+        curves
+    } else {
+        panic!("chart {}: curves are due", chart.id)
+    }
+}
+
+fn bars(chart: &Chart) -> &Bars {
+    if let Drawn::Bars(bars) = &chart.drawn { bars } else { panic!("chart {}: bars are due", chart.id) }
+}
+
+fn errors(spread: &Spread) -> &[f64] {
+    match spread {
+        Spread::Unknown => &[],
+        Spread::Errors(errors) => errors,
+        other => panic!("errors are due: {other:?}"),
+    }
+}
+
 /// Holds all series of a chart to what they are due, in their order; a height that is NaN is a gap.
 fn assert_series(chart: &Chart, due: &[Due<'_>]) {
-    let names: Vec<&str> = chart.series.iter().map(|series| series.name.as_str()).collect();
+    let series = &curves(chart).series;
+    let names: Vec<&str> = series.iter().map(|series| series.name.as_str()).collect();
     assert_eq!(names, due.iter().map(|due| due.0).collect::<Vec<_>>(), "series of {}", chart.id);
-    for (series, (name, x, y, error)) in chart.series.iter().zip(due) {
+    for (series, (name, x, y, error)) in series.iter().zip(due) {
         let what = format!("chart {}, series {name:?}", chart.id);
         assert_numbers(&format!("{what}: places"), &series.x, x);
         assert_numbers(&format!("{what}: heights"), &series.y, y);
-        assert_numbers(&format!("{what}: errors"), &series.error, error);
+        assert_numbers(&format!("{what}: errors"), errors(&series.spread), error);
+    }
+}
+
+/// The same of bars: names, lengths, and how far these are known.
+fn assert_bars(chart: &Chart, due: &[(&str, &[f64], Spread)]) {
+    let series = &bars(chart).series;
+    let names: Vec<&str> = series.iter().map(|bar| bar.name.as_str()).collect();
+    assert_eq!(names, due.iter().map(|due| due.0).collect::<Vec<_>>(), "bars of {}", chart.id);
+    for (bar, (name, values, spread)) in series.iter().zip(due) {
+        let what = format!("chart {}, bars {name:?}", chart.id);
+        assert_numbers(&format!("{what}: lengths"), &bar.values, values);
+        let ends = |spread: &Spread| -> Vec<f64> {
+            (0..values.len()).filter_map(|number| spread.of(number, values[number])).flatten().collect()
+        };
+        assert_numbers(&format!("{what}: ends of their bars of error"), &ends(&bar.spread), &ends(spread));
     }
 }
 
@@ -99,8 +135,9 @@ fn series_of_costs_stand_under_their_names() {
             ("nearest to the limits so far, which it MISSES", &x, &[3.25, NONE], &[]),
         ],
     );
-    assert_eq!((&chart.x, &chart.y), (&Axis::new("generation", ""), &Axis::new("n_f", "")), "axes");
-    assert_eq!((chart.title.as_str(), chart.kind), ("n_f against generation", Kind::Lines));
+    let Curves { x, y, .. } = curves(chart);
+    assert_eq!((x, y), (&Axis::new("generation", ""), &Axis::new("n_f", "")), "axes");
+    assert_eq!(chart.title, "n_f against generation");
 }
 
 /// Each stage by itself, without the failed one.
@@ -118,25 +155,28 @@ fn series_of_candidates_stand_under_their_names() {
             ("MISS A LIMIT", &[12.0], &[9.5], &[0.013]),
         ],
     );
-    assert_eq!(chart.series[0].text[1], "v_m_s = 22<br>hardness_Pa = 102", "parameters of candidate 11");
-    assert_eq!(chart.series[4].text[0], "v_m_s = 23<br>hardness_Pa = 103", "parameters of candidate 12");
-    assert_eq!((&chart.x, &chart.y), (&Axis::new("candidate", ""), &Axis::new("n_f", "")), "axes");
+    let Curves { x, y, series, .. } = curves(chart);
+    assert_eq!(series[0].texts[1], "v_m_s = 22<br>hardness_Pa = 102", "parameters of candidate 11");
+    assert_eq!(series[4].texts[0], "v_m_s = 23<br>hardness_Pa = 103", "parameters of candidate 12");
+    assert_eq!((x, y), (&Axis::new("candidate", ""), &Axis::new("n_f", "")), "axes");
 }
 
 /// The candidates of the search that ran and keep the limits.
 #[test]
 fn parallel_axes_stand_under_their_names() {
     let report = searched();
-    let [series] = &chart(&report, "parallel").series[..] else { panic!("one series is due") };
-    let found: Vec<(&str, &[f64])> =
-        series.dimensions.iter().map(|axis| (axis.label.as_str(), &axis.values[..])).collect();
-    let (v, hardness, goal) = ([21.0, 22.0, 25.0], [101.0, 102.0, 105.0], [2.5, 3.5, 4.25]);
-    assert_eq!(found, [("v_m_s", &v[..]), ("hardness_Pa", &hardness), ("n_f", &goal)], "axes");
-    assert_eq!(
-        (&series.colors[..], series.label.as_str(), series.ascending),
-        (&goal[..], "n_f", true),
-        "colors"
-    );
+    let Drawn::Parallel(found) = &chart(&report, "parallel").drawn else { panic!("candidates are due") };
+    let names: Vec<&str> = found.axes.iter().map(|axis| axis.name.as_str()).collect();
+    assert_eq!(names, ["v_m_s", "hardness_Pa", "n_f"], "axes");
+    assert_eq!(found.rows, [[21.0, 101.0, 2.5], [22.0, 102.0, 3.5], [25.0, 105.0, 4.25]], "candidates");
+    assert_eq!((&found.shades[..], found.shade.name.as_str()), (&[2.5, 3.5, 4.25][..], "n_f"), "colors");
+    assert!(found.is_large_good, "large values of {} are to be good", found.shade.name);
+    let pairs = chart(&report, "pairs");
+    let Drawn::Pairs(good) = &pairs.drawn else { panic!("candidates are due") };
+    assert_eq!(good.axes, found.axes[..2], "parameters");
+    assert_eq!(good.rows, [[25.0, 105.0], [22.0, 102.0], [21.0, 101.0]], "the best first");
+    assert_eq!((&good.shades, &good.shade), (&vec![4.25, 3.5, 2.5], &found.shade), "colors");
+    assert_eq!(pairs.words, ["v_m_s from 21 to 25", "hardness_Pa from 101 to 105"]);
 }
 
 fn table<'a>(report: &'a Report, title: &str) -> &'a Figures {
@@ -206,37 +246,34 @@ fn series_of_elementary_effects_stand_under_their_names() {
                    impacts,v,-1.21,1.25,1.01,1.02,1.005,8\nimpacts,hardness,1.11,1.125,1.015,1.03,1.007,9\n";
     let text = format!("{SEARCH}{HARDNESS}[plan.morris]\n");
     let report = report_of(&text, &[("evaluations.csv", EVALUATIONS), ("sensitivity.csv", effects)]);
-    let x = [0.0, 1.0];
     for (id, target, more) in [("sensitivity-0", "n_f", 0.0), ("sensitivity-1", "impacts", 1.0)] {
         let chart = chart(&report, id);
         let of = |values: [f64; 2]| values.map(|value| value + more);
-        assert_series(
+        assert_bars(
             chart,
             &[
-                ("mean size μ*", &x, &of([0.25, 0.125]), &of([0.01, 0.015])),
-                ("deviation σ", &x, &of([0.02, 0.03]), &[]),
-                ("of which chance", &x, &of([0.005, 0.007]), &[]),
+                ("mean size μ*", &of([0.25, 0.125]), Spread::Errors(of([0.01, 0.015]).to_vec())),
+                ("deviation σ", &of([0.02, 0.03]), Spread::Unknown),
+                ("of which chance", &of([0.005, 0.007]), Spread::Unknown),
             ],
         );
         assert_eq!(chart.title, format!("What moves {target}"));
-        assert_eq!(chart.x.names, ["v", "hardness"], "names along the axis");
+        assert_eq!(bars(chart).names, ["v", "hardness"], "names along the axis");
     }
 }
 
-/// Bars of error are half as long as the intervals.
+/// Bars of error are the intervals, wherever the share itself is.
 #[test]
 fn series_of_shares_stand_under_their_names() {
     let shares = "target,parameter,first,first_lower,first_upper,total,total_lower,total_upper,variance,noise_share,blocks\n\
                   n_f,v,0.5,0.25,0.75,0.625,0.5,0.875,0.1,0.01,16\nn_f,hardness,0.375,0.25,0.3125,0.4375,0.375,0.5,0.2,0.02,17\n";
     let text = format!("{SEARCH}{HARDNESS}[plan.sobol_indices]\n");
     let report = report_of(&text, &[("evaluations.csv", EVALUATIONS), ("sensitivity.csv", shares)]);
-    let x = [0.0, 1.0];
-    assert_series(
+    let alone = Spread::Intervals(vec![[0.25, 0.75], [0.25, 0.3125]]);
+    let total = Spread::Intervals(vec![[0.5, 0.875], [0.375, 0.5]]);
+    assert_bars(
         chart(&report, "sensitivity-0"),
-        &[
-            ("alone", &x, &[0.5, 0.375], &[0.25, 0.03125]),
-            ("with all interactions", &x, &[0.625, 0.4375], &[0.1875, 0.0625]),
-        ],
+        &[("alone", &[0.5, 0.375], alone), ("with all interactions", &[0.625, 0.4375], total)],
     );
 }
 
@@ -257,11 +294,57 @@ fn series_of_outcomes_stand_under_their_names() {
     for (id, title, series) in due {
         let chart = chart(&report, id);
         assert_series(chart, &[series]);
-        assert_eq!(
-            (chart.title.as_str(), chart.x.label.as_str(), chart.y.label.as_str()),
-            (title, "v_m_s", series.0)
-        );
+        let Curves { x, y, .. } = curves(chart);
+        assert_eq!((&*chart.title, &*x.name, &*y.name), (title, "v_m_s", series.0));
     }
+}
+
+/// What is within the tolerance of the finest level, and where each outcome has settled; the second has not.
+#[test]
+fn refinement_shows_where_outcomes_settle() {
+    let measures = "evaluation,replicates,v_m_s,n_f,n_f_standard_error,impacts,impacts_standard_error\n\
+                    0,2,21,2.5,0.25,31,0.5\n1,3,22,3.5,0.375,32,0.625\n2,3,23,4,0.5,40,1\n";
+    let settled = "target,settled_from\nn_f,22\nimpacts,\n";
+    let lists = SEARCH.split("range.log").next().unwrap().to_owned()
+        + "range.choices = [\"21 m/s\", \"22 m/s\", \"23 m/s\"]\n[plan.refinement]\ntolerance = 0.125\n";
+    let files = [("evaluations.csv", EVALUATIONS), ("measures.csv", measures), ("refinement.csv", settled)];
+    let report = report_of(&lists, &files);
+    let reference = |name: &str, at| Reference { name: name.to_owned(), at };
+    let within = |ends| reference("within the tolerance of the last", Place::Heights(ends));
+    let from = reference("settled from", Place::Across(22.0));
+    for (id, due) in
+        [("outcome-0", vec![within([3.5, 4.5]), from]), ("outcome-1", vec![within([35.0, 45.0])])]
+    {
+        assert_eq!(curves(chart(&report, id)).references, due, "chart {id}");
+    }
+}
+
+/// Replicates of each candidate by themselves; of the second there are too few.
+#[test]
+fn distributions_are_those_of_their_replicates() {
+    let evaluations = "evaluation,generation,stage,status,replicates,repeats,violation,cost,cost_standard_error,v_m_s,n_f,impacts\n\
+                       0,0,search,ok,8,,0,-2.5,0.25,21,2.5,31\n1,0,search,ok,2,,0,-3.5,0.375,22,3.5,32\n";
+    let first: Vec<String> =
+        (0..8).map(|replicate| format!("0,{replicate},7,0,{replicate},{}\n", 100 + replicate)).collect();
+    let first = first.concat();
+    let runs = format!("evaluation,replicate,seed,cost,n_f,impacts\n{first}1,0,7,0,50,60\n1,1,7,0,51,61\n");
+    let text = format!("{SEARCH}[plan.grid]\nlevels = 2\n");
+    let report = report_of(&text, &[("evaluations.csv", evaluations), ("runs.csv", &runs)]);
+    for (id, title, range, mean) in [
+        ("distribution-0", "n_f, v_m_s = 21", [0.0, 7.0], 3.5),
+        ("distribution-1", "impacts, v_m_s = 21", [100.0, 107.0], 103.5),
+    ] {
+        let chart = chart(&report, id);
+        let Drawn::Histogram(found) = &chart.drawn else { panic!("chart {id}: bins are due") };
+        assert_eq!((chart.title.as_str(), found.range), (title, range), "chart {id}");
+        assert_eq!(found.counts.iter().sum::<u64>(), 8, "values in all bins of {id}");
+        // Eight numbers in a row scatter by sqrt(6), so that their mean is known to sqrt(6/8).
+        let [found, error] = found.mean.unwrap();
+        assert_near!(found, mean, 1e-12);
+        assert_near!(error, 0.75_f64.sqrt(), 1e-12);
+    }
+    let ids = report.charts.iter().filter(|chart| chart.id.starts_with("distribution")).count();
+    assert_eq!(ids, 2, "histograms");
 }
 
 /// The front has each cost with its own sign on its own axis, in the order of the first.
@@ -287,7 +370,7 @@ fn series_of_the_front_stand_under_their_names() {
     let chart = chart(&report, "front");
     let (x, y) = ([2.5, 3.5], [31.0, 32.0]);
     assert_series(chart, &[("candidates", &x, &y, &[]), ("beaten by no other", &x, &y, &[])]);
-    assert_eq!((chart.x.label.as_str(), chart.y.label.as_str()), ("n_f", "impacts"), "axes");
+    assert_eq!((&*curves(chart).x.name, &*curves(chart).y.name), ("n_f", "impacts"), "axes");
     let words: Vec<&str> = chart.words.iter().map(String::as_str).collect();
     assert_eq!(words, ["n_f = 2.5 with impacts = 31", "n_f = 3.5 with impacts = 32"]);
 }

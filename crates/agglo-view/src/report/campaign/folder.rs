@@ -29,6 +29,8 @@ pub struct Folder {
     pub generations: Sheet,
     /// The best candidates.
     pub best: Sheet,
+    /// Of a study: single replicates.
+    pub runs: Sheet,
     /// Candidates that failed.
     pub failures: Sheet,
     /// Of a study: means of each candidate.
@@ -54,6 +56,9 @@ impl Folder {
         // What is written at the end is not missed before it.
         let has_ended = folder.summary.is_some();
         folder.best = folder.sheet(names::BEST, has_ended);
+        if folder.is_study() {
+            folder.runs = folder.sheet(names::RUNS, false);
+        }
         folder.failures = folder.sheet(names::FAILURES, false);
         folder.measures = folder.sheet(names::MEASURES, has_ended && folder.is_study());
         folder.refinement = folder.sheet(names::REFINEMENT, false);

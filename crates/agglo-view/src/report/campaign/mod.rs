@@ -3,6 +3,7 @@
 mod charts;
 #[cfg(test)]
 mod distinct_tests;
+mod distributions;
 mod folder;
 mod study;
 mod tables;
@@ -27,6 +28,7 @@ pub fn report(dir: &Path) -> Report {
     // What a study is for comes first.
     let mut charts = study::charts(&folder);
     charts.extend(charts::charts(&folder));
+    charts.extend(distributions::charts(&folder));
     let run = format!("{}/{}", names::BEST_RUN, names::REPORT);
     let run = dir.join(&run).is_file().then_some(run);
     let methods = folder.campaign.as_ref().map(methods).unwrap_or_default();

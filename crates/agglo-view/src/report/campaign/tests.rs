@@ -4,7 +4,8 @@ use std::fs;
 use std::path::Path;
 
 use super::*;
-use crate::report::{Chart, write};
+use crate::chart::{Chart, Drawn, Spread};
+use crate::report::write;
 
 const SEARCH: &str = r#"
 version = 1
@@ -69,8 +70,9 @@ fn chart<'a>(report: &'a Report, id: &str) -> &'a Chart {
 fn costs_over_generations_are_those_of_the_files() {
     let folder = search();
     let report = report(folder.path());
-    let series = &chart(&report, "cost").series;
-    assert_eq!((&series[0].y[..], &series[0].error[..]), (&[0.7, 0.5, 0.55][..], &[0.01, 0.01, 0.02][..]));
+    let series = chart(&report, "cost").series();
+    assert_eq!(series[0].y, [0.7, 0.5, 0.55]);
+    assert_eq!(series[0].spread, Spread::Errors(vec![0.01, 0.01, 0.02]));
     // The two parents: (0.9 + 0.7)/2, then (0.5 + 0.7)/2. Fresh replicates at the end change no parents.
     assert_eq!(series[1].name, "mean of the best 2 so far");
     for (found, wanted) in series[1].y.iter().zip([0.8, 0.6, 0.6]) {
@@ -83,15 +85,11 @@ fn costs_over_generations_are_those_of_the_files() {
 fn parallel_coordinates_hold_the_candidates_that_ran() {
     let folder = search();
     let report = report(folder.path());
-    let series = &chart(&report, "parallel").series[0];
-    let labels: Vec<&str> = series.dimensions.iter().map(|dimension| dimension.label.as_str()).collect();
-    assert_eq!(
-        labels,
-        ["v_m_s", "hardness_Pa", "growth_deficit"].map(|name| name),
-        "the goal names the cost"
-    );
-    assert_eq!(series.dimensions[1].values, [1e5, 2e5, 4e5]);
-    assert_eq!(series.colors, [0.9, 0.7, 0.5]);
+    let Drawn::Parallel(found) = &chart(&report, "parallel").drawn else { panic!("candidates are due") };
+    let names: Vec<&str> = found.axes.iter().map(|axis| axis.name.as_str()).collect();
+    assert_eq!(names, ["v_m_s", "hardness_Pa", "growth_deficit"], "the goal names the cost");
+    assert_eq!(found.rows.iter().map(|row| row[1]).collect::<Vec<_>>(), [1e5, 2e5, 4e5]);
+    assert_eq!(found.shades, [0.9, 0.7, 0.5]);
 }
 
 #[test]
@@ -146,7 +144,7 @@ evaluation,generation,stage,status,replicates,violation,cost_1,cost_2,cost_1_sta
 ";
     fs::write(folder.path().join("evaluations.csv"), evaluations).unwrap();
     let report = report(folder.path());
-    let series = &chart(&report, "front").series;
+    let series = chart(&report, "front").series();
     assert_eq!((&series[0].x[..], &series[0].y[..]), (&[0.9, 0.7][..], &[2.5, 1.5][..]), "with its own sign");
     assert_no!(report.charts.iter(), |chart| chart.id == "candidates");
 }
@@ -168,18 +166,16 @@ fn a_study_shows_what_its_plan_is_for() {
                    growth_deficit,hardness,0.1,0.125,0.01,0.03,0.005,6\n";
     let morris = study("[plan.morris]\n", &[("sensitivity.csv", effects)]);
     assert_eq!(morris.kind, "A study");
-    let drawn = chart(&morris, "sensitivity-0");
-    assert_eq!(
-        (&drawn.x.names[..], &drawn.series[0].y[..]),
-        (&["v", "hardness"].map(str::to_owned)[..], &[0.25, 0.125][..])
-    );
+    let Drawn::Bars(bars) = &chart(&morris, "sensitivity-0").drawn else { panic!("bars are due") };
+    assert_eq!(bars.names, ["v", "hardness"]);
+    assert_eq!(bars.series[0].values, [0.25, 0.125]);
     assert_any!(morris.tables.iter(), |table| table.title == "Sensitivity");
 
     let shares = "target,parameter,first,first_lower,first_upper,total,total_lower,total_upper,variance,noise_share,blocks\n\
                   growth_deficit,v,0.5,0.25,0.75,0.625,0.5,0.75,0.1,0.01,16\n";
     let sobol = study("[plan.sobol_indices]\n", &[("sensitivity.csv", shares)]);
-    let drawn = chart(&sobol, "sensitivity-0");
-    assert_eq!((drawn.series[1].y[0], drawn.series[1].error[0]), (0.625, 0.125));
+    let Drawn::Bars(bars) = &chart(&sobol, "sensitivity-0").drawn else { panic!("bars are due") };
+    assert_eq!((bars.series[1].values[0], bars.series[1].spread.of(0, 0.625)), (0.625, Some([0.5, 0.75])));
 }
 
 /// What is to be large is shown as it is, and what misses a limit is marked wherever it is shown.
@@ -218,14 +214,14 @@ search_replicates,v_m_s,hardness_Pa
     );
     let report = report(folder.path());
     let of = |id: &str, name: &str| -> Vec<f64> {
-        let series = chart(&report, id).series.iter().find(|series| series.name.contains(name)).unwrap();
+        let series = chart(&report, id).series().iter().find(|series| series.name.contains(name)).unwrap();
         series.y.iter().copied().filter(|value| value.is_finite()).collect()
     };
     assert_eq!((of("cost", "best so far"), of("cost", "MISSES")), (vec![1.5], vec![2.5]));
     assert_eq!(of("candidates", "MISS A LIMIT"), [2.5, 1.25]);
     assert_eq!(of("candidates", "candidates"), [1.5]);
-    let parallel = &chart(&report, "parallel").series[0];
-    assert!(parallel.ascending && parallel.colors == [1.5], "bright ones are better: {:?}", parallel.colors);
+    let Drawn::Parallel(found) = &chart(&report, "parallel").drawn else { panic!("candidates are due") };
+    assert!(found.is_large_good && found.shades == [1.5], "bright ones are better: {:?}", found.shades);
     let table = report.tables.iter().find(|table| table.title.contains("what they come to")).unwrap();
     let at = |name: &str| table.head.iter().position(|head| head == name).unwrap();
     let row = &table.rows[0];

@@ -1,9 +1,11 @@
 //! What an axis stands for.
 
+use serde::Serialize;
+
 use crate::text::number;
 
 /// What an axis stands for: a quantity with its unit, or a choice from a list.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Axis {
     /// Name of the quantity.
     pub name: String,
