@@ -42,6 +42,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::acoustics::{Beam, Medium, Pattern, Profile, Pulses, Strength};
 //! use agglo::units::Quantity;
 //! let beam = Beam {

@@ -40,6 +40,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::acoustics::Followed;
 //! use agglo::math::Vec3;
 //! let ball = Followed::of(&[Vec3::ZERO], &[2.0], 0.0);

@@ -59,6 +59,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::acoustics::fresnel::Interface;
 //! let ceramic_in_water = Interface { impedance_ratio: 18.0, speed_ratio: 1.0 / 3.0, shear_ratio: 0.0 };
 //! let by_hand = (17.0_f64 / 19.0).powi(2);

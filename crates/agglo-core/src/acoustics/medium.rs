@@ -58,6 +58,7 @@ impl Medium {
     /// of a tenth of a diameter for three times as much.
     ///
     /// ```
+    /// # extern crate agglo_core as agglo;
     /// use agglo::acoustics::Medium;
     /// let ka = Medium::default().wavenumber_radius(20e3, 20e-6);
     /// assert!((ka - std::f64::consts::TAU * 20e3 * 20e-6 / 1500.0).abs() < 1e-18); // 0.0017: no rays here

@@ -23,6 +23,7 @@ pub fn reach(a: f64, b: f64, part: f64) -> f64 {
 /// distance of their centers [m²].
 ///
 /// ```
+/// # extern crate agglo_core as agglo;
 /// use agglo::contact::closeness::{TOUCHING, are_close};
 /// // Radii of 0.1 m and 0.2 m: 0.1 + 0.2 is not 0.3 in doubles.
 /// assert!(are_close(0.3 * 0.3, 0.1, 0.2, TOUCHING));

@@ -51,6 +51,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::contact::{Custom, PairConstants, Touch};
 //! let law = Custom::new("2e4*overlap + 3*speed");
 //! let (pair, touch) = (PairConstants::default(), Touch { overlap: 1e-6, ..Touch::default() });

@@ -30,6 +30,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::contact::Touch;
 //! let touch = Touch::new([1.0, 1.0], [1.0, 1.0], [1e7, 1e7], 1.6);
 //! assert!((touch.area() - std::f64::consts::PI * (1.0 - 0.64)).abs() < 1e-14);

@@ -77,6 +77,7 @@ impl Volume {
     /// Coordinates that are inside keep their bits.
     ///
     /// ```
+    /// # extern crate agglo_core as agglo;
     /// use agglo::domain::Volume;
     /// use agglo::math::Vec3;
     /// let text = r#"{"lower": ["-1 m", "-1 m", "-1 m"], "upper": ["1 m", "1 m", "1 m"], "boundary": "periodic"}"#;

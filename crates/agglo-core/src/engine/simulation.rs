@@ -13,6 +13,7 @@ use crate::particles::Particles;
 /// # Example
 /// The energy that is left of the motion of grains, whatever they are:
 /// ```
+/// # extern crate agglo_core as agglo;
 /// use agglo::engine::{SimError, Simulation};
 ///
 /// fn motion_left(mut simulation: impl Simulation, until: f64) -> Result<f64, SimError> {

@@ -41,6 +41,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::fields::{Custom, FieldLaw, Grain};
 //! use agglo::math::Vec3;
 //! let trap = Custom::new(["-2*x", "-2*y", "-2*z"]);

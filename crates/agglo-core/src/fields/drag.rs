@@ -49,6 +49,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::{acoustics::Medium, fields::{Drag, DragLaw, FlowAt}, math::Vec3};
 //! let drag = Drag { law: DragLaw::Stokes, medium_velocity: None, added_mass: 0.5 };
 //! let force = drag.force(&Medium::default(), 1e-5, Vec3::new(0.01, 0.0, 0.0), &FlowAt::default());

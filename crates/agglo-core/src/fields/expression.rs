@@ -8,6 +8,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::fields::Expression;
 //! use agglo::math::Vec3;
 //! let field: Expression<1, 0, -2, 0, -1> = Expression::new("0.1*sin(2*pi*t) + 3*x").unwrap();

@@ -29,6 +29,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::fields::Gravity;
 //! use agglo::units::Quantity;
 //! let down = [Quantity(0.0), Quantity(0.0), Quantity(-9.81)];

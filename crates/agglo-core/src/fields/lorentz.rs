@@ -33,6 +33,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::{fields::{Expression, FieldLaw, Grain, Lorentz}, math::Vec3};
 //! let field = ["0 T", "0 T", "2 T"].map(|text| Expression::new(text).unwrap());
 //! let lorentz = Lorentz { electric_field: None, magnetic_flux_density: Some(field) };

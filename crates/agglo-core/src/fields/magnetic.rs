@@ -31,6 +31,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::{fields::{Expression, FieldLaw, Grain, Magnetic}, units::Quantity};
 //! let field = ["0 T", "0 T", "0.5 + 10*z"].map(|text| Expression::new(text).unwrap());
 //! let law = Magnetic { magnetizability: Quantity(2.0), magnetic_flux_density: field, difference: None };

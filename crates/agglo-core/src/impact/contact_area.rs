@@ -37,6 +37,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::impact::contact_area::ContactArea;
 //! let area = ContactArea { elastic: 0.2, sticking: 1.0 };
 //! let by_hand = 0.6 * std::f64::consts::PI * 1e-6; // halfway between 0.2 and 1, b = 1 mm

@@ -36,6 +36,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::impact::contact_time::durations;
 //! let time = durations(1.0, 1e-3, 10.0, 0.5);
 //! assert!((time.compression - 2e-4).abs() < 1e-18 && (time.recovery - 1e-4).abs() < 1e-18);

@@ -45,6 +45,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::impact::{Cooling, cooling::Cooler};
 //! let law: Cooling = serde_json::from_str(r#"{"convection": "10 W/m2/K", "gas_temperature": "300 K"}"#).unwrap();
 //! // Without emissivity: exponential, with C/(h a_s) = 2 s.

@@ -45,6 +45,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::impact::fragmentation::{fragments, surface};
 //! let whole = 4.0 * std::f64::consts::PI * 1e-6 * 10.0; // b0 = 1 mm, γ = 10 J/m²
 //! assert_eq!(fragments(whole * 1.001, 10.0, 1e-3, 1000), 8); // twice the surface: eight fragments of half the size

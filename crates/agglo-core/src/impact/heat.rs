@@ -45,6 +45,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::impact::heat::{Share, parts};
 //! assert_eq!(parts(Share::Mass, [1.0, 3.0]), [0.25, 0.75]);
 //! assert_eq!(parts(Share::Equal, [1.0, 3.0]), [0.5, 0.5]);

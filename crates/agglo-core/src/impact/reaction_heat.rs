@@ -31,6 +31,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::impact::reaction_heat::{of_pair, reaction_heat};
 //! assert_eq!(reaction_heat(of_pair([1e3, 3e3]), 1e-6), 2e-3);
 //! ```

@@ -34,6 +34,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::impact::self_gravity::critical_radius;
 //! assert!((critical_radius(2000.0, 1e6) / 73.25e3 - 1.0).abs() < 1e-3);
 //! ```

@@ -36,6 +36,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::impact::softening::Hardness;
 //! let silica = Hardness::new(1e6, 1000.0);
 //! let by_hand = 1e6 * (1000.0_f64 / (8.314_462_618 * 300.0)).exp();

@@ -38,6 +38,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::impact::{Body, sticking::merged};
 //! use agglo::math::Vec3;
 //! let one = Body { mass: 1.0, radius: 1.0, temperature: 300.0, primaries: 1, ..Body::default() };

@@ -35,6 +35,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::impact::tangential::SlipLimit;
 //! assert_eq!(SlipLimit::NoSlip.impulse(0.1, 5.0, 2.0, 3.0), 0.5);
 //! assert_eq!(SlipLimit::NoSlip.impulse(0.1, 90.0, 2.0, 3.0), 6.0); // m* |v_t|

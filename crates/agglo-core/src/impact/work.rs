@@ -43,6 +43,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::impact::restitution::hardness::ForceTime;
 //! use agglo::impact::work::work;
 //! assert!((work(ForceTime::Impact, 3.0, 2.0, 0.0) - 4.0).abs() < 1e-14); // m* v²/3

@@ -19,6 +19,7 @@ const MOST: u32 = 200;
 ///
 /// If one value is zero, its end is the root; if the signs agree, the end with the smaller value is returned.
 /// ```
+/// # extern crate agglo_core as agglo;
 /// use agglo::math::roots::root_between;
 /// let root = root_between(|x| x * x - 2.0, [0.0, 2.0], [-2.0, 2.0], 1e-15);
 /// assert!((root.at - 2.0_f64.sqrt()).abs() < 1e-15);

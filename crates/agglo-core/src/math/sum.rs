@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 /// a + b less the double nearest to it, exactly (D. E. Knuth, *The Art of Computer Programming* 2, 4.2.2, theorem B).
 ///
 /// ```
+/// # extern crate agglo_core as agglo;
 /// use agglo::math::rounding_of_sum;
 /// assert_eq!(rounding_of_sum(1.0, 1e-20), 1e-20);
 /// assert_eq!(rounding_of_sum(0.5, 0.25), 0.0);
@@ -19,6 +20,7 @@ pub fn rounding_of_sum(a: f64, b: f64) -> f64 {
 /// A sum that keeps what rounding leaves out for the next part (W. Kahan, Commun. ACM 8, 40 (1965)).
 ///
 /// ```
+/// # extern crate agglo_core as agglo;
 /// use agglo::math::Sum;
 /// let mut sum = Sum::from(1.0);
 /// (0..1000).for_each(|_| sum.add(1e-18));

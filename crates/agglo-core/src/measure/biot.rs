@@ -27,6 +27,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::measure::biot_number;
 //! // A steel ball of 1 mm in still air, cold: h r/(3 k) = 10 * 1e-3/(3 * 40).
 //! assert_eq!(biot_number(1e-3, 40.0, 10.0, 0.0, 300.0), Some(10.0 * 1e-3 / 120.0));

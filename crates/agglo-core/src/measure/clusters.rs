@@ -87,6 +87,7 @@ impl Clusters {
     /// The clusters of grains with `masses` [n] [kg] that the edges (pairs of indices) join.
     ///
     /// ```
+    /// # extern crate agglo_core as agglo;
     /// use agglo::measure::Clusters;
     /// let found = Clusters::new(&[1.0, 1.0, 2.0, 1.0], [(3, 1), (1, 0)]);
     /// assert_eq!(found.labels, [0, 0, 1, 0]);

@@ -28,6 +28,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::measure::moments;
 //! let found = moments(&[1.0, 3.0], &[1.0, 1.0]).ok_or("no weight")?;
 //! assert_eq!((found.mean, found.deviation, found.skewness, found.kurtosis), (2.0, 1.0, 0.0, 1.0));

@@ -33,6 +33,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::{math::Vec3, measure::radius_of_gyration};
 //! let pair = [Vec3::ZERO, Vec3::new(2.0, 0.0, 0.0)];
 //! let found = radius_of_gyration(&pair, &[1.0; 2], &[5.0; 2], &[0, 1]);

@@ -35,6 +35,7 @@ impl SizeClass {
 /// `primaries` [n] and `masses` [n] [kg] belong to the same grains. No grains have no classes.
 ///
 /// ```
+/// # extern crate agglo_core as agglo;
 /// use agglo::measure::size_classes;
 /// let classes = size_classes(&[1, 5, 1, 7], &[1.0, 5.0, 1.0, 7.0]);
 /// let counts: Vec<_> = classes.iter().map(|class| (class.lower, class.upper, class.grains)).collect();

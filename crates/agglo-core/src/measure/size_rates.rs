@@ -34,6 +34,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::measure::SizeRates;
 //! let mut rates = SizeRates::new([1, 1, 1].into_iter(), 2.0);
 //! rates.collide([1, 1], true);

@@ -26,6 +26,7 @@ pub struct Overlap {
 /// Centers must then lie in the volume or on its faces. Less than 1e-9 of the sum of the radii is no overlap.
 ///
 /// ```
+/// # extern crate agglo_core as agglo;
 /// use agglo::math::Vec3;
 /// use agglo::packing::first_overlap;
 /// use agglo::particles::{Particles, Row};

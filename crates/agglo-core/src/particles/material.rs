@@ -33,6 +33,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::particles::Material;
 //! let clay: Material = serde_json::from_str(r#"{
 //!     "density": "2000 kg/m3", "contact_stiffness": "10 MPa",

@@ -11,6 +11,7 @@ use std::fmt;
 /// A number as files have it; writing it allocates nothing.
 ///
 /// ```
+/// # extern crate agglo_core as agglo;
 /// use agglo::text::Number;
 /// let texts = [1512.0, 0.1, 1e-28, 2.5e16].map(|value| Number(value).to_string());
 /// assert_eq!(texts, ["1512", "0.1", "1e-28", "2.5e16"]);

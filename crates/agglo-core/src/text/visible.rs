@@ -10,6 +10,7 @@ const LONGEST: usize = 80;
 /// The text with every character that acts on the terminal written out, such as `\u{1b}`. Line ends and tabs stay.
 ///
 /// ```
+/// # extern crate agglo_core as agglo;
 /// use agglo::text::visible;
 /// assert_eq!(visible("a \u{1b}[31mred\u{1b}[0m title\n"), "a \\u{1b}[31mred\\u{1b}[0m title\n");
 /// ```

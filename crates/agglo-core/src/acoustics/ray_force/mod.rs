@@ -50,6 +50,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::acoustics::{Hit, Impedance, Impulse, Medium, RayForce};
 //! use agglo::{math::Vec3, units::Quantity};
 //! let law = RayForce::Impulse(Impulse { duration: Quantity(1e-6) });

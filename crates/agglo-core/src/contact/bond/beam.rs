@@ -50,6 +50,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::contact::bond::{Beam, BeamPair};
 //! use agglo::{math::Vec3, units::Quantity};
 //! let beam: Beam = serde_json::from_str(

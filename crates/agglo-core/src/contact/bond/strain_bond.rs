@@ -40,6 +40,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::contact::{Touch, bond::StrainBond};
 //! use agglo::units::Quantity;
 //! let bond = StrainBond {

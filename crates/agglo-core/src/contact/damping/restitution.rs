@@ -42,6 +42,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::contact::{Elastic, PairConstants, Touch, damping::{DampingLaw, Restitution}};
 //! let spring = Elastic { stiffness: 400.0, exponent: 1.0, ..Default::default() };
 //! let touch = Touch { effective_mass: 1.0, ..Default::default() };

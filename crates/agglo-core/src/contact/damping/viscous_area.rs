@@ -29,6 +29,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::contact::{Elastic, PairConstants, Touch, damping::{DampingLaw, ViscousArea}};
 //! let law = ViscousArea { coefficient: agglo::units::Quantity(1e5) };
 //! let touch = Touch::new([1.0, 1.0], [1.0, 1.0], [1e7, 1e7], 1.6);

@@ -43,6 +43,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::contact::friction::{FrictionLaw, Mindlin, Sliding, TangentialSpring};
 //! use agglo::contact::{Elastic, PairConstants, Touch};
 //! use agglo::math::Vec3;

@@ -37,6 +37,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::contact::friction::{FrictionLaw, Regularized, Sliding};
 //! use agglo::contact::{Elastic, PairConstants, Touch};
 //! use agglo::math::Vec3;

@@ -35,6 +35,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::contact::{PairConstants, Touch, normal::{Hertz, NormalLaw}};
 //! let pair = PairConstants { effective_modulus: 1e9, ..Default::default() };
 //! let touch = Touch { overlap: 1e-6, effective_radius: 1e-3, ..Default::default() };

@@ -28,6 +28,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::contact::{PairConstants, Touch, normal::{Hooke, NormalLaw}};
 //! let law = Hooke { stiffness: agglo::units::Quantity(1e3) };
 //! let touch = Touch { overlap: 1e-6, ..Default::default() };

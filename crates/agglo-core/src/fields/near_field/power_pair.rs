@@ -38,6 +38,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::fields::near_field::{NearLaw, PowerPair, Scaling, Source};
 //! let newton = PowerPair {
 //!     scaling: Scaling::Mass, attraction: 6.6743e-11, attraction_exponent: 2.0,

@@ -34,6 +34,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::fields::near_field::{NearLaw, Source, VanDerWaals};
 //! use agglo::units::Quantity;
 //! let law = VanDerWaals { hamaker: Quantity(1e-19), smallest_gap: Quantity(4e-10) };

@@ -31,6 +31,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::impact::restitution::Constant;
 //! let law: Constant = serde_json::from_str(r#"{"restitution": 0.9}"#).unwrap();
 //! assert_eq!(law.restitution, 0.9);

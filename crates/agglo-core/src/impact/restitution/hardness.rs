@@ -59,6 +59,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::impact::restitution::Hardness;
 //! let law = Hardness::default();
 //! let load = law.load(1e-6, 20.0, 1e-3); // m* = 1 mg, v = 20 m/s, b = 1 mm

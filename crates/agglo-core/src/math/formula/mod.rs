@@ -10,6 +10,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::math::formula::Formula;
 //! let known = |name: &str| if name == "x" { Ok(()) } else { Err(format!("who is {name}?")) };
 //! let formula = Formula::new("3*x^2 - sin(pi*x)", known).unwrap();

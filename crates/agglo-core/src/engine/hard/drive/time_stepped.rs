@@ -61,6 +61,7 @@
 //!
 //! # Example
 //! ```
+//! # extern crate agglo_core as agglo;
 //! use agglo::engine::hard::{Distance, Pairs, TimeStepped};
 //! let consistent = TimeStepped::default();
 //! assert_eq!((consistent.distance, consistent.pairs), (Distance::Gap, Pairs::All));
