@@ -289,7 +289,7 @@ def energy_picture(bonded, path):
     energy = series(bonded, "energy")
     layers = [
         ("motion of the grains", ["kinetic_J"], BLUE),
-        ("spin", ["spin_J"], SKY),
+        ("rotation of the grains", ["rotational_J"], SKY),
         ("springs of contacts and bonds", ["elastic_J", "tangential_spring_J", "bonds_J"], BLACK),
         ("lost to friction", ["lost_friction_J"], VERMILION),
         ("lost in contact damping", ["lost_contact_damping_J"], ORANGE),

@@ -70,7 +70,7 @@ pub(crate) enum Verb {
     Study(CommonOptions),
     /// Draw a run: a picture, numbered pictures or a movie
     Render(Box<crate::render::RenderOptions>),
-    /// Write report.html into the folder of a run, search or study: replay, charts, figures; opens offline
+    /// Write report.html into the folder of a run, search or study: replay, charts, quantities; opens offline
     Report {
         /// The folder
         folder: PathBuf,

@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release -p agglo --example own_cost`
 //!
-//! `agglo search` does this with formulas, replicates, a journal and a report. Where the cost is no formula of a run's figures, ask
+//! `agglo search` does this with formulas, replicates, a journal and a report. Where the cost is no formula of a run's quantities, ask
 //! the optimizer yourself: it hands out points of the unit cube and wants to know what they cost.
 
 #![allow(clippy::print_stdout, reason = "it is a program")]

@@ -1,4 +1,4 @@
-//! What stands in the folder of a run: its scenario, its figures, a table over time and the last frame of its grains.
+//! What stands in the folder of a run: its scenario, its quantities, a table over time and the last frame of its grains.
 //!
 //! `cargo run --release -p agglo --example read_run -- FOLDER`
 

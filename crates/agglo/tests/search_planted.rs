@@ -152,9 +152,9 @@ fn restitution_and_spread_of_a_gas_are_found_again() {
     let (temperature, impacts) = (columns("granular_temperature_m2_s2"), columns("impacts"));
     let mut sums = [0.0; 2];
     for seed in 1..=16 {
-        let figures = problem.run(&truth, seed, &false.into()).unwrap();
-        sums[0] += figures[temperature] / 16.0;
-        sums[1] += figures[impacts] / 16.0;
+        let quantities = problem.run(&truth, seed, &false.into()).unwrap();
+        sums[0] += quantities[temperature] / 16.0;
+        sums[1] += quantities[impacts] / 16.0;
     }
     let [temperature, impacts] = sums;
     let objective =

@@ -163,7 +163,7 @@ fn size_classes_hold_all_grains_and_all_mass() {
     }
 }
 
-/// The summary's figures of growth follow from one another and are those of the last row.
+/// The summary's quantities of growth follow from one another and are those of the last row.
 #[test]
 fn growth_in_the_summary_is_that_of_the_tables() {
     for scenario in [EVENTS, STEPS] {

@@ -103,7 +103,7 @@ fn faults_without_number_are_counted() {
 }
 
 #[test]
-fn what_the_machine_cannot_hold_is_refused_with_figures() {
+fn what_the_machine_cannot_hold_is_refused_with_numbers() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("my.toml");
     let name = file.display().to_string();

@@ -82,8 +82,8 @@ fn assert_genealogy(run: &Path) {
     assert_eq!(merges as f64, number(&all, "merges"));
 }
 
-/// Figures against one another and against the last row of the tables.
-fn assert_figures(run: &Path, grains: f64) {
+/// Quantities against one another and against the last row of the tables.
+fn assert_quantities(run: &Path, grains: f64) {
     let all = summary(run);
     let [ratio, n_f, pi] = ["radius_ratio", "n_f", "growth_deficit"].map(|key| number(&all, key));
     assert_close!(n_f, ratio.powi(3), 1e-14);
@@ -123,7 +123,7 @@ fn the_last_frame_is_what_the_genealogy_leads_to() {
     for scenario in [EVENTS, STEPS] {
         let run = reference(scenario);
         assert_genealogy(run);
-        assert_figures(run, number(&summary(run), "grains_start"));
+        assert_quantities(run, number(&summary(run), "grains_start"));
     }
 }
 
@@ -141,7 +141,7 @@ fn the_shipped_reacting_cloud() {
     for file in ["scenario.toml", "summary.json", "events.csv", "genealogy.csv", "frames/grains.pvd"] {
         assert!(run.join(file).is_file(), "no {file}");
     }
-    assert_figures(&run, 1000.0);
+    assert_quantities(&run, 1000.0);
     assert_genealogy(&run);
     // 10 ms in rows of 50 us and in frames of 0.25 ms, with those of the start.
     for table in ["grains", "energy", "momentum", "impacts", "steps"] {

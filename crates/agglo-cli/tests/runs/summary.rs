@@ -9,7 +9,7 @@ fn summary(scenario: &'static str) -> Value {
 }
 
 #[test]
-fn every_figure_is_there() {
+fn every_quantity_is_there() {
     for (scenario, seed) in [(STAGGERED, 11), (VERLET, 12)] {
         let all = summary(scenario);
         assert_above!(number(&all, "wall_s"), 0.0);

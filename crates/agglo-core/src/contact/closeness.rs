@@ -1,7 +1,7 @@
 //! When two grains count as touching.
 //!
 //! Grains that are placed as touching are apart or overlap by round-off, by chance and by place in space. So whoever
-//! counts who hangs together asks here: bonds at the start, clusters and contacts in tables, figures and frames.
+//! counts who hangs together asks here: bonds at the start, clusters and contacts in tables, quantities and frames.
 //! Forces do not: they act from the first overlap.
 
 /// Part of the smaller radius within which the surfaces of two grains count as touching; the default of

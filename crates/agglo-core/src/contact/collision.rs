@@ -1,14 +1,14 @@
 //! Collisions of two grains, integrated for the tests of the laws of contact.
 
 use super::friction::{FrictionLaw, Mindlin, Sliding, TangentialSpring};
-use super::{Damping, Elastic, Normal, PairConstants, Touch};
+use super::{ContactGeometry, Damping, Elastic, Normal, PairConstants};
 use crate::math::Vec3;
 
 /// Two grains that meet along the line of centers.
 pub struct HeadOn<'a> {
     pub pair: PairConstants,
     /// The pair at touching.
-    pub touch: Touch,
+    pub geometry: ContactGeometry,
     pub normal: &'a Normal,
     pub damping: Option<&'a Damping>,
     /// Speed of approach.
@@ -23,26 +23,26 @@ pub struct Rebound {
     pub largest_force: f64,
 }
 
-fn elastic(law: &Normal, pair: &PairConstants, touch: &Touch) -> Elastic {
+fn elastic(law: &Normal, pair: &PairConstants, geometry: &ContactGeometry) -> Elastic {
     Elastic {
-        force: law.force(pair, touch),
-        stiffness: law.tangent_stiffness(pair, touch),
+        force: law.force(pair, geometry),
+        stiffness: law.tangent_stiffness(pair, geometry),
         exponent: law.exponent(),
     }
 }
 
 impl HeadOn<'_> {
     fn force(&self, overlap: f64, speed: f64) -> f64 {
-        let touch = Touch { overlap: overlap.max(0.0), ..self.touch };
-        let elastic = elastic(self.normal, &self.pair, &touch);
-        let dashpot = self.damping.map_or(0.0, |law| law.coefficient(&self.pair, &touch, &elastic));
+        let geometry = ContactGeometry { overlap: overlap.max(0.0), ..self.geometry };
+        let elastic = elastic(self.normal, &self.pair, &geometry);
+        let dashpot = self.damping.map_or(0.0, |law| law.coefficient(&self.pair, &geometry, &elastic));
         elastic.force + dashpot * speed
     }
 
     /// Classical Runge-Kutta of fourth order until the overlap is back at zero.
     pub fn integrate(&self, dt: f64) -> Rebound {
         let slope =
-            |overlap: f64, speed: f64| (speed, -self.force(overlap, speed) / self.touch.effective_mass);
+            |overlap: f64, speed: f64| (speed, -self.force(overlap, speed) / self.geometry.effective_mass);
         let (mut overlap, mut speed, mut time) = (0.0_f64, self.speed, 0.0);
         let (mut largest_overlap, mut largest_force) = (0.0_f64, 0.0_f64);
         loop {
@@ -84,13 +84,13 @@ pub struct Oblique<'a> {
 pub struct Pair {
     pub positions: [Vec3; 2],
     pub velocities: [Vec3; 2],
-    pub spins: [Vec3; 2],
+    pub angular_velocities: [Vec3; 2],
     pub spring: TangentialSpring,
 }
 
 struct Load {
     on_i: Vec3,
-    moment: Vec3,
+    torque: Vec3,
     elastic: f64,
     spring: TangentialSpring,
 }
@@ -109,46 +109,53 @@ impl Oblique<'_> {
     pub fn approach(&self, velocity: Vec3) -> Pair {
         let at = Vec3::new(self.radius, 0.0, 0.0);
         let velocities = [velocity * -0.5, velocity * 0.5];
-        Pair { positions: [-at, at], velocities, spins: [Vec3::ZERO; 2], spring: TangentialSpring::default() }
+        Pair {
+            positions: [-at, at],
+            velocities,
+            angular_velocities: [Vec3::ZERO; 2],
+            spring: TangentialSpring::default(),
+        }
     }
 
     pub fn kinetic(&self, state: &Pair) -> f64 {
         let inertia = 0.4 * self.mass * self.radius * self.radius;
         let linear: f64 = state.velocities.iter().map(|v| v.norm_squared()).sum();
-        let angular: f64 = state.spins.iter().map(|w| w.norm_squared()).sum();
+        let angular: f64 = state.angular_velocities.iter().map(|w| w.norm_squared()).sum();
         0.5 * (self.mass * linear + inertia * angular)
     }
 
     fn load(&self, state: &Pair, dt: f64) -> Option<Load> {
         let across = state.positions[1] - state.positions[0];
         let distance = across.norm();
-        let touch = Touch::new([self.radius; 2], [self.mass; 2], [1e9; 2], distance);
-        if touch.overlap <= 0.0 {
+        let geometry = ContactGeometry::new([self.radius; 2], [self.mass; 2], [1e9; 2], distance);
+        if geometry.overlap <= 0.0 {
             return None;
         }
         let normal = across / distance;
         let relative = state.velocities[1]
             - state.velocities[0]
-            - (state.spins[0] + state.spins[1]).cross(normal) * (0.5 * distance);
+            - (state.angular_velocities[0] + state.angular_velocities[1]).cross(normal) * (0.5 * distance);
         let velocity = relative.rejected_from(normal);
-        let elastic = elastic(self.normal, &self.pair, &touch);
-        let normal_dashpot = self.damping.map_or(0.0, |law| law.coefficient(&self.pair, &touch, &elastic));
+        let elastic = elastic(self.normal, &self.pair, &geometry);
+        let normal_dashpot = self.damping.map_or(0.0, |law| law.coefficient(&self.pair, &geometry, &elastic));
         let normal_force = elastic.force - normal_dashpot * relative.dot(normal);
         let sliding = Sliding {
             normal,
             displacement: velocity * dt,
             velocity,
-            spin_angle: 0.5 * dt * (state.spins[0] + state.spins[1]).dot(normal),
+            turn_about_normal: 0.5
+                * dt
+                * (state.angular_velocities[0] + state.angular_velocities[1]).dot(normal),
             elastic,
             normal_dashpot,
             normal_force,
             dt,
         };
-        let (friction, spring) = self.friction.force(&self.pair, &touch, &sliding, &state.spring);
+        let (friction, spring) = self.friction.force(&self.pair, &geometry, &sliding, &state.spring);
         Some(Load {
             on_i: friction - normal * normal_force,
-            moment: normal.cross(friction) * (0.5 * distance),
-            elastic: self.normal.energy(&self.pair, &touch) + spring.energy(),
+            torque: normal.cross(friction) * (0.5 * distance),
+            elastic: self.normal.energy(&self.pair, &geometry) + spring.energy(),
             spring,
         })
     }
@@ -157,12 +164,12 @@ impl Oblique<'_> {
     pub fn integrate(&self, mut state: Pair, dt: f64, mut watch: impl FnMut(f64, f64)) -> Pair {
         let inertia = 0.4 * self.mass * self.radius * self.radius;
         let mut load =
-            Load { on_i: Vec3::ZERO, moment: Vec3::ZERO, elastic: 0.0, spring: TangentialSpring::default() };
+            Load { on_i: Vec3::ZERO, torque: Vec3::ZERO, elastic: 0.0, spring: TangentialSpring::default() };
         let kick = |state: &mut Pair, load: &Load| {
             state.velocities[0] += load.on_i * (0.5 * dt / self.mass);
             state.velocities[1] -= load.on_i * (0.5 * dt / self.mass);
-            for spin in &mut state.spins {
-                *spin += load.moment * (0.5 * dt / inertia);
+            for angular_velocity in &mut state.angular_velocities {
+                *angular_velocity += load.torque * (0.5 * dt / inertia);
             }
         };
         loop {

@@ -52,17 +52,17 @@
 //! # Example
 //! ```
 //! # extern crate agglo_core as agglo;
-//! use agglo::contact::{Custom, PairConstants, Touch};
+//! use agglo::contact::{Custom, PairConstants, ContactGeometry};
 //! let law = Custom::new("2e4*overlap + 3*speed");
-//! let (pair, touch) = (PairConstants::default(), Touch { overlap: 1e-6, ..Touch::default() });
-//! assert!((law.force(&pair, &touch, 0.1) - 0.32).abs() < 1e-15);
-//! assert!((law.energy(&pair, &touch) / 1e-8 - 1.0).abs() < 1e-14);
+//! let (pair, geometry) = (PairConstants::default(), ContactGeometry { overlap: 1e-6, ..ContactGeometry::default() });
+//! assert!((law.force(&pair, &geometry, 0.1) - 0.32).abs() < 1e-15);
+//! assert!((law.energy(&pair, &geometry) / 1e-8 - 1.0).abs() < 1e-14);
 //! ```
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{PairConstants, Touch};
+use super::{ContactGeometry, PairConstants};
 use crate::law::{Context, Faults, Law, Needs, Sample};
 use crate::math::Pace;
 use crate::math::formula::{Names, Written};
@@ -137,14 +137,18 @@ impl Custom {
 
     /// Repulsion [N] at a rate of the overlap [m/s].
     #[inline]
-    pub fn force(&self, pair: &PairConstants, touch: &Touch, speed: f64) -> f64 {
-        self.force.at(|name| value(name, pair, touch, speed))
+    pub fn force(&self, pair: &PairConstants, geometry: &ContactGeometry, speed: f64) -> f64 {
+        self.force.at(|name| value(name, pair, geometry, speed))
     }
 
     /// What the force [N] is beyond that at rest.
     #[inline]
-    pub fn beyond_rest(&self, pair: &PairConstants, touch: &Touch, speed: f64) -> f64 {
-        if self.has_speed() { self.force(pair, touch, speed) - self.force(pair, touch, 0.0) } else { 0.0 }
+    pub fn beyond_rest(&self, pair: &PairConstants, geometry: &ContactGeometry, speed: f64) -> f64 {
+        if self.has_speed() {
+            self.force(pair, geometry, speed) - self.force(pair, geometry, 0.0)
+        } else {
+            0.0
+        }
     }
 
     /// Whether the force depends on the speed.
@@ -155,24 +159,24 @@ impl Custom {
 
     /// Slopes of the force over the overlap [N/m] and the speed [N s/m].
     #[inline]
-    pub fn slopes(&self, pair: &PairConstants, touch: &Touch, speed: f64) -> [f64; 2] {
+    pub fn slopes(&self, pair: &PairConstants, geometry: &ContactGeometry, speed: f64) -> [f64; 2] {
         let along = |name| match name {
             OfPair::Overlap => [1.0, 0.0],
             OfPair::Speed => [0.0, 1.0],
             _ => [0.0, 0.0],
         };
-        self.force.slopes(|name| value(name, pair, touch, speed), along)
+        self.force.slopes(|name| value(name, pair, geometry, speed), along)
     }
 
     /// Energy stored [J], 0 where the force begins to act.
-    pub fn energy(&self, pair: &PairConstants, touch: &Touch) -> f64 {
+    pub fn energy(&self, pair: &PairConstants, geometry: &ContactGeometry) -> f64 {
         let border = -self.reach();
-        let at = |overlap: f64| Touch { overlap, ..*touch };
+        let at = |overlap: f64| ContactGeometry { overlap, ..*geometry };
         if let Some(energy) = &self.energy {
             let stored = |overlap: f64| energy.at(|name| value(name, pair, &at(overlap), 0.0));
-            stored(touch.overlap) - stored(border)
+            stored(geometry.overlap) - stored(border)
         } else {
-            integral(|overlap| self.force(pair, &at(overlap), 0.0), border, touch.overlap)
+            integral(|overlap| self.force(pair, &at(overlap), 0.0), border, geometry.overlap)
         }
     }
 
@@ -183,34 +187,35 @@ impl Custom {
     }
 
     /// How fast a contact is with this overlap and this rate of it [m/s].
-    pub fn pace_at(&self, pair: &PairConstants, touch: &Touch, speed: f64) -> Pace {
-        let [stiffness, dashpot] = self.slopes(pair, touch, speed);
-        Pace::of_spring(stiffness, touch.effective_mass) + Pace::of_dashpot(dashpot, touch.effective_mass)
+    pub fn pace_at(&self, pair: &PairConstants, geometry: &ContactGeometry, speed: f64) -> Pace {
+        let [stiffness, dashpot] = self.slopes(pair, geometry, speed);
+        Pace::of_spring(stiffness, geometry.effective_mass)
+            + Pace::of_dashpot(dashpot, geometry.effective_mass)
     }
 
     /// How fast a contact is that reaches this overlap slowly.
-    pub fn pace(&self, pair: &PairConstants, touch: &Touch) -> Pace {
+    pub fn pace(&self, pair: &PairConstants, geometry: &ContactGeometry) -> Pace {
         let border = -self.reach();
         let at = |part: f64| {
-            let overlap = border + part * (touch.overlap - border);
-            self.pace_at(pair, &Touch { overlap, ..*touch }, 0.0)
+            let overlap = border + part * (geometry.overlap - border);
+            self.pace_at(pair, &ContactGeometry { overlap, ..*geometry }, 0.0)
         };
         ON_THE_WAY.map(at).into_iter().fold(Pace::NONE, Pace::max)
     }
 }
 
 #[inline]
-fn value(name: OfPair, pair: &PairConstants, touch: &Touch, speed: f64) -> f64 {
+fn value(name: OfPair, pair: &PairConstants, geometry: &ContactGeometry, speed: f64) -> f64 {
     match name {
-        OfPair::Overlap => touch.overlap,
+        OfPair::Overlap => geometry.overlap,
         OfPair::Speed => speed,
-        OfPair::RadiusSum => touch.radius_sum,
-        OfPair::EffectiveRadius => touch.effective_radius,
-        OfPair::SmallerRadius => touch.smaller_radius,
-        OfPair::LargerRadius => touch.radius_sum - touch.smaller_radius,
-        OfPair::EffectiveMass => touch.effective_mass,
+        OfPair::RadiusSum => geometry.radius_sum,
+        OfPair::EffectiveRadius => geometry.effective_radius,
+        OfPair::SmallerRadius => geometry.smaller_radius,
+        OfPair::LargerRadius => geometry.radius_sum - geometry.smaller_radius,
+        OfPair::EffectiveMass => geometry.effective_mass,
         OfPair::EffectiveModulus => pair.effective_modulus,
-        OfPair::ContactStiffness => touch.stiffness,
+        OfPair::ContactStiffness => geometry.stiffness,
     }
 }
 
@@ -286,14 +291,14 @@ const JUMP: f64 = 1e-3;
 fn first<R>(
     law: &Custom,
     context: &Context<'_>,
-    mut look: impl FnMut(&PairConstants, &Touch, &str) -> Option<R>,
+    mut look: impl FnMut(&PairConstants, &ContactGeometry, &str) -> Option<R>,
 ) -> Option<R> {
     let kinds = &context.samples[..context.samples.len().min(MOST_KINDS)];
     for (at, a) in kinds.iter().enumerate() {
         for b in &kinds[at..] {
-            let touch = touch_of(a, b);
+            let geometry = touch_of(a, b);
             let pair = PairConstants::of_elastic(a.material, b.material);
-            let overlaps = STRAINS.map(|strain| strain * touch.radius_sum);
+            let overlaps = STRAINS.map(|strain| strain * geometry.radius_sum);
             let apart = APART.map(|part| -part * law.reach());
             let apart = if law.reach() > 0.0 { &apart[..] } else { &[] };
             for &overlap in overlaps.iter().chain(apart) {
@@ -303,7 +308,7 @@ fn first<R>(
                     readable(a.radius, "m"),
                     readable(b.radius, "m")
                 );
-                if let Some(found) = look(&pair, &Touch { overlap, ..touch }, &who) {
+                if let Some(found) = look(&pair, &ContactGeometry { overlap, ..geometry }, &who) {
                     return Some(found);
                 }
             }
@@ -312,18 +317,18 @@ fn first<R>(
     None
 }
 
-fn touch_of(a: &Sample<'_>, b: &Sample<'_>) -> Touch {
+fn touch_of(a: &Sample<'_>, b: &Sample<'_>) -> ContactGeometry {
     let stiffness = [a, b].map(|kind| kind.material.contact_stiffness.map_or(0.0, Quantity::si));
-    Touch::new([a.radius, b.radius], [a.mass, b.mass], stiffness, a.radius + b.radius)
+    ContactGeometry::new([a.radius, b.radius], [a.mass, b.mass], stiffness, a.radius + b.radius)
 }
 
 /// Values that are none, and an energy that is not that of the force.
 fn try_out(law: &Custom, faults: &mut Faults, context: &Context<'_>) {
-    let no_number = first(law, context, |pair, touch, who| {
+    let no_number = first(law, context, |pair, geometry, who| {
         let speeds = if law.has_speed() { &SPEEDS[..] } else { &[] };
-        let bad = |speed: &f64| !law.force(pair, touch, *speed).is_finite();
+        let bad = |speed: &f64| !law.force(pair, geometry, *speed).is_finite();
         let speed = [0.0].iter().chain(speeds).copied().find(bad)?;
-        let force = law.force(pair, touch, speed);
+        let force = law.force(pair, geometry, speed);
         let speed =
             if speed == 0.0 { String::new() } else { format!(" and a speed of {}", readable(speed, "m/s")) };
         Some(format!("\"{}\" is {} at {who}{speed}", law.force.text(), what_it_is(force)))
@@ -332,10 +337,10 @@ fn try_out(law: &Custom, faults: &mut Faults, context: &Context<'_>) {
         return faults.fail_with("force", message, "give a formula that has a value wherever grains touch");
     }
     let Some(energy) = &law.energy else { return };
-    let other = first(law, context, |pair, touch, who| {
+    let other = first(law, context, |pair, geometry, who| {
         let along = |name| [f64::from(u8::from(name == OfPair::Overlap))];
-        let [slope] = energy.slopes(|name| value(name, pair, touch, 0.0), along);
-        let force = law.force(pair, touch, 0.0);
+        let [slope] = energy.slopes(|name| value(name, pair, geometry, 0.0), along);
+        let force = law.force(pair, geometry, 0.0);
         let agrees = (slope - force).abs() <= TOLERANCE * slope.abs().max(force.abs());
         (!agrees).then(|| {
             let [slope, force] = [slope, force].map(|newton| readable(newton, "N"));
@@ -355,8 +360,8 @@ fn what_it_is(force: f64) -> &'static str {
 
 /// Where the force adds energy, and where it jumps as it begins to act.
 fn doubts(law: &Custom, context: &Context<'_>) -> Vec<String> {
-    let driven = first(law, context, |pair, touch, who| {
-        let drives = |speed: &&f64| law.beyond_rest(pair, touch, **speed) * **speed < 0.0;
+    let driven = first(law, context, |pair, geometry, who| {
+        let drives = |speed: &&f64| law.beyond_rest(pair, geometry, **speed) * **speed < 0.0;
         let speed = SPEEDS.iter().find(drives)?;
         Some(format!(
             "contact.custom drives grains instead of slowing them at {who} and a speed of {}: the ledger books that as work_custom_J",
@@ -364,10 +369,10 @@ fn doubts(law: &Custom, context: &Context<'_>) -> Vec<String> {
         ))
     });
     let Some(kind) = context.samples.first() else { return driven.into_iter().collect() };
-    let (pair, touch) = (PairConstants::of_elastic(kind.material, kind.material), touch_of(kind, kind));
-    let at = |overlap: f64| law.force(&pair, &Touch { overlap, ..touch }, 0.0);
-    let begins = at(1e-12 * touch.radius_sum - law.reach());
-    let jumps = begins.abs() > JUMP * at(1e-3 * touch.radius_sum).abs();
+    let (pair, geometry) = (PairConstants::of_elastic(kind.material, kind.material), touch_of(kind, kind));
+    let at = |overlap: f64| law.force(&pair, &ContactGeometry { overlap, ..geometry }, 0.0);
+    let begins = at(1e-12 * geometry.radius_sum - law.reach());
+    let jumps = begins.abs() > JUMP * at(1e-3 * geometry.radius_sum).abs();
     let jump = jumps.then(|| {
         format!(
             "contact.custom jumps to {} where it begins to act: energy is kept only as well as steps resolve that",

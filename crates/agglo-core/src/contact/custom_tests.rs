@@ -10,8 +10,8 @@ use crate::units::Quantity;
 
 const HERTZ: &str = "4/3*effective_modulus*sqrt(effective_radius)*overlap^1.5";
 
-fn touch(overlap: f64) -> Touch {
-    Touch { overlap, ..Touch::new([1e-3, 4e-3], [1e-6, 2e-6], [1e7, 3e7], 5e-3) }
+fn geometry(overlap: f64) -> ContactGeometry {
+    ContactGeometry { overlap, ..ContactGeometry::new([1e-3, 4e-3], [1e-6, 2e-6], [1e7, 3e7], 5e-3) }
 }
 
 fn law(force: &str, energy: Option<&str>, reach: Option<f64>) -> Custom {
@@ -25,19 +25,19 @@ fn a_formula_of_hertz_is_hertz() {
     let given = law(HERTZ, Some("8/15*effective_modulus*sqrt(effective_radius)*overlap^2.5"), None);
     let integrated = law(HERTZ, None, None);
     for overlap in [1e-12, 1e-7, 1e-5, 3e-4] {
-        let touch = touch(overlap);
-        assert_close!(given.force(&pair, &touch, 0.3), Hertz {}.force(&pair, &touch), 1e-13, "in N");
+        let geometry = geometry(overlap);
+        assert_close!(given.force(&pair, &geometry, 0.3), Hertz {}.force(&pair, &geometry), 1e-13, "in N");
         assert_close!(
-            given.slopes(&pair, &touch, 0.3)[0],
-            Hertz {}.tangent_stiffness(&pair, &touch),
+            given.slopes(&pair, &geometry, 0.3)[0],
+            Hertz {}.tangent_stiffness(&pair, &geometry),
             1e-13,
             "in N/m"
         );
-        assert_close!(given.energy(&pair, &touch), Hertz {}.energy(&pair, &touch), 1e-13, "in J");
-        assert_close!(integrated.energy(&pair, &touch), Hertz {}.energy(&pair, &touch), 1e-12, "in J");
+        assert_close!(given.energy(&pair, &geometry), Hertz {}.energy(&pair, &geometry), 1e-13, "in J");
+        assert_close!(integrated.energy(&pair, &geometry), Hertz {}.energy(&pair, &geometry), 1e-12, "in J");
         assert_close!(
-            given.pace(&pair, &touch).square,
-            Hertz {}.pace(&pair, &touch).square,
+            given.pace(&pair, &geometry).square,
+            Hertz {}.pace(&pair, &geometry).square,
             1e-12,
             "in 1/s²"
         );
@@ -60,7 +60,7 @@ fn names_stand_for_what_they_say() {
         ("contact_stiffness", 2e7),
     ];
     for (name, wanted) in rows {
-        assert_close!(law(name, None, None).force(&pair, &touch(1e-5), -0.3), wanted, 1e-14, "{name}");
+        assert_close!(law(name, None, None).force(&pair, &geometry(1e-5), -0.3), wanted, 1e-14, "{name}");
     }
     assert_eq!(OfPair::ALL.len(), rows.len());
 }
@@ -68,24 +68,29 @@ fn names_stand_for_what_they_say() {
 /// k δ + c v: ω² = k/m*, Γ = c/m*, and the critical step 2/(Γ + √(Γ² + ω²)) by hand.
 #[test]
 fn the_critical_step_is_that_of_the_slopes() {
-    let (pair, touch) = (PairConstants::default(), touch(1e-5));
-    let pace = law("2e4*overlap + 3*speed", None, None).pace(&pair, &touch);
-    let (square, rate) = (2e4 / touch.effective_mass, 3.0 / touch.effective_mass);
+    let (pair, geometry) = (PairConstants::default(), geometry(1e-5));
+    let pace = law("2e4*overlap + 3*speed", None, None).pace(&pair, &geometry);
+    let (square, rate) = (2e4 / geometry.effective_mass, 3.0 / geometry.effective_mass);
     assert_close!(pace.critical_step(), 2.0 / (rate + (rate * rate + square).sqrt()), 1e-14, "in s");
     // A spring that is stiffest half way: sin has its steepest slope at 0.
-    let pace = law("2e-2*sin(1e6*overlap)", None, None).pace(&pair, &touch);
-    assert_close!(pace.square, 2e4 * (0.2_f64).cos() / touch.effective_mass, 1e-12, "at a 50th of the way");
+    let pace = law("2e-2*sin(1e6*overlap)", None, None).pace(&pair, &geometry);
+    assert_close!(
+        pace.square,
+        2e4 * (0.2_f64).cos() / geometry.effective_mass,
+        1e-12,
+        "at a 50th of the way"
+    );
 }
 
 /// What is beyond rest is the part with the speed, and nothing where there is none.
 #[test]
 fn the_rest_is_elastic() {
-    let (pair, touch) = (PairConstants::default(), touch(1e-5));
+    let (pair, geometry) = (PairConstants::default(), geometry(1e-5));
     let dashpot = law("2e4*overlap + 3*speed*abs(speed)", None, None);
-    assert_close!(dashpot.beyond_rest(&pair, &touch, -0.5), -0.75, 1e-13, "in N");
-    assert_eq!(law("2e4*overlap", None, None).beyond_rest(&pair, &touch, -0.5), 0.0);
-    let force = |overlap| dashpot.force(&pair, &Touch { overlap, ..touch }, 0.0);
-    assert_slope(1e-5, |overlap| dashpot.energy(&pair, &Touch { overlap, ..touch }), force);
+    assert_close!(dashpot.beyond_rest(&pair, &geometry, -0.5), -0.75, 1e-13, "in N");
+    assert_eq!(law("2e4*overlap", None, None).beyond_rest(&pair, &geometry, -0.5), 0.0);
+    let force = |overlap| dashpot.force(&pair, &ContactGeometry { overlap, ..geometry }, 0.0);
+    assert_slope(1e-5, |overlap| dashpot.energy(&pair, &ContactGeometry { overlap, ..geometry }), force);
 }
 
 /// -k (δ + ℓ) from δ = -ℓ on stores -k (δ + ℓ)²/2, given up to a constant or integrated.
@@ -96,7 +101,7 @@ fn energy_begins_where_the_force_does() {
         let law = law("-1e3*(overlap + 1e-4)", energy, Some(1e-4));
         for overlap in [-1e-4, -3e-5, 0.0, 2e-5] {
             let wanted = -500.0 * (overlap + 1e-4) * (overlap + 1e-4);
-            assert_near!(law.energy(&pair, &touch(overlap)), wanted, 1e-14, "in J");
+            assert_near!(law.energy(&pair, &geometry(overlap)), wanted, 1e-14, "in J");
         }
     }
 }

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Custom, Damping, Elastic, Friction, Normal, PairConstants, Touch};
+use super::{ContactGeometry, Custom, Damping, Elastic, Friction, Normal, PairConstants};
 use crate::law::{Chosen, Faults, HIGHEST_EXPONENT};
 use crate::math::Pace;
 use crate::math::roots::root_between;
@@ -69,27 +69,27 @@ impl ContactLaws {
 
     /// What the elastic laws make of a contact: what is built in where grains touch, and the formula at rest.
     #[inline]
-    pub fn elastic(&self, pair: &PairConstants, touch: &Touch, with_stiffness: bool) -> Elastic {
+    pub fn elastic(&self, pair: &PairConstants, geometry: &ContactGeometry, with_stiffness: bool) -> Elastic {
         let mut elastic = Elastic::default();
-        if let Some(law) = self.normal.as_ref().filter(|_| touch.overlap > 0.0) {
-            let stiffness = if with_stiffness { law.tangent_stiffness(pair, touch) } else { 0.0 };
-            elastic = Elastic { force: law.force(pair, touch), stiffness, exponent: law.exponent() };
+        if let Some(law) = self.normal.as_ref().filter(|_| geometry.overlap > 0.0) {
+            let stiffness = if with_stiffness { law.tangent_stiffness(pair, geometry) } else { 0.0 };
+            elastic = Elastic { force: law.force(pair, geometry), stiffness, exponent: law.exponent() };
         }
         if let Some(law) = &self.custom {
-            elastic.force += law.force(pair, touch, 0.0);
+            elastic.force += law.force(pair, geometry, 0.0);
             if with_stiffness {
-                elastic.stiffness += law.slopes(pair, touch, 0.0)[0];
-                elastic.exponent = local_exponent(&elastic, touch.overlap);
+                elastic.stiffness += law.slopes(pair, geometry, 0.0)[0];
+                elastic.exponent = local_exponent(&elastic, geometry.overlap);
             }
         }
         elastic
     }
 
     /// Energy stored along the line of centers [J].
-    pub fn energy(&self, pair: &PairConstants, touch: &Touch) -> f64 {
-        let normal = self.normal.as_ref().filter(|_| touch.overlap > 0.0);
-        normal.map_or(0.0, |law| law.energy(pair, touch))
-            + self.custom.as_ref().map_or(0.0, |law| law.energy(pair, touch))
+    pub fn energy(&self, pair: &PairConstants, geometry: &ContactGeometry) -> f64 {
+        let normal = self.normal.as_ref().filter(|_| geometry.overlap > 0.0);
+        normal.map_or(0.0, |law| law.energy(pair, geometry))
+            + self.custom.as_ref().map_or(0.0, |law| law.energy(pair, geometry))
     }
 
     /// How far beyond touching the laws act [m].
@@ -104,34 +104,43 @@ impl ContactLaws {
     }
 
     /// How fast the laws are in a contact that reaches this overlap: along the line of centers or across it.
-    pub fn pace(&self, pair: &PairConstants, touch: &Touch) -> Pace {
-        self.pace_beside(pair, touch, self.custom.as_ref().map_or(Pace::NONE, |law| law.pace(pair, touch)))
+    pub fn pace(&self, pair: &PairConstants, geometry: &ContactGeometry) -> Pace {
+        self.pace_beside(
+            pair,
+            geometry,
+            self.custom.as_ref().map_or(Pace::NONE, |law| law.pace(pair, geometry)),
+        )
     }
 
     /// How fast the laws are in a contact with this overlap and this rate of it [m/s].
-    pub fn pace_at(&self, pair: &PairConstants, touch: &Touch, speed: f64) -> Pace {
-        let custom = self.custom.as_ref().map_or(Pace::NONE, |law| law.pace_at(pair, touch, speed));
-        if touch.overlap > 0.0 { self.pace_beside(pair, touch, custom) } else { custom }
+    pub fn pace_at(&self, pair: &PairConstants, geometry: &ContactGeometry, speed: f64) -> Pace {
+        let custom = self.custom.as_ref().map_or(Pace::NONE, |law| law.pace_at(pair, geometry, speed));
+        if geometry.overlap > 0.0 { self.pace_beside(pair, geometry, custom) } else { custom }
     }
 
-    fn pace_beside(&self, pair: &PairConstants, touch: &Touch, custom: Pace) -> Pace {
-        let (elastic, mass) = (self.elastic(pair, touch, true), touch.effective_mass);
-        let spring = self.normal.as_ref().map_or(Pace::NONE, |law| law.pace(pair, touch)) + custom;
-        let dashpot = self.damping.as_ref().map_or(Pace::NONE, |law| law.pace(pair, touch, &elastic));
+    fn pace_beside(&self, pair: &PairConstants, geometry: &ContactGeometry, custom: Pace) -> Pace {
+        let (elastic, mass) = (self.elastic(pair, geometry, true), geometry.effective_mass);
+        let spring = self.normal.as_ref().map_or(Pace::NONE, |law| law.pace(pair, geometry)) + custom;
+        let dashpot = self.damping.as_ref().map_or(Pace::NONE, |law| law.pace(pair, geometry, &elastic));
         // A law across the line of centers follows the stiffest that the contact was on its way to this overlap.
         let stiffest = Elastic { stiffness: spring.square * mass, ..elastic };
         let across = self
             .friction
             .as_ref()
-            .map_or(Pace::NONE, |law| law.pace(pair, touch, &stiffest, dashpot.rate * mass));
+            .map_or(Pace::NONE, |law| law.pace(pair, geometry, &stiffest, dashpot.rate * mass));
         (spring + dashpot).max(across)
     }
 
     /// Overlap [m] at which two grains have given all of an energy [J] to the contact; nothing if they have not where
     /// the center of one lies at that of the other.
-    pub fn deepest_overlap(&self, pair: &PairConstants, touch: &Touch, energy: f64) -> Option<f64> {
-        let left = |overlap: f64| self.energy(pair, &Touch { overlap, ..*touch }) - energy;
-        let most = touch.radius_sum;
+    pub fn deepest_overlap(
+        &self,
+        pair: &PairConstants,
+        geometry: &ContactGeometry,
+        energy: f64,
+    ) -> Option<f64> {
+        let left = |overlap: f64| self.energy(pair, &ContactGeometry { overlap, ..*geometry }) - energy;
+        let most = geometry.radius_sum;
         let ends = [left(0.0), left(most)];
         if ends[0] >= 0.0 {
             return Some(0.0);
@@ -175,20 +184,21 @@ mod tests {
     fn deepest_overlaps_are_those_of_the_closed_forms() {
         let of = |normal| ContactLaws { normal: Some(normal), custom: None, damping: None, friction: None };
         let pair = PairConstants { effective_modulus: 3e9, ..Default::default() };
-        let touch = Touch::new([1e-3, 4e-3], [1e-6, 2e-6], [0.0; 2], 5e-3);
-        let (mass, speed) = (touch.effective_mass, 0.7);
+        let geometry = ContactGeometry::new([1e-3, 4e-3], [1e-6, 2e-6], [0.0; 2], 5e-3);
+        let (mass, speed) = (geometry.effective_mass, 0.7);
         let energy = 0.5 * mass * speed * speed;
-        let by_hand = (15.0 * mass * speed * speed / (16.0 * 3e9 * touch.effective_radius.sqrt())).powf(0.4);
-        let hertz = of(Normal::Hertz(Hertz {})).deepest_overlap(&pair, &touch, energy);
+        let by_hand =
+            (15.0 * mass * speed * speed / (16.0 * 3e9 * geometry.effective_radius.sqrt())).powf(0.4);
+        let hertz = of(Normal::Hertz(Hertz {})).deepest_overlap(&pair, &geometry, energy);
         assert_close!(hertz.unwrap(), by_hand, 1e-8, "in m");
         let hooke = of(Normal::Hooke(Hooke { stiffness: Quantity(2e4) }));
         assert_close!(
-            hooke.deepest_overlap(&pair, &touch, energy).unwrap(),
+            hooke.deepest_overlap(&pair, &geometry, energy).unwrap(),
             speed * (mass / 2e4).sqrt(),
             1e-8,
             "in m"
         );
-        let all = 0.5 * 2e4 * touch.radius_sum * touch.radius_sum;
-        assert_eq!(hooke.deepest_overlap(&pair, &touch, 1.001 * all), None);
+        let all = 0.5 * 2e4 * geometry.radius_sum * geometry.radius_sum;
+        assert_eq!(hooke.deepest_overlap(&pair, &geometry, 1.001 * all), None);
     }
 }

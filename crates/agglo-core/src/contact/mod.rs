@@ -9,13 +9,13 @@ mod custom;
 pub mod damping;
 mod elastic;
 pub mod friction;
+mod geometry;
 mod laws;
 pub mod network;
 pub mod normal;
 mod pair_constants;
 mod pairs;
 pub mod pass;
-mod touch;
 
 #[cfg(test)]
 pub(crate) mod check;
@@ -27,8 +27,8 @@ pub use custom::{ContactFormula, Custom, OfPair};
 pub use damping::Damping;
 pub use elastic::Elastic;
 pub use friction::Friction;
+pub use geometry::{ContactGeometry, lever_arms};
 pub use laws::ContactLaws;
 pub use normal::Normal;
 pub use pair_constants::PairConstants;
 pub use pairs::PairTable;
-pub use touch::{Touch, arms};

@@ -3,9 +3,9 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::arms;
 use super::bond::{Beam, BeamLoad, BeamPair, BeamState, Break};
 use super::closeness::are_close;
+use super::lever_arms;
 use crate::math::{Pace, Vec3, parallel};
 use crate::neighbors::PairList;
 use crate::particles::{Motion, Particles};
@@ -168,10 +168,10 @@ impl Network {
             let load = &self.trial[entry as usize / 2].1;
             if entry % 2 == 0 {
                 *force += load.force;
-                *torque += load.moment_i;
+                *torque += load.torque_i;
             } else {
                 *force -= load.force;
-                *torque += load.moment_j;
+                *torque += load.torque_j;
             }
         }
     }
@@ -294,27 +294,34 @@ fn pair_of(bond: &Bond, grains: &Particles, before: &Motion<'_>, now: &Motion<'_
     // Slip over the step is taken across the normal of its middle, so that a turning pair slips by nothing.
     let apart_before = before.position[j] - before.position[i];
     let middle = (apart + apart_before).normalized();
-    let arms = arms([grains.radius[i], grains.radius[j]], distance);
+    let lever_arms = lever_arms([grains.radius[i], grains.radius[j]], distance);
     let ends = |motion: &Motion<'_>| {
-        let rolling = motion.spin[i] * arms[0] + motion.spin[j] * arms[1];
-        (motion.velocity[j] - motion.velocity[i], rolling, motion.spin[j] - motion.spin[i])
+        let rolling = motion.angular_velocity[i] * lever_arms[0] + motion.angular_velocity[j] * lever_arms[1];
+        (
+            motion.velocity[j] - motion.velocity[i],
+            rolling,
+            motion.angular_velocity[j] - motion.angular_velocity[i],
+        )
     };
     let ((parting_before, rolling_before, turn_before), (parting, rolling, turn)) = (ends(before), ends(now));
     let velocity = parting - rolling.cross(normal);
     let mean = (parting_before + parting - (rolling_before + rolling).cross(middle)) * 0.5;
-    let spins = before.spin[i] + before.spin[j] + now.spin[i] + now.spin[j];
+    let angular_velocities = before.angular_velocity[i]
+        + before.angular_velocity[j]
+        + now.angular_velocity[i]
+        + now.angular_velocity[j];
     let (mi, mj) = (grains.mass[i], grains.mass[j]);
     let (ii, ij) = (grains.inertia(i), grains.inertia(j));
     BeamPair {
         distance,
         normal,
-        arms,
+        lever_arms,
         displacement: mean.rejected_from(middle) * dt,
         rotation: (turn_before + turn) * (0.5 * dt),
-        spin_angle: spins.dot(normal) * (0.25 * dt),
+        turn_about_normal: angular_velocities.dot(normal) * (0.25 * dt),
         separation_speed: velocity.dot(normal),
         slip: velocity.rejected_from(normal),
-        spin_difference: turn,
+        angular_velocity_difference: turn,
         effective_mass: mi * mj / (mi + mj),
         effective_inertia: ii * ij / (ii + ij),
     }

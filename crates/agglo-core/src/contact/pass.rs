@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use super::bond::{Bonds, StrainBond};
 use super::friction::{Sliding, TangentialSpring};
-use super::{ContactLaws, PairConstants, PairTable, Touch, arms};
+use super::{ContactGeometry, ContactLaws, PairConstants, PairTable, lever_arms};
 use crate::math::{Pace, Vec3, parallel};
 use crate::neighbors::PairList;
 use crate::particles::{Motion, Particles};
@@ -16,7 +16,7 @@ use crate::particles::{Motion, Particles};
 /// Owners per leaf of the parallel loop.
 const LEAF: usize = 1024;
 
-/// Force and moments of one contact.
+/// Force and torques of one contact.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ContactLoad {
     /// Force on the owner [N]; on the partner the opposite.
@@ -24,7 +24,7 @@ pub struct ContactLoad {
     /// Moment per arm [N]: n x F_t, the same for both grains.
     pub couple: Vec3,
     /// Distances from the two centers to the contact [m]: owner's and partner's.
-    pub arms: [f64; 2],
+    pub lever_arms: [f64; 2],
 }
 
 /// What one pass over the contacts adds up.
@@ -253,9 +253,9 @@ fn compute_owners(
 struct Contact<'a> {
     grains: [usize; 2],
     constants: &'a PairConstants,
-    touch: Touch,
+    geometry: ContactGeometry,
     normal: Vec3,
-    arms: [f64; 2],
+    lever_arms: [f64; 2],
 }
 
 impl<'a> Contact<'a> {
@@ -264,7 +264,7 @@ impl<'a> Contact<'a> {
         let [i, j] = grains;
         let columns = world.grains;
         let radii = grains.map(|k| columns.radius[k]);
-        let touch = Touch::new(
+        let geometry = ContactGeometry::new(
             radii,
             grains.map(|k| columns.mass[k]),
             grains.map(|k| columns.contact_stiffness[k]),
@@ -276,32 +276,36 @@ impl<'a> Contact<'a> {
         Self {
             grains,
             constants: world.pairs.of(columns.material[i], columns.material[j]),
-            touch,
+            geometry,
             normal,
-            arms: if distance > 0.0 { arms(radii, distance) } else { [0.0; 2] },
+            lever_arms: if distance > 0.0 { lever_arms(radii, distance) } else { [0.0; 2] },
         }
     }
 
     /// The bond that acts in contact.
     #[inline]
     fn bond<'b>(&self, world: &'b ContactWorld<'_>) -> Option<&'b StrainBond> {
-        world.bonds.and_then(Bonds::in_contact).filter(|_| self.touch.overlap > 0.0)
+        world.bonds.and_then(Bonds::in_contact).filter(|_| self.geometry.overlap > 0.0)
     }
 
     /// Velocity [m/s] of the partner's surface relative to the owner's at the contact.
     #[inline]
     fn relative_velocity(&self, motion: &Motion<'_>) -> Vec3 {
         let [i, j] = self.grains;
-        let rolling = motion.spin[i] * self.arms[0] + motion.spin[j] * self.arms[1];
+        let rolling =
+            motion.angular_velocity[i] * self.lever_arms[0] + motion.angular_velocity[j] * self.lever_arms[1];
         motion.velocity[j] - motion.velocity[i] - rolling.cross(self.normal)
     }
 
     /// Angle [rad] by which the pair turned about its normal over the step.
     #[inline]
-    fn spin_angle(&self, world: &ContactWorld<'_>) -> f64 {
+    fn turn_about_normal(&self, world: &ContactWorld<'_>) -> f64 {
         let [i, j] = self.grains;
-        let spins = world.before.spin[i] + world.before.spin[j] + world.now.spin[i] + world.now.spin[j];
-        spins.dot(self.normal) * (0.25 * world.elapsed)
+        let angular_velocities = world.before.angular_velocity[i]
+            + world.before.angular_velocity[j]
+            + world.now.angular_velocity[i]
+            + world.now.angular_velocity[j];
+        angular_velocities.dot(self.normal) * (0.25 * world.elapsed)
     }
 
     #[inline]
@@ -311,20 +315,20 @@ impl<'a> Contact<'a> {
         before: Option<&TangentialSpring>,
         rates: &mut ContactRates,
     ) -> (ContactLoad, TangentialSpring) {
-        let Self { constants, touch, normal, .. } = self;
+        let Self { constants, geometry, normal, .. } = self;
         let velocity = self.relative_velocity(&world.now);
         let separation = velocity.dot(*normal);
         let slip = velocity - *normal * separation;
         let (mut repulsion, mut tangential, mut spring) = (0.0, Vec3::ZERO, TangentialSpring::default());
-        let is_touching = touch.overlap > 0.0;
+        let is_touching = geometry.overlap > 0.0;
         if let Some(laws) = world.laws {
-            let elastic = laws.elastic(constants, touch, laws.takes_stiffness());
+            let elastic = laws.elastic(constants, geometry, laws.takes_stiffness());
             let damping = laws.damping.as_ref().filter(|_| is_touching);
-            let dashpot = damping.map_or(0.0, |law| law.coefficient(constants, touch, &elastic));
+            let dashpot = damping.map_or(0.0, |law| law.coefficient(constants, geometry, &elastic));
             repulsion = elastic.force - dashpot * separation;
             rates.damping += dashpot * separation * separation;
             if let Some(law) = &laws.custom {
-                let beyond_rest = law.beyond_rest(constants, touch, -separation);
+                let beyond_rest = law.beyond_rest(constants, geometry, -separation);
                 repulsion += beyond_rest;
                 let lost = -beyond_rest * separation;
                 rates.damping += lost.max(0.0);
@@ -342,15 +346,15 @@ impl<'a> Contact<'a> {
                     ..way
                 };
                 let nothing = TangentialSpring::default();
-                (tangential, spring) = law.force(constants, touch, &sliding, before.unwrap_or(&nothing));
+                (tangential, spring) = law.force(constants, geometry, &sliding, before.unwrap_or(&nothing));
             }
         }
         if let Some(bond) = self.bond(world) {
-            repulsion -= bond.attraction(touch);
+            repulsion -= bond.attraction(geometry);
             tangential += self.strain_bond_slip(bond, slip, world.dt);
         }
         rates.tangential += tangential.dot(slip);
-        let strain = touch.strain();
+        let strain = geometry.strain();
         if strain > rates.worst_strain {
             rates.worst_strain = strain;
             rates.worst_pair = self.grains.map(|k| k as u32);
@@ -358,7 +362,7 @@ impl<'a> Contact<'a> {
         let load = ContactLoad {
             force: tangential - *normal * repulsion,
             couple: normal.cross(tangential),
-            arms: self.arms,
+            lever_arms: self.lever_arms,
         };
         (load, spring)
     }
@@ -368,13 +372,13 @@ impl<'a> Contact<'a> {
     fn way(&self, world: &ContactWorld<'_>, slip: Vec3) -> Sliding {
         let slip_before = self.relative_velocity(&world.before).rejected_from(self.normal);
         let displacement = (slip_before + slip) * (0.5 * world.elapsed);
-        Sliding { displacement, spin_angle: self.spin_angle(world), ..Sliding::default() }
+        Sliding { displacement, turn_about_normal: self.turn_about_normal(world), ..Sliding::default() }
     }
 
     #[inline]
     fn strain_bond_slip(&self, bond: &StrainBond, slip: Vec3, dt: f64) -> Vec3 {
         let speed = slip.norm();
-        if speed > 0.0 { slip * (bond.tangential(&self.touch, speed, dt) / speed) } else { Vec3::ZERO }
+        if speed > 0.0 { slip * (bond.tangential(&self.geometry, speed, dt) / speed) } else { Vec3::ZERO }
     }
 }
 
@@ -416,8 +420,8 @@ fn over_contacts<R: Send + Sync + Copy>(
 /// Adds up the normal energies at the present positions; for records, not for steps.
 pub fn contact_energy(world: &ContactWorld<'_>) -> ContactEnergy {
     let energy = |contact: &Contact<'_>| ContactEnergy {
-        normal: world.laws.map_or(0.0, |laws| laws.energy(contact.constants, &contact.touch)),
-        bond: contact.bond(world).map_or(0.0, |bond| bond.energy(&contact.touch)),
+        normal: world.laws.map_or(0.0, |laws| laws.energy(contact.constants, &contact.geometry)),
+        bond: contact.bond(world).map_or(0.0, |bond| bond.energy(&contact.geometry)),
     };
     let sum = |a: ContactEnergy, b: ContactEnergy| ContactEnergy {
         normal: a.normal + b.normal,
@@ -430,10 +434,10 @@ pub fn contact_energy(world: &ContactWorld<'_>) -> ContactEnergy {
 pub fn contact_pace(world: &ContactWorld<'_>) -> Pace {
     let pace = |contact: &Contact<'_>| {
         let speed = -contact.relative_velocity(&world.now).dot(contact.normal);
-        let pace = |laws: &ContactLaws| laws.pace_at(contact.constants, &contact.touch, speed);
+        let pace = |laws: &ContactLaws| laws.pace_at(contact.constants, &contact.geometry, speed);
         let laws = world.laws.map_or(Pace::NONE, pace);
         match contact.bond(world) {
-            Some(bond) => laws + bond.pace(&contact.touch),
+            Some(bond) => laws + bond.pace(&contact.geometry),
             None => laws,
         }
     };

@@ -44,7 +44,7 @@ impl Simulation for soft::Simulation {
             grains: grains.len(),
             mass: grains.mass.iter().sum(),
             momentum: self.momentum().linear,
-            kinetic_energy: balance.stored.kinetic + balance.stored.spin,
+            kinetic_energy: balance.stored.kinetic + balance.stored.rotational,
             unexplained: balance.drift_relative.abs(),
         }
     }
@@ -158,7 +158,8 @@ mod tests {
         let momentum = (0..grains.len()).map(motion).fold(crate::math::Vec3::ZERO, |sum, own| sum + own);
         assert_close_vector!(measures.momentum, momentum, 1e-9, "kg m/s");
         let energy = |at: usize| {
-            0.5 * (motion(at).dot(grains.velocity[at]) + grains.inertia(at) * grains.spin[at].norm_squared())
+            0.5 * (motion(at).dot(grains.velocity[at])
+                + grains.inertia(at) * grains.angular_velocity[at].norm_squared())
         };
         assert_close!(measures.kinetic_energy, (0..grains.len()).map(energy).sum(), 1e-9, "J");
         assert_below!(measures.unexplained, 1e-2);

@@ -42,16 +42,16 @@ pub enum SimError {
         /// The laws that act.
         laws: String,
     },
-    /// A figure of a run's end is infinite or not a number.
+    /// A quantity of a run's end is infinite or not a number.
     #[error(
-        "t = {time:.6e} s: {figure} of the summary is not finite, so there is no summary; the values of the scenario are too \
+        "t = {time:.6e} s: {quantity} of the summary is not finite, so there is no summary; the values of the scenario are too \
          extreme"
     )]
-    FigureNotFinite {
+    QuantityNotFinite {
         /// When [s].
         time: f64,
         /// Its key in the summary.
-        figure: String,
+        quantity: String,
     },
     /// A grain moves too far in one step.
     #[error(
@@ -257,7 +257,7 @@ pub enum SimError {
     },
     /// The ledger of hard spheres does not add up.
     #[error(
-        "t = {time:.6e} s: the ledger does not explain {part:.3} of all energy under {laws}; these figures are \
+        "t = {time:.6e} s: the ledger does not explain {part:.3} of all energy under {laws}; these quantities are \
          not to be believed: it is a fault of the program, please report it"
     )]
     HardUnexplained {

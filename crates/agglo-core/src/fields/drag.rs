@@ -1,4 +1,4 @@
-//! What a medium does to a grain: drag, the push of a medium that accelerates, and resistance to spin.
+//! What a medium does to a grain: drag, the push of a medium that accelerates, and resistance to rotation.
 //!
 //! # Equation
 //! ```text
@@ -21,12 +21,12 @@
 //! | m_f      | `displaced_mass`    | kg    | mass of the medium that the grain displaces         |
 //! | Re       | `reynolds`          | -     | Reynolds number of the grain's diameter             |
 //! | C_a      | `added_mass`        | -     | 1/2 for a sphere in an ideal fluid                  |
-//! | w        | `spin`              | rad/s | angular velocity of the grain                       |
+//! | w        | `angular_velocity`              | rad/s | angular velocity of the grain                       |
 //!
 //! # Valid when
 //! Stokes: Re ≪ 1 (2 % off at Re = 0.1, 15 % at 1). Schiller and Naumann: Re up to 1000, within 5 %; the torque is
-//! that of slow spin with both. The flow hardly changes over a grain. Grains do not feel one another's wakes, nor do
-//! they shield one another: a dense agglomerate's inside bears less than this says. History force and lift are left
+//! that of slow rotation with both. The flow hardly changes over a grain. Grains do not feel one another's wakes, nor
+//! do they shield one another: a dense agglomerate's inside bears less than this says. History force and lift are left
 //! out. m_f Du/Dt is the pressure of the flow alone: a medium at rest under gravity carries grains by
 //! `fields.gravity.buoyancy`, and the two do not overlap. A uniform, steady `medium_velocity` has no Du/Dt.
 //!
@@ -147,8 +147,8 @@ impl Drag {
 
     /// Moment [N m] on a grain of this radius [m] and angular velocity [rad/s] in a flow.
     #[inline]
-    pub fn torque(medium: &Medium, radius: f64, spin: Vec3, flow: &FlowAt) -> Vec3 {
-        (flow.vorticity * 0.5 - spin) * spin_coefficient(medium, radius)
+    pub fn torque(medium: &Medium, radius: f64, angular_velocity: Vec3, flow: &FlowAt) -> Vec3 {
+        (flow.vorticity * 0.5 - angular_velocity) * rotational_drag(medium, radius)
     }
 
     /// Force over slip [N s/m] at a slip velocity [m/s].
@@ -164,13 +164,13 @@ impl Drag {
     }
 
     /// How fast a grain of this radius [m], inertial mass [kg] and moment of inertia [kg m²] comes to rest in the
-    /// medium, at a slip velocity [m/s]: by its spin, or by its motion and the change of the flow along its way.
+    /// medium, at a slip velocity [m/s]: by its rotation, or by its motion and the change of the flow along its way.
     pub fn pace(&self, medium: &Medium, radius: f64, inertia: [f64; 2], slip: Vec3, flow: &FlowAt) -> Pace {
         // Schiller and Naumann's force grows like slip^1.687 at most; what the slope of its end leaves out is within that.
         let steeper = if self.law == DragLaw::Stokes { 1.0 } else { 1.687 };
         let motion = Pace::of_solved_drag(steeper * self.coefficient(medium, radius, slip), inertia[0]);
         let carried = Pace { square: 0.0, rate: flow.gradient };
-        (motion + carried).max(Pace::of_solved_drag(spin_coefficient(medium, radius), inertia[1]))
+        (motion + carried).max(Pace::of_solved_drag(rotational_drag(medium, radius), inertia[1]))
     }
 
     /// Reynolds number [-] of a grain: above 1 Stokes' law, above 1000 either law is out of its range.
@@ -186,9 +186,9 @@ impl Drag {
     }
 }
 
-/// Moment over angular velocity [N m s] of a sphere that spins in the medium.
+/// Torque over angular velocity [N m s] of a sphere that spins in the medium.
 #[inline]
-pub fn spin_coefficient(medium: &Medium, radius: f64) -> f64 {
+pub fn rotational_drag(medium: &Medium, radius: f64) -> f64 {
     8.0 * PI * medium.viscosity.si() * radius * radius * radius
 }
 
@@ -263,7 +263,7 @@ mod tests {
         assert_close!(torque.z, 8.0 * PI * 1e-3 * 1e-9 * 4.0, 1e-14, "in N m");
     }
 
-    /// 15 η/(ρ R²) of spin is faster than (9/2) η/(ρ R²) of motion; the flow's gradient adds to that.
+    /// 15 η/(ρ R²) of rotation is faster than (9/2) η/(ρ R²) of motion; the flow's gradient adds to that.
     #[test]
     fn the_pace_is_that_of_spin_in_a_still_liquid() {
         let (medium, radius, mass) = (Medium::default(), 1e-5, 2500.0 * 4.0 / 3.0 * PI * 1e-15);

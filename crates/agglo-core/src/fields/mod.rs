@@ -14,7 +14,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use custom::{Custom, FieldFormula, OfGrain};
-pub use drag::{Drag, DragLaw, Validity, spin_coefficient};
+pub use drag::{Drag, DragLaw, Validity, rotational_drag};
 pub use expression::{Expression, FieldVector, evaluate};
 pub use flow::{Flow, FlowAt, FlowField};
 pub use gravity::Gravity;

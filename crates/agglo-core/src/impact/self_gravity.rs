@@ -17,7 +17,7 @@
 //! | G      | `GRAVITATIONAL` | m³/(kg s²) | [B] calls it a gas constant; its value is that of G |
 //!
 //! # Valid when
-//! An order of magnitude, with all of the cross-section in contact. Runs have no gravity between spheres: the figure says
+//! An order of magnitude, with all of the cross-section in contact. Runs have no gravity between spheres: the quantity says
 //! how far from mattering it is.
 //!
 //! # Compared with others

@@ -22,8 +22,8 @@
 //! | n      | `primaries`     | -    | grains that it is made of                      |
 //!
 //! # Valid when
-//! The merged sphere has no pores, so it is smaller than the pair was; it keeps no spin, so angular momentum about the
-//! common center is lost. Its material is that of the heavier partner (of equal ones, the one named first in the
+//! The merged sphere has no pores, so it is smaller than the pair was; it keeps no rotation, so angular momentum about
+//! the common center is lost. Its material is that of the heavier partner (of equal ones, the one named first in the
 //! alphabet): with two materials a sphere is a mixture that has the laws of its larger part.
 //!
 //! # Compared with others

@@ -63,7 +63,7 @@ macro_rules! entries {
 pub mod soft {
     entries! {
         KINETIC = stored.kinetic, "kinetic_J", "J", "kinetic energy", "of centers, added mass included";
-        SPIN = stored.spin, "spin_J", "J", "energy of spin", "";
+        ROTATIONAL = stored.rotational, "rotational_J", "J", "rotational energy", "";
         ELASTIC = stored.elastic, "elastic_J", "J", "elastic energy", "in contacts, along the normal";
         TANGENTIAL_SPRING = stored.tangential_spring, "tangential_spring_J", "J", "energy of tangential springs", "in contacts";
         BONDS = stored.bonds, "bonds_J", "J", "energy of bonds", "elastic; negative for `strain_bond`";

@@ -90,7 +90,7 @@ impl Ledger {
     fn explained(&self, balance: &Balance) -> f64 {
         let first = &self.start.stored;
         let at_start = first.kinetic
-            + first.spin
+            + first.rotational
             + first.elastic.abs()
             + first.tangential_spring
             + first.bonds.abs()

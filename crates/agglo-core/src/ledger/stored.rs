@@ -9,8 +9,8 @@ use crate::math::Vec3;
 pub struct Stored {
     /// Kinetic energy of the centers' motion, added mass included.
     pub kinetic: f64,
-    /// Kinetic energy of spin.
-    pub spin: f64,
+    /// Kinetic energy of rotation.
+    pub rotational: f64,
     /// Elastic energy of normal contact.
     pub elastic: f64,
     /// Energy of tangential springs in contacts.
@@ -29,7 +29,7 @@ impl Stored {
     /// All but heat [J].
     pub fn mechanical(&self) -> f64 {
         self.kinetic
-            + self.spin
+            + self.rotational
             + self.elastic
             + self.tangential_spring
             + self.bonds

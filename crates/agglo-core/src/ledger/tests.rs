@@ -56,7 +56,7 @@ fn what_is_not_finite_is_never_perfect() {
     type Spoil = fn(&mut Ledger, &mut Stored, f64);
     let entries: [Spoil; 17] = [
         |_, stored, bad| stored.kinetic = bad,
-        |_, stored, bad| stored.spin = bad,
+        |_, stored, bad| stored.rotational = bad,
         |_, stored, bad| stored.elastic = bad,
         |_, stored, bad| stored.tangential_spring = bad,
         |_, stored, bad| stored.bonds = bad,

@@ -1,4 +1,4 @@
-//! Figures taken from a state: moments, clusters, sizes. Nothing here changes a state.
+//! Quantities taken from a state: moments, clusters, sizes. Nothing here changes a state.
 
 mod biot;
 mod clusters;

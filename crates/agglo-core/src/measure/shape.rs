@@ -73,7 +73,7 @@ pub struct ClusterSummary {
     pub largest_fractal_dimension: Option<f64>,
 }
 
-/// The figures of `clusters` of grains with `positions` [n] [m], `radii` [n] [m] and `masses` [n] [kg].
+/// The quantities of `clusters` of grains with `positions` [n] [m], `radii` [n] [m] and `masses` [n] [kg].
 pub fn summarize(clusters: &Clusters, positions: &[Vec3], radii: &[f64], masses: &[f64]) -> ClusterSummary {
     let all: Vec<u32> = (0..positions.len() as u32).collect();
     let largest = clusters.members(0);

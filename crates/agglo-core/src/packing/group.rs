@@ -65,7 +65,7 @@ pub struct GrainGroup {
     pub velocity_spread: Option<VelocitySpread>,
     /// Angular velocity of all; `"1 Hz"` and `"1 rad/s"` both mean 1 rad/s.
     #[serde(default)]
-    pub spin: Triple<Frequency>,
+    pub angular_velocity: Triple<Frequency>,
     /// Temperature of all: it sets the contact stiffness, or the hardness at the start.
     #[serde(default = "room_temperature")]
     pub temperature: Temperature,

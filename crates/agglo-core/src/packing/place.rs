@@ -247,7 +247,7 @@ fn grain(request: &GrainGroup, properties: &Material, spot: Spot) -> Row {
     Row {
         position: spot.position,
         velocity: spot.velocity,
-        spin: vector(request.spin),
+        angular_velocity: vector(request.angular_velocity),
         radius: spot.radius,
         mass: properties.mass_of_sphere(spot.radius),
         temperature,

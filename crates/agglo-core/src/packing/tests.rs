@@ -37,7 +37,7 @@ pub(super) fn group(material: &str, size: Size, placement: Placement) -> GrainGr
         placement,
         velocity: [1.0, 2.0, 3.0].map(Quantity),
         velocity_spread: None,
-        spin: [0.0, 0.0, 5.0].map(Quantity),
+        angular_velocity: [0.0, 0.0, 5.0].map(Quantity),
         temperature: Quantity(600.0),
         charge: Quantity(-2e-12),
         polarity: -1.0,
@@ -95,7 +95,7 @@ fn every_property_of_a_grain_is_set() {
     assert_eq!(grains.material, [1, 1, 0]);
     assert_eq!(grains.velocity[0], Vec3::new(7.0, 0.0, 0.0));
     assert_eq!(grains.velocity[2], Vec3::new(1.0, 2.0, 3.0));
-    assert_eq!(grains.spin[0], Vec3::new(0.0, 0.0, 5.0));
+    assert_eq!(grains.angular_velocity[0], Vec3::new(0.0, 0.0, 5.0));
     assert_eq!((grains.temperature[0], grains.charge[0], grains.polarity[0]), (600.0, -2e-12, -1.0));
     // 900 kg/m³ times 4/3 pi 0.001 m³; 1e7 Pa exp(-(600/500 - 1)). Round-off only.
     assert_near!(grains.mass[0], 3.769_911_184_307_752, 1e-14, "in kg");

@@ -125,7 +125,7 @@ columns! {
     /// Velocity of the center [n, 3] [m/s].
     velocity: Vec3, "m/s";
     /// Angular velocity [n, 3] [rad/s].
-    spin: Vec3, "rad/s";
+    angular_velocity: Vec3, "rad/s";
     /// Radius [n] [m].
     radius: f64, "m";
     /// Mass [n] [kg].

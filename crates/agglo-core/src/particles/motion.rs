@@ -2,7 +2,7 @@
 
 use crate::math::Vec3;
 
-/// Positions, velocities and spins of all grains at one moment; [n] each.
+/// Positions, velocities and angular velocities of all grains at one moment; [n] each.
 #[derive(Clone, Copy, Debug)]
 pub struct Motion<'a> {
     /// Centers [m].
@@ -10,5 +10,5 @@ pub struct Motion<'a> {
     /// Velocities of the centers [m/s].
     pub velocity: &'a [Vec3],
     /// Angular velocities [rad/s].
-    pub spin: &'a [Vec3],
+    pub angular_velocity: &'a [Vec3],
 }

@@ -230,7 +230,7 @@ mod tests {
 
     #[derive(serde::Serialize)]
     struct Inner {
-        figure: f64,
+        quantity: f64,
         list: Vec<f64>,
         unknown: Option<f64>,
     }
@@ -242,15 +242,15 @@ mod tests {
         more: Vec<Inner>,
     }
 
-    fn outer(figure: f64, last: f64) -> Outer {
-        let inner = |figure, last| Inner { figure, list: vec![1.5, last], unknown: None };
-        Outer { inner: inner(figure, 0.0), more: vec![inner(0.0, 1.0), inner(-0.0, last)] }
+    fn outer(quantity: f64, last: f64) -> Outer {
+        let inner = |quantity, last| Inner { quantity, list: vec![1.5, last], unknown: None };
+        Outer { inner: inner(quantity, 0.0), more: vec![inner(0.0, 1.0), inner(-0.0, last)] }
     }
 
     #[test]
     fn numbers_that_are_not_finite_are_found_wherever_they_stand() {
         assert_eq!(not_finite(&outer(1.0, -2.0)), None);
-        assert_eq!(not_finite(&outer(f64::NAN, 0.0)).as_deref(), Some("figure"));
+        assert_eq!(not_finite(&outer(f64::NAN, 0.0)).as_deref(), Some("quantity"));
         assert_eq!(not_finite(&outer(1.0, f64::NEG_INFINITY)).as_deref(), Some("more.1.list.1"));
     }
 

@@ -18,7 +18,7 @@ pub struct Chart {
     pub title: String,
     /// What it shows.
     pub caption: String,
-    /// Its figures in words, for those who cannot see it.
+    /// Its quantities in words, for those who cannot see it.
     #[serde(skip)]
     pub words: Vec<String>,
     /// What is drawn.

@@ -63,7 +63,10 @@ impl Quantity {
         values("primaries", "Primaries", "", "primaries", Map::Viridis),
         Quantity { has_outliers: true, ..values("mass", "Mass", "kg", "mass_kg", Map::Cividis) },
         values("charge", "Charge", "C", "charge_c", Map::Viridis),
-        Quantity { has_outliers: true, ..values("spin", "Spin", "rad/s", "spin_rad_s", Map::Viridis) },
+        Quantity {
+            has_outliers: true,
+            ..values("angular_velocity", "Angular velocity", "rad/s", "angular_velocity_rad_s", Map::Viridis)
+        },
         values("polarity", "Polarity", "", "polarity", Map::Viridis),
     ];
 

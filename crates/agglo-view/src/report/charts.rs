@@ -20,7 +20,7 @@ pub fn charts(folder: &Folder) -> Vec<Chart> {
     let wanted = lines(is_hard, is_published(folder));
     let mut charts: Vec<Chart> =
         wanted.iter().filter_map(|lines| lines.chart(folder.table(lines.table)?)).collect();
-    // Beside the charts of the same figures over the whole run.
+    // Beside the charts of the same quantities over the whole run.
     let after = charts.iter().rposition(|chart| ["rays", "beam"].contains(&chart.id.as_str()));
     let of_pulses = folder.table("rays").map(|rays| pulses::charts(rays, &wanted)).unwrap_or_default();
     let place = after.map_or(charts.len(), |at| at + 1);

@@ -1,4 +1,4 @@
-//! Which columns the charts show, under which names and in which units: from tables of distinct figures.
+//! Which columns the charts show, under which names and in which units: from tables of distinct quantities.
 
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -71,7 +71,7 @@ const SHOWN_SOFT: &[Shown] = &[
         ["energy", "J"],
         &[
             ("kinetic energy", "kinetic_J"),
-            ("energy of spin", "spin_J"),
+            ("rotational energy", "rotational_J"),
             ("elastic energy", "elastic_J"),
             ("energy of tangential springs", "tangential_spring_J"),
             ("energy of bonds", "bonds_J"),
@@ -183,15 +183,15 @@ fn folder_of(engine: &str) -> Folder {
     Folder::read(&dir)
 }
 
-/// The same with two rows of figures that are nowhere the same; sizes of the table of sizes are none.
+/// The same with two rows of quantities that are nowhere the same; sizes of the table of sizes are none.
 fn distinct(engine: &str) -> Folder {
     let mut folder = folder_of(engine);
     folder.tables.retain(|(name, _)| name != "sizes");
-    let mut figure = 0.0;
+    let mut quantity = 0.0;
     for (_, table) in &mut folder.tables {
         for (name, column) in table.names.iter().zip(&mut table.columns) {
-            figure += 1.0;
-            *column = if name == "time_s" { vec![0.25, 0.75] } else { vec![figure, figure + 0.5] };
+            quantity += 1.0;
+            *column = if name == "time_s" { vec![0.25, 0.75] } else { vec![quantity, quantity + 0.5] };
         }
     }
     folder

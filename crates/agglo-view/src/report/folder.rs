@@ -21,7 +21,7 @@ pub struct Folder {
     pub scenario: Option<Scenario>,
     /// The resolved scenario's text.
     pub scenario_text: Option<String>,
-    /// The closing figures.
+    /// The closing quantities.
     pub summary: Option<Summary>,
     /// Tables over time, by the name of their file without its ending.
     pub tables: Vec<(String, Table)>,
@@ -98,7 +98,7 @@ impl Folder {
             }
             Err(error) => {
                 let reason = why(&error);
-                return self.notes.push(format!("{SUMMARY} {reason}: closing figures are left out"));
+                return self.notes.push(format!("{SUMMARY} {reason}: closing quantities are left out"));
             }
         };
         match serde_json::from_str(&text) {
@@ -190,9 +190,9 @@ pub fn not_understood(text: &str) -> String {
     let value: Option<serde_json::Value> = serde_json::from_str(text).ok();
     match value.as_ref().and_then(|value| value.get("version")?.as_str()) {
         Some(version) if version != ours => format!(
-            "{SUMMARY} is of agglo {version}, which agglo {ours} does not know: closing figures are left out"
+            "{SUMMARY} is of agglo {version}, which agglo {ours} does not know: closing quantities are left out"
         ),
-        _ => format!("{SUMMARY} is cut or damaged: closing figures are left out"),
+        _ => format!("{SUMMARY} is cut or damaged: closing quantities are left out"),
     }
 }
 

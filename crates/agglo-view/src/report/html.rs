@@ -9,7 +9,7 @@ use flate2::Compression;
 use flate2::write::DeflateEncoder;
 
 use super::cite::{PAPERS, Paper};
-use super::{Citation, Figures, Line, Listing, Report};
+use super::{Citation, Line, Listing, QuantityTable, Report};
 use crate::chart::{Chart, Drawn};
 use crate::plot::{LINES, Map, NAMED, PLAIN};
 use agglo::folder::names::SCENARIO;
@@ -102,7 +102,7 @@ impl Report {
         }
         let cards: String = self.charts.iter().map(card).collect();
         format!(
-            "<h2>Charts</h2>\n<p class=\"soft\">Point to see figures, drag to zoom, double click to go back, click a \
+            "<h2>Charts</h2>\n<p class=\"soft\">Point to see quantities, drag to zoom, double click to go back, click a \
              name to hide its line.</p>\n<section id=\"charts\" class=\"charts\">\n{cards}</section>\n"
         )
     }
@@ -201,7 +201,7 @@ fn card(chart: &Chart) -> String {
     )
 }
 
-fn table(table: &Figures) -> String {
+fn table(table: &QuantityTable) -> String {
     let head = |name: &String| format!("<th scope=\"col\">{}</th>", escaped(name));
     let head: String = table.head.iter().map(head).collect();
     let head = if table.head.is_empty() { head } else { format!("<tr>{head}</tr>\n") };
@@ -289,10 +289,10 @@ mod tests {
             title: hostile.clone(),
             story: hostile.clone(),
             notes: vec![hostile.clone()],
-            tables: vec![Figures {
+            tables: vec![QuantityTable {
                 title: hostile.clone(),
                 rows: vec![vec![hostile.clone()]],
-                ..Figures::default()
+                ..QuantityTable::default()
             }],
             charts: vec![Chart { title: hostile.clone(), caption: hostile.clone(), ..Chart::default() }],
             files: vec![Listing {

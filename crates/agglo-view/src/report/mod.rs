@@ -1,4 +1,4 @@
-//! One page that shows a run, search or study: what happened in words, a replay in three dimensions, charts, figures, the
+//! One page that shows a run, search or study: what happened in words, a replay in three dimensions, charts, quantities, the
 //! scenario, and what to cite. It is one file and asks nothing of the network.
 
 mod campaign;
@@ -45,8 +45,8 @@ pub struct Report {
     pub charts: Vec<Chart>,
     /// Other pages below the folder: their places and what they show.
     pub links: Vec<[String; 2]>,
-    /// Tables of figures.
-    pub tables: Vec<Figures>,
+    /// Tables of quantities.
+    pub tables: Vec<QuantityTable>,
     /// The files that were run.
     pub files: Vec<Listing>,
     /// What to cite.
@@ -55,9 +55,9 @@ pub struct Report {
     pub laws_are_unknown: bool,
 }
 
-/// A table of figures.
+/// A table of quantities.
 #[derive(Clone, Debug, Default)]
-pub struct Figures {
+pub struct QuantityTable {
     /// Heading.
     pub title: String,
     /// What it shows.
@@ -175,19 +175,24 @@ fn kind(folder: &Folder) -> &'static str {
     }
 }
 
-/// The closing figures, the warnings, and how to run it again.
-fn tables(folder: &Folder) -> Vec<Figures> {
+/// The closing quantities, the warnings, and how to run it again.
+fn tables(folder: &Folder) -> Vec<QuantityTable> {
     let mut tables = Vec::new();
     if let Some(summary) = &folder.summary {
-        let pair = |(what, figure): (String, String)| vec![what, figure];
+        let pair = |(what, quantity): (String, String)| vec![what, quantity];
         let rows = summary.table().into_iter().map(pair).collect();
-        tables.push(Figures { title: "Figures".to_owned(), rows, ..Figures::default() });
+        tables.push(QuantityTable { title: "Quantities".to_owned(), rows, ..QuantityTable::default() });
         let warnings = summary.warnings();
         let rows: Vec<_> =
             warnings.iter().map(|(warning, count)| vec![warning.clone(), count.to_string()]).collect();
         if !rows.is_empty() {
             let head = vec!["warning".to_owned(), "how often".to_owned()];
-            tables.push(Figures { title: "Warnings".to_owned(), head, rows, ..Figures::default() });
+            tables.push(QuantityTable {
+                title: "Warnings".to_owned(),
+                head,
+                rows,
+                ..QuantityTable::default()
+            });
         }
     }
     tables.extend(again(folder));
@@ -195,7 +200,7 @@ fn tables(folder: &Folder) -> Vec<Figures> {
 }
 
 /// How to run it again: version, seed, command.
-fn again(folder: &Folder) -> Option<Figures> {
+fn again(folder: &Folder) -> Option<QuantityTable> {
     let mut rows = Vec::new();
     let mut row = |what: &str, value: String| rows.push(vec![what.to_owned(), value]);
     if let Some(version) = folder.version() {
@@ -215,5 +220,10 @@ fn again(folder: &Folder) -> Option<Figures> {
         }
         None => "The scenario cannot be read, so this folder alone does not run again.",
     };
-    Some(Figures { title: "To run it again".to_owned(), about: about.to_owned(), rows, ..Figures::default() })
+    Some(QuantityTable {
+        title: "To run it again".to_owned(),
+        about: about.to_owned(),
+        rows,
+        ..QuantityTable::default()
+    })
 }

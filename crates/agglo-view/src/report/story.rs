@@ -133,7 +133,7 @@ fn percent(part: f64) -> String {
 fn unexplained(part: f64, limit: f64) -> String {
     format!(
         "Not all energy is accounted for: up to {part:.1e} of all there was comes from nothing or is lost, above the limit of \
-         {limit:e}. Make the step smaller before you trust these figures."
+         {limit:e}. Make the step smaller before you trust these quantities."
     )
 }
 

@@ -1,18 +1,18 @@
-//! What happened, in words: each figure of a summary of distinct figures where it belongs.
+//! What happened, in words: each quantity of a summary of distinct quantities where it belongs.
 
 use super::*;
-use agglo::run::{Clusters, PulseFigures};
-use agglo::run::{CountFigures, GrowthFigures, MotionFigures, RunFigures};
+use agglo::run::{Clusters, PulseQuantities};
+use agglo::run::{CountQuantities, GrowthQuantities, MotionQuantities, RunQuantities};
 
 #[test]
-fn a_run_of_soft_spheres_is_told_with_its_own_figures() {
-    let pulse = |rays, power_in, power_absorbed| PulseFigures {
+fn a_run_of_soft_spheres_is_told_with_its_own_quantities() {
+    let pulse = |rays, power_in, power_absorbed| PulseQuantities {
         rays,
         power_in,
         power_absorbed,
         power_escaped: 1e3,
         reflections: 77,
-        ..PulseFigures::default()
+        ..PulseQuantities::default()
     };
     let mut summary = SoftSummary {
         grains: 31,
@@ -39,10 +39,10 @@ fn a_run_of_soft_spheres_is_told_with_its_own_figures() {
 }
 
 #[test]
-fn a_run_of_hard_spheres_is_told_with_its_own_figures() {
+fn a_run_of_hard_spheres_is_told_with_its_own_quantities() {
     let mut summary = HardSummary {
-        run: RunFigures { grains: 7, time_s: 2.0, ..RunFigures::default() },
-        growth: GrowthFigures {
+        run: RunQuantities { grains: 7, time_s: 2.0, ..RunQuantities::default() },
+        growth: GrowthQuantities {
             grains_start: 9,
             grains_end: 7,
             radius_ratio: 1.25,
@@ -50,20 +50,20 @@ fn a_run_of_hard_spheres_is_told_with_its_own_figures() {
             largest_radius_ratio: 1.5,
             largest_primaries: 3,
             largest_fraction: 0.375,
-            ..GrowthFigures::default()
+            ..GrowthQuantities::default()
         },
-        counts: CountFigures {
+        counts: CountQuantities {
             impacts: 100,
             bounces: 61,
             merges: 1,
             fragmentations: 8,
-            ..CountFigures::default()
+            ..CountQuantities::default()
         },
-        motion: MotionFigures {
+        motion: MotionQuantities {
             temperature_mean: 310.0,
             temperature_lowest: 290.0,
             temperature_highest: 420.0,
-            ..MotionFigures::default()
+            ..MotionQuantities::default()
         },
         ..HardSummary::default()
     };

@@ -245,7 +245,7 @@ fn idle(note: &mut dyn FnMut(&str), scenario: &Scenario, laws: &Impact) {
 fn without_effect(note: &mut dyn FnMut(&str), scenario: &Scenario) {
     for (index, group) in scenario.grains.iter().enumerate() {
         let given = [
-            ("spin", group.spin.iter().any(|spin| spin.si() != 0.0)),
+            ("angular_velocity", group.angular_velocity.iter().any(|one| one.si() != 0.0)),
             ("charge", group.charge.si() != 0.0),
             ("polarity", group.polarity != 1.0),
         ];

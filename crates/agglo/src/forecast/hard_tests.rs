@@ -279,13 +279,20 @@ fn a_gas_from_a_table_is_that_of_its_columns() {
 #[test]
 fn keys_without_effect_are_noted() {
     let text = gas_of(
-        "spin = [\"1 Hz\", \"0 Hz\", \"0 Hz\"]\ncharge = \"1 pC\"\npolarity = -1",
+        "angular_velocity = [\"1 Hz\", \"0 Hz\", \"0 Hz\"]\ncharge = \"1 pC\"\npolarity = -1",
         "1\n[impact.tangential]\nfriction = 0\n[impact.cooling]\n[medium]\ndensity = \"1 kg/m3\"\n[measures]\ncluster_gap = 0.1",
     )
     .replace("density = \"2500 kg/m3\"", "density = \"2500 kg/m3\"\nheat_capacity = \"1 J/(kg K)\"");
     let notes = plan_of(&text).notes;
-    for word in ["spin", "charge", "polarity", "impact.tangential", "impact.cooling", "medium", "cluster_gap"]
-    {
+    for word in [
+        "angular_velocity",
+        "charge",
+        "polarity",
+        "impact.tangential",
+        "impact.cooling",
+        "medium",
+        "cluster_gap",
+    ] {
         assert!(
             notes.iter().any(|note| note.contains(word) && note.contains("no effect")),
             "{word} in {notes:?}"

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use super::{Plan, counts};
 use crate::acoustics::{Beam, Strength};
-use crate::contact::{ContactLaws, PairConstants, PairTable, Touch};
+use crate::contact::{ContactGeometry, ContactLaws, PairConstants, PairTable};
 use crate::engine::soft::{FirstPulse, Settings};
 use crate::math::Vec3;
 use crate::particles::Particles;
@@ -154,18 +154,19 @@ fn deepest(scenario: &Scenario, grains: &Particles, speed: f64) -> Option<f64> {
         let part = 1.0 / all().count() as f64;
         let mean = |column: &[f64]| all().map(|at| part * column[at]).sum::<f64>();
         let (radius, mass) = (mean(&grains.radius), mean(&grains.mass));
-        let touch = Touch::new([radius; 2], [mass; 2], [mean(&grains.contact_stiffness); 2], 2.0 * radius);
+        let geometry =
+            ContactGeometry::new([radius; 2], [mass; 2], [mean(&grains.contact_stiffness); 2], 2.0 * radius);
         let pair = pairs.of(material as u32, material as u32);
-        (part <= 1.0).then(|| strain_at(laws, pair, &touch, speed))
+        (part <= 1.0).then(|| strain_at(laws, pair, &geometry, speed))
     };
     (0..scenario.materials.len()).filter_map(of).reduce(f64::max)
 }
 
 /// Largest overlap strain of two grains that collide at a relative speed, without losses; 1 where they pass through one
 /// another.
-fn strain_at(laws: &ContactLaws, pair: &PairConstants, touch: &Touch, speed: f64) -> f64 {
-    let energy = 0.5 * touch.effective_mass * speed * speed;
-    laws.deepest_overlap(pair, touch, energy).map_or(1.0, |overlap| overlap / touch.radius_sum)
+fn strain_at(laws: &ContactLaws, pair: &PairConstants, geometry: &ContactGeometry, speed: f64) -> f64 {
+    let energy = 0.5 * geometry.effective_mass * speed * speed;
+    laws.deepest_overlap(pair, geometry, energy).map_or(1.0, |overlap| overlap / geometry.radius_sum)
 }
 
 /// Adds the quantities of all pushes to a plan.

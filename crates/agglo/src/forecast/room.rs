@@ -259,7 +259,7 @@ mod tests {
     const ROOM: Room = Room { memory: Some(16e9), disk: Some(100e9) };
 
     #[test]
-    fn what_the_machine_cannot_hold_is_refused_with_quantities() {
+    fn what_the_machine_cannot_hold_is_refused_with_numbers() {
         let shipped = demand("acoustic-published", &[]);
         assert_ok!(shipped.refuse_memory(&ROOM, 64));
         assert_ok!(shipped.refuse_disk(&ROOM));

@@ -5,7 +5,7 @@ pub(super) const NOTES: [(&[&str], &str); 5] = [
     (
         &["rolling", "rolling_friction", "rolling_resistance", "torsion"],
         "There is no law of rolling resistance: friction (`regularized`, `mindlin`) acts on sliding, and leaves rolling free.\n\
-         What resists rolling is the bending of bonds (`agglo explain beam`), and the medium, which brakes spin\n\
+         What resists rolling is the bending of bonds (`agglo explain beam`), and the medium, which brakes angular_velocity\n\
          (`agglo explain drag`).",
     ),
     (

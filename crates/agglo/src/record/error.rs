@@ -31,7 +31,7 @@ pub enum RecordError {
         /// How many it should have.
         expected: usize,
     },
-    /// A figure of a row that is infinite, or not a number where one is due.
+    /// A quantity of a row that is infinite, or not a number where one is due.
     #[error("cannot write {path}: {column} is not finite; the values of the scenario are too extreme", path = .path.display())]
     NotFinite {
         /// The table.

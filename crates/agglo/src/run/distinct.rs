@@ -1,4 +1,4 @@
-//! For tests of tables, summaries and frames: figures read back by the names of their columns, in messages that name them.
+//! For tests of tables, summaries and frames: quantities read back by the names of their columns, in messages that name them.
 
 use std::path::Path;
 
@@ -7,7 +7,7 @@ use serde_json::Value as Json;
 use super::tables::Tables;
 use crate::record::columns;
 
-/// A figure with its name, in the unit that ends the name.
+/// A quantity with its name, in the unit that ends the name.
 pub type Named<'a> = (&'a str, f64);
 
 /// Holds a row to what its columns are due, all of them: no column may be left out, and no two may be due the same, else one
@@ -73,7 +73,7 @@ fn collect(tree: &Json, path: &str, found: &mut Vec<(String, f64)>) {
 }
 
 /// Holds all numbers of a summary, in any order, to what is due; those of `elsewhere` are looked at elsewhere.
-pub fn assert_figures(place: &str, tree: &Json, wanted: &[Named<'_>], elsewhere: &[&str], part: f64) {
+pub fn assert_quantities(place: &str, tree: &Json, wanted: &[Named<'_>], elsewhere: &[&str], part: f64) {
     let mut found = leaves(tree);
     found.retain(|(name, _)| !elsewhere.contains(&name.as_str()));
     found.sort_by(|a, b| a.0.cmp(&b.0));

@@ -1,5 +1,5 @@
 //! Checkpoints that somebody has tampered with and that carry the right checksum: they are refused, or gone on with to other
-//! figures or an error, but nothing panics.
+//! quantities or an error, but nothing panics.
 
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};

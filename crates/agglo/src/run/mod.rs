@@ -27,13 +27,15 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 pub use error::RunError;
-pub use hard::{CountFigures, Growth, GrowthFigures, HardSummary, MotionFigures, RunFigures, ScaleFigures};
+pub use hard::{
+    CountQuantities, Growth, GrowthQuantities, HardSummary, MotionQuantities, RunQuantities, ScaleQuantities,
+};
 pub(crate) use origin::Origin;
 pub use quiet::quiet;
 pub(crate) use rehearsal::{Rehearsal, Stretches, rehearse};
 #[cfg(test)]
 pub(crate) use rehearsal::{Stretch, Weights};
-pub use soft::{Clusters, EnergyFigures, PulseFigures, SoftSummary};
+pub use soft::{Clusters, EnergyQuantities, PulseQuantities, SoftSummary};
 pub use summary::Summary;
 
 use crate::engine::Start;

@@ -235,7 +235,7 @@ fn groups(grains: &Particles, scenario: &Scenario) -> (Vec<GrainGroup>, Vec<u64>
             placement: Placement::Table(Table { file: PathBuf::new() }),
             velocity: [Quantity(0.0); 3],
             velocity_spread: None,
-            spin: [Quantity(0.0); 3],
+            angular_velocity: [Quantity(0.0); 3],
             temperature: Quantity(heat),
             charge: Quantity(charge),
             polarity: grains.polarity[first],

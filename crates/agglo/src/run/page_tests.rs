@@ -68,7 +68,7 @@ fn the_page_of_searches_has_every_column_that_all_campaigns_have() {
 }
 
 #[test]
-fn the_page_of_the_dashboard_has_every_figure() {
+fn the_page_of_the_dashboard_has_every_quantity() {
     let of = |is_hard: bool| {
         let all = tables(is_hard).iter().flat_map(|table| {
             let told = table.columns().into_iter().filter_map(|column| Some((column.glance?.place, column)));
@@ -83,7 +83,7 @@ fn the_page_of_the_dashboard_has_every_figure() {
             format!("| {} | `{file}` `{}` |\n", column.label, column.name)
         };
         Block {
-            about: format!("figures of {} spheres", kind(is_hard)),
+            about: format!("quantities of {} spheres", kind(is_hard)),
             text: format!(
                 "| {} spheres | column |\n|---|---|\n{}",
                 kind(is_hard),

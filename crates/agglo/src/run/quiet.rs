@@ -20,7 +20,7 @@ use super::{Ending, RunError};
 const LOOKS: f64 = 200.0;
 
 /// Runs a scenario without writing anything, until its end or until `stop` is set; `base` is the folder that its
-/// tables are relative to. The summary's figures are those of [`super::run`], to the last bit.
+/// tables are relative to. The summary's quantities are those of [`super::run`], to the last bit.
 ///
 /// Loops inside the run use the rayon pool of the calling thread.
 ///
@@ -73,7 +73,7 @@ mod tests {
     use crate::units::Quantity;
 
     /// The lines of a summary but for wall time.
-    fn figures(ending: &Ending) -> Vec<String> {
+    fn quantities(ending: &Ending) -> Vec<String> {
         let Ending::Finished(summary) = ending else { panic!("it was not asked to stop: {ending:?}") };
         let lines = summary.to_json();
         lines.lines().filter(|line| !line.contains("\"wall_s\"")).map(str::to_owned).collect()
@@ -88,10 +88,10 @@ mod tests {
         let dir = folder.path().join("run");
         let loud = run(scenario, Path::new(""), &dir, &mut |_| ControlFlow::Continue(())).unwrap();
         let quiet = quiet(scenario, Path::new(""), &AtomicBool::new(false)).unwrap();
-        assert_eq!(figures(&quiet), figures(&loud));
+        assert_eq!(quantities(&quiet), quantities(&loud));
         let written = std::fs::read_to_string(dir.join("summary.json")).unwrap();
         let written: Vec<&str> = written.lines().filter(|line| !line.contains("\"wall_s\"")).collect();
-        assert_eq!(figures(&quiet), written);
+        assert_eq!(quantities(&quiet), written);
     }
 
     #[test]
@@ -121,7 +121,7 @@ mod tests {
         }
     }
 
-    /// Values that a library puts past the check come to an error, never to figures: heat and masses beyond doubles.
+    /// Values that a library puts past the check come to an error, never to quantities: heat and masses beyond doubles.
     #[test]
     fn what_overflows_is_an_error_and_no_summary() {
         type Spoil = fn(&mut Scenario);

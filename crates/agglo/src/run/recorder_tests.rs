@@ -151,14 +151,14 @@ fn rows_and_frames_are_dense_while_rays_fly() {
 /// Dense output changes nothing: the summary is that of a run without, to the last bit.
 #[test]
 fn asking_for_output_in_pulses_changes_no_trajectory() {
-    let figures = |scenario: &Scenario| {
+    let quantities = |scenario: &Scenario| {
         let folder = tempfile::tempdir().unwrap();
         let dir = folder.path().join("run");
         run(scenario, Path::new(""), &dir, &mut |_| ControlFlow::Continue(())).unwrap();
         let text = std::fs::read_to_string(dir.join("summary.json")).unwrap();
         text.lines().filter(|line| !line.contains("wall_s")).map(str::to_owned).collect::<Vec<_>>()
     };
-    assert_eq!(figures(&with_rays(DENSE)), figures(&with_rays("")));
+    assert_eq!(quantities(&with_rays(DENSE)), quantities(&with_rays("")));
 }
 
 /// Stopped at any report and gone on with, the tables are those of a run that never stopped.

@@ -28,13 +28,13 @@ impl Summary {
         json(self).unwrap_or_default()
     }
 
-    /// The summary itself, if all its figures are finite: no other is written or handed on. What is not known is `None`.
+    /// The summary itself, if all its quantities are finite: no other is written or handed on. What is not known is `None`.
     ///
     /// # Errors
-    /// [`SimError::FigureNotFinite`] with the first figure that is not; `time` [s] is when.
+    /// [`SimError::QuantityNotFinite`] with the first quantity that is not; `time` [s] is when.
     pub(super) fn validated(self, time: f64) -> Result<Self, SimError> {
         match not_finite(&self) {
-            Some(figure) => Err(SimError::FigureNotFinite { time, figure }),
+            Some(quantity) => Err(SimError::QuantityNotFinite { time, quantity }),
             None => Ok(self),
         }
     }

@@ -62,7 +62,7 @@ impl Tables {
 
     /// Adds a row to a table of the layout.
     ///
-    /// All rows of a run come by here: none has a figure that is not finite where one is due.
+    /// All rows of a run come by here: none has a quantity that is not finite where one is due.
     pub fn put<S>(&mut self, table: &Table<S>, of: &S) -> Result<(), RecordError> {
         let at = self.layout.iter().position(|known| known.file() == table.file);
         let unknown = || RecordError::Foreign {
@@ -93,7 +93,7 @@ mod tests {
     const LAYOUT: columns::Tables = &[&NUMBERS, &WORDS];
 
     #[test]
-    fn figures_that_are_not_finite_are_not_written() {
+    fn quantities_that_are_not_finite_are_not_written() {
         let folder = tempfile::tempdir().unwrap();
         let mut tables = Tables::create(LAYOUT, folder.path()).unwrap();
         tables.put(&NUMBERS, &[-0.0, 0.0]).unwrap();

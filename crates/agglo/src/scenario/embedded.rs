@@ -79,7 +79,7 @@ fn sample(material: &str, radius: f64) -> GrainGroup {
         placement: Placement::Fill(Fill { count: Some(1), solid_fraction: None, gap: Quantity(0.0) }),
         velocity: [Quantity(0.0); 3],
         velocity_spread: None,
-        spin: [Quantity(0.0); 3],
+        angular_velocity: [Quantity(0.0); 3],
         temperature: Quantity(300.0),
         charge: Quantity(0.0),
         polarity: 1.0,

@@ -3,7 +3,7 @@
 use serde_json::Value as Json;
 
 use crate::ledger::{Balance, Entries};
-use crate::run::{HardSummary, PulseFigures, SoftSummary, Summary};
+use crate::run::{HardSummary, PulseQuantities, SoftSummary, Summary};
 
 /// Quantities that are not the same on another machine or with another number of threads.
 const OF_THE_MACHINE: [&str; 3] = ["seed", "threads", "wall_s"];
@@ -15,7 +15,7 @@ pub fn known(is_hard: bool) -> Vec<String> {
         Summary::Hard(Box::new(HardSummary { energy, ..HardSummary::default() }))
     } else {
         Summary::Soft(Box::new(SoftSummary {
-            pulses: vec![PulseFigures::default()],
+            pulses: vec![PulseQuantities::default()],
             ..SoftSummary::default()
         }))
     };

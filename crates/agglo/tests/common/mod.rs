@@ -71,10 +71,10 @@ pub fn relative_velocity(simulation: &Simulation) -> Vec3 {
     grain(simulation, 1).velocity - grain(simulation, 0).velocity
 }
 
-/// Kinetic energy of motion and spin [J].
+/// Kinetic energy of motion and rotation [J].
 pub fn kinetic(simulation: &Simulation) -> f64 {
     let stored = simulation.stored_energy();
-    stored.kinetic + stored.spin
+    stored.kinetic + stored.rotational
 }
 
 /// The whole state as bytes.

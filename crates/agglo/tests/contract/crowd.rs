@@ -92,7 +92,7 @@ pub fn falling_in(grains: &mut Particles) {
     let mut stream = Stream::new(11, Purpose::Sampling, 0);
     for at in 0..grains.len() {
         grains.velocity[at] = grains.position[at] * -5e3 + stream.direction() * 1.0;
-        grains.spin[at] = Vec3::new(stream.normal(), stream.normal(), stream.normal()) * 1e4;
+        grains.angular_velocity[at] = Vec3::new(stream.normal(), stream.normal(), stream.normal()) * 1e4;
     }
 }
 

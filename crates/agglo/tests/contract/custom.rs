@@ -37,7 +37,7 @@ impl Hook for Turns {
         for (at, id) in now.grains.id.iter().enumerate() {
             if id % 50 == self.0 % 50 {
                 loads.force[at] += now.motion.velocity[at].cross(Vec3::AXES[2]) * 1e-6;
-                loads.torque[at] += now.motion.spin[at] * -1e-16;
+                loads.torque[at] += now.motion.angular_velocity[at] * -1e-16;
             }
         }
     }

@@ -32,7 +32,7 @@ fn motion(simulation: &Simulation) -> Vec<[Vec3; 3]> {
     let grains = &simulation.system.grains;
     let mut all = vec![[Vec3::ZERO; 3]; grains.len()];
     for at in 0..grains.len() {
-        all[grains.id[at] as usize] = [grains.position[at], grains.velocity[at], grains.spin[at]];
+        all[grains.id[at] as usize] = [grains.position[at], grains.velocity[at], grains.angular_velocity[at]];
     }
     all
 }

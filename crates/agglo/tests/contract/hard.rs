@@ -230,7 +230,7 @@ fn output_changes_nothing() {
             assert_true!(simulation.momentum().is_finite(), "{:?} kg m/s", simulation.momentum());
             assert_filled!(postcard::to_stdvec(&simulation.state()).unwrap());
         }
-        // How many events were dealt with between two looks is no figure of the simulation, all else is.
+        // How many events were dealt with between two looks is no quantity of the simulation, all else is.
         assert_same(&seen(&mut simulation, Default::default()), &wanted, case, "watched");
     }
 }

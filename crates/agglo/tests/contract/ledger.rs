@@ -17,7 +17,7 @@ fn cloud(engine: &str, laws: &str) -> Simulation {
         let mut stream = Stream::new(3, Purpose::Sampling, 0);
         for at in 0..grains.len() {
             grains.velocity[at] = grains.position[at] * -100.0 + stream.direction() * 0.5;
-            grains.spin[at] = stream.direction() * 300.0;
+            grains.angular_velocity[at] = stream.direction() * 300.0;
         }
     })
 }

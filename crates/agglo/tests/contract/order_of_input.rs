@@ -26,7 +26,7 @@ fn after(order: &[usize], engine: &str) -> Vec<Vec3> {
         let middle = Vec3::new(2.2e-3, 2.2e-3, 2.2e-3);
         for (at, k) in order.iter().enumerate() {
             grains.velocity[at] = (middle - grains.position[at]) * 400.0;
-            grains.spin[at] = Vec3::AXES[k % 3] * 200.0;
+            grains.angular_velocity[at] = Vec3::AXES[k % 3] * 200.0;
         }
     });
     let mut touched = 0;

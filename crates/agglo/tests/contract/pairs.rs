@@ -39,14 +39,21 @@ struct CollidingPair {
     /// Directions and speeds, in a frame that may be turned.
     normal: Vec3,
     velocity: Vec3,
-    spins: [Vec3; 2],
+    angular_velocities: [Vec3; 2],
 }
 
 impl CollidingPair {
     fn turned(&self, axis: Vec3, angle: f64) -> Self {
         let turn = |vector: Vec3| vector.rotated_about(axis, angle);
-        let Self { laws, engine, ratio, normal, velocity, spins } = self.clone();
-        Self { laws, engine, ratio, normal: turn(normal), velocity: turn(velocity), spins: spins.map(turn) }
+        let Self { laws, engine, ratio, normal, velocity, angular_velocities } = self.clone();
+        Self {
+            laws,
+            engine,
+            ratio,
+            normal: turn(normal),
+            velocity: turn(velocity),
+            angular_velocities: angular_velocities.map(turn),
+        }
     }
 
     /// What the laws read of the material.
@@ -82,7 +89,7 @@ impl CollidingPair {
                 let reach = grains.radius[0] + grains.radius[1];
                 grains.position = vec![Vec3::ZERO, self.normal * (reach + 1e-5)];
                 grains.velocity = vec![self.velocity * 0.5, self.velocity * -0.5];
-                grains.spin = self.spins.to_vec();
+                grains.angular_velocity = self.angular_velocities.to_vec();
             })
         };
         let (start, mut end) = (set(), set());
@@ -102,11 +109,18 @@ fn pair() -> impl Strategy<Value = CollidingPair> {
     let laws = (0..3_usize, 0..3_usize, 0..3_usize, 0..3_usize, any::<bool>());
     let motion = (unit(), unit(), unit(), unit(), 0.5..2.0_f64, 0.0..0.9_f64);
     (laws, motion, 0.25..4.0_f64).prop_map(|((n, d, f, b, implicit), motion, ratio)| {
-        let (normal, sideways, spin, other, speed, slant) = motion;
+        let (normal, sideways, angular_velocity, other, speed, slant) = motion;
         let laws = [NORMAL[n], DAMPING[d], FRICTION[f], BOND[b]].join("\n");
         let engine = if implicit { common::staggered(1e-6, 1e-9, 0.5) } else { common::verlet(1e-6) };
         let velocity = (normal * (1.0 - slant) + sideways.rejected_from(normal) * slant) * speed;
-        CollidingPair { laws, engine, ratio, normal, velocity, spins: [spin * 300.0, other * 300.0] }
+        CollidingPair {
+            laws,
+            engine,
+            ratio,
+            normal,
+            velocity,
+            angular_velocities: [angular_velocity * 300.0, other * 300.0],
+        }
     })
 }
 
@@ -152,8 +166,8 @@ proptest! {
             prop_assert!(apart < 1e-12, "positions differ by {apart:e}");
             let apart = (a.velocity.rotated_about(axis, angle) - b.velocity).norm();
             prop_assert!(apart < 1e-8, "velocities differ by {apart:e}");
-            let apart = (a.spin.rotated_about(axis, angle) - b.spin).norm();
-            prop_assert!(apart < 1e-5, "spins differ by {apart:e}");
+            let apart = (a.angular_velocity.rotated_about(axis, angle) - b.angular_velocity).norm();
+            prop_assert!(apart < 1e-5, "angular velocities differ by {apart:e}");
         }
     }
 }

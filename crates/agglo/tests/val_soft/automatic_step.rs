@@ -89,8 +89,8 @@ fn a_rotation_in_a_magnetic_field_is_seen() {
     assert_accounted(&simulation, "lorentz");
 }
 
-/// A grain of 0.1 mm across stops after v τ, τ = (2/9) ρ R²/η; spin dies away with I/(8 π η R³). After 25 τ e^-25 is
-/// left, and the trapezoidal rule keeps the path to round-off, whatever the step.
+/// A grain of 0.1 mm across stops after v τ, τ = (2/9) ρ R²/η; rotation dies away with I/(8 π η R³). After 25 τ e^-25
+/// is left, and the trapezoidal rule keeps the path to round-off, whatever the step.
 #[test]
 fn a_stop_in_a_liquid_is_seen() {
     let (radius, speed) = (50e-6, 1e-4);
@@ -98,7 +98,7 @@ fn a_stop_in_a_liquid_is_seen() {
     let more = "[fields.drag]\nlaw = \"stokes\"";
     let mut simulation = listed(radius, vec![[0.0; 3]], 25.0 * relaxation, more).start(|grains| {
         grains.velocity[0] = Vec3::AXES[1] * speed;
-        grains.spin[0] = Vec3::AXES[2] * 3.0;
+        grains.angular_velocity[0] = Vec3::AXES[2] * 3.0;
     });
     common::finish(&mut simulation);
     let path = grain(&simulation, 0).position.y / (speed * relaxation);
@@ -106,9 +106,9 @@ fn a_stop_in_a_liquid_is_seen() {
     assert_accounted(&simulation, "drag");
 }
 
-/// Spin that dies away in a liquid and motion after a jump of the flow: both are within z²/(12 e) = 1.1 s² of what is lost,
-/// z = 6 s for the faster one, the spin (15 η/(ρ R²)), and a tenth of that for the motion (4.5 η/(ρ R²)). Above half of it,
-/// so that steps are as long as that allows.
+/// Spin that dies away in a liquid and motion after a jump of the flow: both are within z²/(12 e) = 1.1 s² of what is
+/// lost, z = 6 s for the faster one, the rotation (15 η/(ρ R²)), and a tenth of that for the motion (4.5 η/(ρ R²)).
+/// Above half of it, so that steps are as long as that allows.
 #[test]
 fn decays_in_a_liquid_err_as_promised() {
     let (radius, speed) = (50e-6, 1e-4);
@@ -118,11 +118,11 @@ fn decays_in_a_liquid_err_as_promised() {
         let more = "[fields.drag]\nlaw = \"stokes\"\nmedium_velocity = [\"0.1 mm/s\", \"0 m/s\", \"0 m/s\"]";
         // No step is longer than a hundredth of the run.
         let listed = Listed { engine, ..listed(radius, vec![[0.0; 3]], 40.0 / rates[1], more) };
-        let mut simulation = listed.start(|grains| grains.spin[0] = Vec3::AXES[2] * 3.0);
+        let mut simulation = listed.start(|grains| grains.angular_velocity[0] = Vec3::AXES[2] * 3.0);
         let mut worst = [0.0_f64; 2];
         common::watch(&mut simulation, |now| {
             let (time, found) = (now.clock().time, grain(now, 0));
-            let left = [found.spin.z / 3.0, 1.0 - found.velocity.x / speed];
+            let left = [found.angular_velocity.z / 3.0, 1.0 - found.velocity.x / speed];
             for (worst, (left, rate)) in worst.iter_mut().zip(left.into_iter().zip(rates)) {
                 *worst = worst.max((left - (-rate * time).exp()).abs());
             }
@@ -226,7 +226,7 @@ fn meeting(laws: &str) -> Simulation {
     let more = format!("[limits]\ndisplacement = 1e3\non_breach = \"warn\"\n{laws}");
     listed(10e-6, apart, 45e-6, &more).start(|grains| {
         grains.velocity = vec![Vec3::new(0.05, 0.02, 0.01), Vec3::new(-0.05, -0.02, 0.02)];
-        grains.spin = vec![Vec3::new(0.0, 0.0, 1e3), Vec3::new(2e3, 0.0, 0.0)];
+        grains.angular_velocity = vec![Vec3::new(0.0, 0.0, 1e3), Vec3::new(2e3, 0.0, 0.0)];
         grains.charge = vec![1e-12, 0.5e-12];
     })
 }

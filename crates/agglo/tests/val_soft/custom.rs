@@ -51,12 +51,12 @@ fn hertz_as_a_formula_is_hertz() {
         let places = vec![[0.0; 3], [2.1e-3, 1e-3, 0.0], [1e-3, -2e-3, 1e-3]];
         let mut simulation = listed(places, 10e-3, common::verlet(2e-6), &more).start(|grains| {
             grains.velocity = vec![Vec3::ZERO, Vec3::new(-0.5, 0.1, 0.0), Vec3::new(0.0, 0.4, -0.2)];
-            grains.spin[2] = Vec3::new(0.0, 30.0, 5.0);
+            grains.angular_velocity[2] = Vec3::new(0.0, 30.0, 5.0);
         });
         common::finish(&mut simulation);
         let motions = [0, 1, 2].map(|id| {
             let grain = grain(&simulation, id);
-            [grain.position * 1e3, grain.velocity * 10.0, grain.spin * 0.01]
+            [grain.position * 1e3, grain.velocity * 10.0, grain.angular_velocity * 0.01]
         });
         (motions.concat(), simulation.balance())
     };

@@ -157,8 +157,8 @@ fn a_grain_of_the_liquids_density_circles_with_a_turning_liquid() {
             worst = worst.max((common::grain(now, 0).position.norm() / distance - 1.0).abs());
         });
         assert!(worst < 1e-6, "radius off by {worst:e}: {engine}");
-        let spin = common::grain(&simulation, 0).spin;
-        assert!((spin - Vec3::AXES[2] * turning).norm() < 1e-6 * turning, "{spin:?}");
+        let angular_velocity = common::grain(&simulation, 0).angular_velocity;
+        assert!((angular_velocity - Vec3::AXES[2] * turning).norm() < 1e-6 * turning, "{angular_velocity:?}");
     }
 }
 
@@ -174,9 +174,9 @@ fn val_kirchhoff_1876_spin_in_shear() {
         {
             let mut simulation = grains(vec![[0.0; 3]], lasting * relaxation, engine, more).start(|_| {});
             common::finish(&mut simulation);
-            let spin = common::grain(&simulation, 0).spin;
+            let angular_velocity = common::grain(&simulation, 0).angular_velocity;
             // (1/200)²/12 of the decay.
-            assert!((spin.z / (-150.0 * part) - 1.0).abs() < 2e-6, "{spin:?}");
+            assert!((angular_velocity.z / (-150.0 * part) - 1.0).abs() < 2e-6, "{angular_velocity:?}");
         }
     }
 }

@@ -86,7 +86,7 @@ fn forces_and_torques_are_booked() {
     let start = if pushed == 0 { Vec3::new(0.0, 0.2, 0.0) } else { Vec3::ZERO };
     let inertia = 0.4 * mass() * RADIUS * RADIUS;
     assert_close_vector!(found.velocity - start, push * (1e-2 / mass()), 1e-10, "in m/s");
-    assert_close_vector!(found.spin, twist * (1e-2 / inertia), 1e-10, "in rad/s");
+    assert_close_vector!(found.angular_velocity, twist * (1e-2 / inertia), 1e-10, "in rad/s");
     let flow = simulation.ledger.flows.supplies.hook;
     assert_close_vector!(flow.force, push * 1e-2, 1e-12, "in N s");
     let gained = simulation.stored_energy().mechanical() - simulation.balance().mechanical_at_start;

@@ -43,7 +43,7 @@ fn entries(simulation: &Simulation) -> [(&'static str, f64); 15] {
     let stored = books.stored;
     [
         ("kinetic", stored.kinetic),
-        ("spin", stored.spin),
+        ("rotational", stored.rotational),
         ("elastic", stored.elastic),
         ("tangential_spring", stored.tangential_spring),
         ("bonds", stored.bonds),
@@ -163,13 +163,13 @@ fn drag() {
                 added_mass = 0.5";
     let mut simulation = unlike(4e-3, 0.5e-6, 1.0, more).start(|grains| {
         grains.velocity[0] = Vec3::new(0.3, -0.4, 0.0);
-        grains.spin[0] = Vec3::new(0.0, 100.0, 50.0);
+        grains.angular_velocity[0] = Vec3::new(0.0, 100.0, 50.0);
     });
     let heavy = masses()[0] + 0.5 * 1500.0 * 4.0 / 3.0 * PI * 1e-9;
-    let (motion, spin) = (0.5 * heavy * 0.25, 0.5 * 0.4 * masses()[0] * 1e-6 * 12500.0);
-    assert_ledger(&simulation, &[("kinetic", motion), ("spin", spin)], 1e-13);
+    let (motion, rotation) = (0.5 * heavy * 0.25, 0.5 * 0.4 * masses()[0] * 1e-6 * 12500.0);
+    assert_ledger(&simulation, &[("kinetic", motion), ("rotational", rotation)], 1e-13);
     common::finish(&mut simulation);
-    assert_ledger(&simulation, &[("drag", motion + spin)], 1e-10);
+    assert_ledger(&simulation, &[("drag", motion + rotation)], 1e-10);
 }
 
 /// A fall of both grains: m g h less the weight of the liquid that they displace.
@@ -234,8 +234,8 @@ fn friction() {
     common::finish(&mut simulation);
     let across = 0.1 * 2.0 * reduced_mass();
     let lost = across - across * across / (2.0 * 2.0 / 7.0 * reduced_mass());
-    // Spin of each: μ J R/I.
-    let spin: f64 = [0, 1]
+    // Angular velocity of each: μ J R/I.
+    let rotation: f64 = [0, 1]
         .map(|k| {
             let radius = [1e-3, 2e-3][k];
             let inertia = 0.4 * masses()[k] * radius * radius;
@@ -243,10 +243,10 @@ fn friction() {
         })
         .iter()
         .sum();
-    // The overlap of 2e-3 of the radii shortens the arms.
+    // The overlap of 2e-3 of the radii shortens the lever arms.
     assert_ledger(
         &simulation,
-        &[("kinetic", at_start - lost - spin), ("spin", spin), ("friction", lost)],
+        &[("kinetic", at_start - lost - rotation), ("rotational", rotation), ("friction", lost)],
         5e-3,
     );
 }

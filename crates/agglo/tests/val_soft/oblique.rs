@@ -1,4 +1,4 @@
-//! Oblique impacts: sliding, spin, energy, and what unequal sizes must keep.
+//! Oblique impacts: sliding, rotation, energy, and what unequal sizes must keep.
 
 use agglo::engine::soft::Simulation;
 use agglo::math::Vec3;
@@ -47,8 +47,8 @@ fn collide(simulation: &mut Simulation, mut look: impl FnMut(&Simulation)) {
 }
 
 /// Gross sliding of two equal spheres. The impulse J_n = m* (1 + e) v_n brings μ J_n along the contact; with
-/// m* = m/2 and I = (2/5) m R² the relative velocity of the centers falls by μ (1 + e) v_n and each spin becomes
-/// μ J_n R/I = (5/4) μ (1 + e) v_n/R. Sliding lasts where v_t > (7/2) μ (1 + e) v_n.
+/// m* = m/2 and I = (2/5) m R² the relative velocity of the centers falls by μ (1 + e) v_n and each angular velocity
+/// becomes μ J_n R/I = (5/4) μ (1 + e) v_n/R. Sliding lasts where v_t > (7/2) μ (1 + e) v_n.
 ///
 /// 0.5 %: the normal turns while the grains touch, by some 2e-3 for Hertz; velocities are of the turned contact.
 #[test]
@@ -68,17 +68,20 @@ fn val_gross_sliding_of_two_spheres() {
         common::found(&format!("sliding_{laws}"), &[("off", found / slowed - 1.0)]);
         assert!((found / slowed - 1.0).abs() < 0.005, "{laws}: {found} for {slowed}");
         for id in [0, 1] {
-            let spin = common::grain(&simulation, id).spin;
+            let angular_velocity = common::grain(&simulation, id).angular_velocity;
             // The second grain's surface at the contact moves along +y past the first: both turn about +z.
             let wanted = 1.25 * slowed / RADIUS;
-            common::found("sliding_spins", &[("off", spin.z / wanted - 1.0)]);
-            assert!((spin.z / wanted - 1.0).abs() < 0.002, "{laws}: {spin:?} for {wanted}");
+            common::found("sliding_spins", &[("off", angular_velocity.z / wanted - 1.0)]);
+            assert!(
+                (angular_velocity.z / wanted - 1.0).abs() < 0.002,
+                "{laws}: {angular_velocity:?} for {wanted}"
+            );
         }
     }
 }
 
 /// Chung and Ooi 2011, test 7: equal spheres that spin against each other have surfaces at rest against each
-/// other in the contact. Nothing slips, so spins keep their bits and no sideways velocity comes.
+/// other in the contact. Nothing slips, so angular velocities keep their bits and no sideways velocity comes.
 #[test]
 fn val_chung_ooi_2011_counter_spin() {
     for engine in [common::verlet(2e-8), common::staggered(2e-8, 1e-9, 0.5)] {
@@ -88,12 +91,12 @@ fn val_chung_ooi_2011_counter_spin() {
         };
         let mut simulation = listed.start(|grains| {
             coming(Vec3::new(-0.2, 0.0, 0.0))(grains);
-            grains.spin[0].z = 175.0;
-            grains.spin[1].z = -175.0;
+            grains.angular_velocity[0].z = 175.0;
+            grains.angular_velocity[1].z = -175.0;
         });
         collide(&mut simulation, |_| {});
-        let spins = [0, 1].map(|id| common::grain(&simulation, id).spin);
-        assert_eq!(spins, [Vec3::new(0.0, 0.0, 175.0), Vec3::new(0.0, 0.0, -175.0)]);
+        let angular_velocities = [0, 1].map(|id| common::grain(&simulation, id).angular_velocity);
+        assert_eq!(angular_velocities, [Vec3::new(0.0, 0.0, 175.0), Vec3::new(0.0, 0.0, -175.0)]);
         let apart = relative_velocity(&simulation);
         assert_eq!((apart.y, apart.z), (0.0, 0.0));
     }
@@ -132,7 +135,7 @@ fn energy_never_rises_at_76_degrees() {
     }
 }
 
-/// Sizes 1 to 8, oblique, with spin: whatever friction does, momentum is kept to round-off, and angular momentum
+/// Sizes 1 to 8, oblique, with rotation: whatever friction does, momentum is kept to round-off, and angular momentum
 /// to the order of the step squared (the scheme's force acts along the normal at both ends of a step, not between).
 #[test]
 fn unequal_sizes_keep_momentum_and_angular_momentum() {
@@ -146,13 +149,16 @@ fn unequal_sizes_keep_momentum_and_angular_momentum() {
                 [contact.friction.mindlin]\nstatic_friction = 0.3\ndashpot = 0.5";
     let mut simulation = common::start(text, |grains| {
         grains.velocity[0] = Vec3::new(1.0, 1.5, -0.5);
-        grains.spin[0] = Vec3::new(100.0, 300.0, -700.0);
-        grains.spin[1] = Vec3::new(50.0, -20.0, 30.0);
+        grains.angular_velocity[0] = Vec3::new(100.0, 300.0, -700.0);
+        grains.angular_velocity[1] = Vec3::new(50.0, -20.0, 30.0);
     });
     let (start, size) = (simulation.momentum(), simulation.momentum_size());
-    let spins = common::grain(&simulation, 0).spin;
+    let angular_velocities = common::grain(&simulation, 0).angular_velocity;
     collide(&mut simulation, |_| {});
-    assert!((common::grain(&simulation, 0).spin - spins).norm() > 10.0, "no friction");
+    assert!(
+        (common::grain(&simulation, 0).angular_velocity - angular_velocities).norm() > 10.0,
+        "no friction"
+    );
     let end = simulation.momentum();
     assert_near_vector!(end.linear, start.linear, 1e-14 * size);
     let turned = (end.angular - start.angular).norm();

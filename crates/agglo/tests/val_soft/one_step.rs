@@ -23,7 +23,7 @@ fn engines() -> [(String, f64); 4] {
     [(common::verlet(STEP), 0.5), iterated(0.5), iterated(0.75), iterated(1.0)]
 }
 
-fn one_step(engine: &str, more: &str, velocity: Vec3, spin: Vec3) -> Simulation {
+fn one_step(engine: &str, more: &str, velocity: Vec3, angular_velocity: Vec3) -> Simulation {
     let listed = Listed {
         material: "density = \"2500 kg/m3\"",
         radius: RADIUS,
@@ -35,7 +35,7 @@ fn one_step(engine: &str, more: &str, velocity: Vec3, spin: Vec3) -> Simulation 
     let mut simulation = listed.start(|grains| {
         grains.charge[0] = CHARGE;
         grains.velocity[0] = velocity;
-        grains.spin[0] = spin;
+        grains.angular_velocity[0] = angular_velocity;
     });
     common::steps(&mut simulation, 1);
     assert_close!(simulation.clock().time, STEP, 1e-15, "time after the step, s");
@@ -69,19 +69,20 @@ fn a_force_of_time() {
     }
 }
 
-/// A drag in a medium whose velocity and rotation change in time, with added mass and the medium's own acceleration: the end
-/// of the step is solved for, in velocity and in spin. Relaxation takes 0.3 ms for the motion: 1e-6 s of it is a lot.
+/// A drag in a medium whose velocity and rotation change in time, with added mass and the medium's own acceleration:
+/// the end of the step is solved for, in velocity and in angular velocity. Relaxation takes 0.3 ms for the motion: 1e-6
+/// s of it is a lot.
 #[test]
 fn a_drag_in_a_medium_that_moves() {
     let more = "[medium]\ndensity = \"1000 kg/m3\"\nviscosity = \"0.2 Pa s\"\n[fields.drag]\nlaw = \"stokes\"\n\
                 added_mass = 0.5\nmedium_velocity = [\"0.4 + 3e5*t\", \"2e3*x*1e6*t\", \"0 m/s\"]";
-    let (velocity, spin) = (Vec3::new(-0.2, 0.0, 0.5), Vec3::new(700.0, 0.0, -400.0));
+    let (velocity, angular_velocity) = (Vec3::new(-0.2, 0.0, 0.5), Vec3::new(700.0, 0.0, -400.0));
     let displaced = 1000.0 * 4.0 / 3.0 * PI * RADIUS.powi(3);
     let heavy = mass() + 0.5 * displaced;
     let drag = 6.0 * PI * 0.2 * RADIUS;
     let (resistance, inertia) = (8.0 * PI * 0.2 * RADIUS.powi(3), 0.4 * mass() * RADIUS * RADIUS);
     for (engine, phi) in engines() {
-        let found = one_step(&engine, more, velocity, spin);
+        let found = one_step(&engine, more, velocity, angular_velocity);
         let row = grain(&found, 0);
         let what = |what: &str| format!("φ = {phi}, {}: {what}", engine.lines().next().unwrap());
         // Along x alone nothing depends on the place: u = 0.4 + 3e5 t, and 1.5 m_f ∂u/∂t pushes besides.
@@ -97,12 +98,25 @@ fn a_drag_in_a_medium_that_moves() {
         assert_close!(row.velocity.z, z, 1e-12, "{}, m/s", what("velocity across the flow"));
         // Spin about x dies away; about z it is drawn to half the curl, 1e3 at the end and nothing at the start.
         let h = STEP / inertia;
-        let of = |spin: f64, late: f64| {
-            (spin + h * resistance * (phi * late - (1.0 - phi) * spin)) / (1.0 + phi * h * resistance)
+        let of = |angular_velocity: f64, late: f64| {
+            (angular_velocity + h * resistance * (phi * late - (1.0 - phi) * angular_velocity))
+                / (1.0 + phi * h * resistance)
         };
-        assert_close!(row.spin.x, of(spin.x, 0.0), 1e-12, "{}, rad/s", what("spin across"));
+        assert_close!(
+            row.angular_velocity.x,
+            of(angular_velocity.x, 0.0),
+            1e-12,
+            "{}, rad/s",
+            what("angular velocity across")
+        );
         // The curl is a difference over a part of the radius.
-        assert_close!(row.spin.z, of(spin.z, 1e3), 1e-8, "{}, rad/s", what("spin with the flow"));
+        assert_close!(
+            row.angular_velocity.z,
+            of(angular_velocity.z, 1e3),
+            1e-8,
+            "{}, rad/s",
+            what("angular velocity with the flow")
+        );
     }
 }
 
@@ -112,17 +126,17 @@ fn a_drag_in_a_medium_that_moves() {
 fn the_work_of_drag_in_a_medium_that_speeds_up() {
     let more = "[medium]\ndensity = \"1000 kg/m3\"\nviscosity = \"0.2 Pa s\"\n[fields.drag]\nlaw = \"stokes\"\n\
                 medium_velocity = [\"0.4 + 3e5*t\", \"0 m/s\", \"0 m/s\"]";
-    let (velocity, spin) = (Vec3::new(-0.2, 0.0, 0.5), Vec3::new(700.0, 0.0, -400.0));
+    let (velocity, angular_velocity) = (Vec3::new(-0.2, 0.0, 0.5), Vec3::new(700.0, 0.0, -400.0));
     let push = Vec3::AXES[0] * (1000.0 * 4.0 / 3.0 * PI * RADIUS.powi(3) * 3e5);
     let (drag, resistance) = (6.0 * PI * 0.2 * RADIUS, 8.0 * PI * 0.2 * RADIUS.powi(3));
     for phi in [0.5, 0.75] {
-        let found = one_step(&common::staggered(STEP, 1e-15, phi), more, velocity, spin);
+        let found = one_step(&common::staggered(STEP, 1e-15, phi), more, velocity, angular_velocity);
         let after = grain(&found, 0);
         let force = |t: f64, v: Vec3| (Vec3::AXES[0] * (0.4 + 3e5 * t) - v) * drag + push;
         let mean = |early: Vec3, late: Vec3| early * (1.0 - phi) + late * phi;
         let work = mean(force(0.0, velocity), force(STEP, after.velocity))
             .dot(mean(velocity, after.velocity))
-            - mean(spin, after.spin).norm_squared() * resistance;
+            - mean(angular_velocity, after.angular_velocity).norm_squared() * resistance;
         let booked = found.ledger.flows.supplies.drag.power;
         assert_close!(booked, work * STEP, 1e-7, "φ = {phi}: work of the drag, J");
     }

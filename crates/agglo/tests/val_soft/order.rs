@@ -51,17 +51,17 @@ fn driven(engine: String) -> Vec<Vec3> {
     let mut simulation = unlike.start(|grains| {
         grains.charge = vec![1e-12, 2e-12];
         grains.velocity = vec![Vec3::new(0.1, -0.2, 0.05), Vec3::new(0.0, 0.1, -0.1)];
-        grains.spin = vec![Vec3::new(0.0, 200.0, 0.0), Vec3::new(100.0, 0.0, -300.0)];
+        grains.angular_velocity = vec![Vec3::new(0.0, 200.0, 0.0), Vec3::new(100.0, 0.0, -300.0)];
     });
     common::finish(&mut simulation);
     motion(&simulation)
 }
 
-/// Places in 0.1 mm, velocities in 0.1 m/s and spins in 100 rad/s of both grains.
+/// Places in 0.1 mm, velocities in 0.1 m/s and angular velocities in 100 rad/s of both grains.
 fn motion(simulation: &Simulation) -> Vec<Vec3> {
     let of = |id: u32| {
         let row = common::grain(simulation, id);
-        [row.position * 1e4, row.velocity * 10.0, row.spin * 1e-2]
+        [row.position * 1e4, row.velocity * 10.0, row.angular_velocity * 1e-2]
     };
     [of(0), of(1)].concat()
 }
@@ -78,15 +78,15 @@ fn pressed(laws: &str, engine: String) -> Vec3 {
     };
     let mut simulation = listed.start(|grains| {
         grains.velocity = vec![Vec3::new(0.5, -0.3, 0.1), Vec3::new(-0.5, 0.3, 0.0)];
-        grains.spin = vec![Vec3::new(0.0, 0.0, 100.0), Vec3::new(50.0, 0.0, 0.0)];
+        grains.angular_velocity = vec![Vec3::new(0.0, 0.0, 100.0), Vec3::new(50.0, 0.0, 0.0)];
     });
     common::finish(&mut simulation);
     assert!(simulation.system.trial.contact.worst_strain > 0.0, "the grains parted");
     common::grain(&simulation, 1).position
 }
 
-/// With φ other than 1/2 the scheme is of first order, whatever else acts, and comes to the same motion. Neither place nor
-/// velocity nor spin is left out: an error of first order in one of them would show in all.
+/// With φ other than 1/2 the scheme is of first order, whatever else acts, and comes to the same motion. Neither place
+/// nor velocity nor angular velocity is left out: an error of first order in one of them would show in all.
 #[test]
 fn orders_with_everything_that_depends_on_time() {
     let distance =

@@ -37,7 +37,7 @@ struct Askew {
     normal: Vec3,
     overlap: f64,
     /// Distances from the centers to the plane in which the spheres cut each other.
-    arms: [f64; 2],
+    lever_arms: [f64; 2],
     separation: f64,
     slip: Vec3,
     mass: f64,
@@ -49,25 +49,27 @@ fn askew(laws: &str) -> (Simulation, Askew) {
     let normal = Vec3::new(2.0, -1.0, 2.0) / 3.0;
     let (radii, overlap) = ([1e-3, 2.5e-3], 10e-6);
     let distance = radii[0] + radii[1] - overlap;
-    let (velocities, spins) = (
+    let (velocities, angular_velocities) = (
         [Vec3::new(0.3, 0.1, -0.2), Vec3::new(-0.1, 0.25, 0.05)],
         [Vec3::new(40.0, -90.0, 20.0), Vec3::new(-15.0, 30.0, 70.0)],
     );
     let simulation = stone_and_wood(distance, laws).start(|grains| {
         grains.position = vec![Vec3::ZERO, normal * distance];
         grains.velocity = velocities.to_vec();
-        grains.spin = spins.to_vec();
+        grains.angular_velocity = angular_velocities.to_vec();
     });
     // From the law of cosines in the triangle of both centers and a point of the circle.
     let first = (distance * distance + radii[0] * radii[0] - radii[1] * radii[1]) / (2.0 * distance);
-    let arms = [first, distance - first];
-    let relative = velocities[1] - velocities[0] - (spins[0] * arms[0] + spins[1] * arms[1]).cross(normal);
+    let lever_arms = [first, distance - first];
+    let relative = velocities[1]
+        - velocities[0]
+        - (angular_velocities[0] * lever_arms[0] + angular_velocities[1] * lever_arms[1]).cross(normal);
     let separation = relative.dot(normal);
     let masses = [mass(2600.0, radii[0]), mass(700.0, radii[1])];
     let askew = Askew {
         normal,
         overlap,
-        arms,
+        lever_arms,
         separation,
         slip: relative - normal * separation,
         mass: masses[0] * masses[1] / (masses[0] + masses[1]),
@@ -87,7 +89,7 @@ fn assert_loads(simulation: &Simulation, pair: &Askew, repulsion: f64, across: V
     let tolerance = 1e-11;
     assert_close_vector!(loads.force[first], force, tolerance, "{what}: force on the stone, N");
     assert_close_vector!(loads.force[second], -force, tolerance, "{what}: force on the wood, N");
-    let moments = pair.arms.map(|arm| couple * arm);
+    let moments = pair.lever_arms.map(|arm| couple * arm);
     assert_close_vector!(loads.torque[first], moments[0], tolerance, "{what}: torque on the stone, N m");
     assert_close_vector!(loads.torque[second], moments[1], tolerance, "{what}: torque on the wood, N m");
 }
@@ -189,18 +191,24 @@ fn one_ray_on_two_grains_by_hand() {
             let arm = hit.next.origin - at;
             let (mass, found) = (mass(density, radius), grain(&simulation, id));
             let inertia = 0.4 * mass * radius * radius;
-            let (velocity, spin) = (impulse / mass, arm.cross(impulse) / inertia);
+            let (velocity, angular_velocity) = (impulse / mass, arm.cross(impulse) / inertia);
             let what = |what: &str| format!("{law}: {what} of grain {id}");
             assert_close_vector!(found.velocity, velocity, 1e-9, "{}, m/s", what("velocity"));
-            assert_close_vector!(found.spin, spin, 1e-9, "{}, rad/s", what("spin"));
+            assert_close_vector!(
+                found.angular_velocity,
+                angular_velocity,
+                1e-9,
+                "{}, rad/s",
+                what("angular velocity")
+            );
             assert_close!(found.absorbed_power, hit.absorbed, 1e-9, "{}, W", what("absorbed power"));
-            books.0 += 0.5 * (mass * velocity.norm_squared() + inertia * spin.norm_squared());
+            books.0 += 0.5 * (mass * velocity.norm_squared() + inertia * angular_velocity.norm_squared());
             books.1 += impulse;
             books.2 += at.cross(impulse) + arm.cross(impulse);
         }
         let idle = grain(&simulation, 2);
         assert_eq!(
-            (idle.velocity, idle.spin, idle.absorbed_power),
+            (idle.velocity, idle.angular_velocity, idle.absorbed_power),
             (Vec3::ZERO, Vec3::ZERO, 0.0),
             "grain 2 is not hit"
         );
@@ -283,9 +291,10 @@ impl Bounce {
     }
 }
 
-/// A grain held by a bond at a heavy one of another size, under a force on its center and a moment along the bond. By hand,
-/// with the disc at arms a_i and a_j from the centers, a_i + a_j = l: across it moves by F/(k_s A) + a_j² F/(k_n I), since the
-/// disc bears the moment a_j F and turns by a_j F/(k_n I); the heavy one feels F and the moment l n x F + T.
+/// A grain held by a bond at a heavy one of another size, under a force on its center and a moment along the bond. By
+/// hand, with the disc at lever arms a_i and a_j from the centers, a_i + a_j = l: across it moves by F/(k_s A) + a_j²
+/// F/(k_n I), since the disc bears the moment a_j F and turns by a_j F/(k_n I); the heavy one feels F and the moment l
+/// n x F + T.
 #[test]
 fn one_bond_between_unequal_grains() {
     for [held, loaded] in [[1.0, 2.0], [2.0, 1.0], [1.0, 5.0], [5.0, 1.0]] {

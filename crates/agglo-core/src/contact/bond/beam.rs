@@ -12,7 +12,7 @@
 //! breaks where  F_n/A + |M_b| r/I >= σ   or   |S|/A + |M_t| r/J >= τ
 //! ```
 //! T turns a vector with the bond: by the least rotation from the old normal to the new one, then by the mean
-//! spin about the normal.
+//! rotation about the normal.
 //!
 //! # Source
 //! D. O. Potyondy and P. A. Cundall, Int. J. Rock Mech. Min. Sci. 41, 1329 (2004), section 2.2.
@@ -27,7 +27,7 @@
 //! | d      | `distance`        | m    | of the centers                                               |
 //! | Δu     | `displacement`    | m    | of j's side of the disc relative to i's, tangential          |
 //! | Δθ     | `rotation`        | rad  | of j relative to i; Δθ_n along the normal, Δθ_b the rest     |
-//! | a      | `arms`            | m    | from each center to the disc                                 |
+//! | a      | `lever_arms`      | m    | from each center to the disc                                 |
 //! | σ, τ   | `tensile_strength`, `shear_strength` | Pa | of the cement                               |
 //! | ζ      | `damping_ratio`   | -    | part of critical damping in each mode                        |
 //!
@@ -57,7 +57,7 @@
 //!     r#"{"youngs_modulus": "1 GPa", "tensile_strength": "1 MPa", "shear_strength": "1 MPa"}"#,
 //! ).unwrap();
 //! let state = beam.new_state(1e-3, 1e-3, 2e-3, Vec3::AXES[0]);
-//! let pulled = BeamPair { distance: 2.001e-3, normal: Vec3::AXES[0], arms: [1.0005e-3; 2], ..Default::default() };
+//! let pulled = BeamPair { distance: 2.001e-3, normal: Vec3::AXES[0], lever_arms: [1.0005e-3; 2], ..Default::default() };
 //! let (load, _) = beam.advance(&state, &pulled);
 //! let by_hand = 1e9 / 2e-3 * std::f64::consts::PI * 1e-6 * 1e-6;
 //! assert!((load.force.x / by_hand - 1.0).abs() < 1e-9);
@@ -161,36 +161,36 @@ pub struct BeamPair {
     /// Unit normal from i to j at the end of the step.
     pub normal: Vec3,
     /// Distances [m] of the disc from the centers of i and j along the normal; their sum is the distance.
-    pub arms: [f64; 2],
-    /// Displacement [m] of j's side of the disc relative to i's over the step, spins included, tangential:
+    pub lever_arms: [f64; 2],
+    /// Displacement [m] of j's side of the disc relative to i's over the step, rotation included, tangential:
     /// dt times `slip` of the middle of the step.
     pub displacement: Vec3,
     /// Rotation [rad] of j relative to i over the step: dt (w_j - w_i).
     pub rotation: Vec3,
     /// Angle [rad] by which the pair turned about its normal over the step: dt (w_i + w_j) . n / 2.
-    pub spin_angle: f64,
+    pub turn_about_normal: f64,
     /// Speed [m/s] at which the centers part at the end of the step.
     pub separation_speed: f64,
     /// Velocity [m/s] of j's side of the disc relative to i's at the end of the step, tangential:
     /// v_j - v_i - (a_i w_i + a_j w_j) x n, without its part along n.
     pub slip: Vec3,
     /// w_j - w_i at the end of the step [rad/s].
-    pub spin_difference: Vec3,
+    pub angular_velocity_difference: Vec3,
     /// m_i m_j / (m_i + m_j) [kg].
     pub effective_mass: f64,
     /// I_i I_j / (I_i + I_j) [kg m²].
     pub effective_inertia: f64,
 }
 
-/// Forces and moments [N, N m] of a bond on its two grains.
+/// Forces and torques [N, N m] of a bond on its two grains.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BeamLoad {
     /// Force on i; on j the opposite.
     pub force: Vec3,
     /// Moment on i about its center.
-    pub moment_i: Vec3,
+    pub torque_i: Vec3,
     /// Moment on j about its center.
-    pub moment_j: Vec3,
+    pub torque_j: Vec3,
     /// Tension over tensile strength: breaks at 1.
     pub tensile_use: f64,
     /// Shear over shear strength: breaks at 1.
@@ -264,7 +264,7 @@ impl Beam {
     pub fn advance(&self, before: &BeamState, pair: &BeamPair) -> (BeamLoad, BeamState) {
         let modes = self.modes(before);
         let normal = pair.normal;
-        let turn = Turn::new(before.normal, normal, pair.spin_angle);
+        let turn = Turn::new(before.normal, normal, pair.turn_about_normal);
         let twisting = pair.rotation.dot(normal);
         let state = BeamState {
             shear: turn.of(before.shear) + pair.displacement.rejected_from(normal) * modes.shear,
@@ -301,14 +301,15 @@ impl Beam {
     #[inline]
     fn damp(&self, modes: &Modes, pair: &BeamPair, load: &mut BeamLoad) {
         let dashpot = |stiffness: f64, inertia: f64| 2.0 * self.damping_ratio * (stiffness * inertia).sqrt();
-        let along = pair.spin_difference.dot(pair.normal);
-        let across = pair.spin_difference - pair.normal * along;
+        let along = pair.angular_velocity_difference.dot(pair.normal);
+        let across = pair.angular_velocity_difference - pair.normal * along;
         let tension = dashpot(modes.normal, pair.effective_mass) * pair.separation_speed;
         let shear = pair.slip * dashpot(modes.shear, pair.effective_mass);
         let moment = across * dashpot(modes.bending, pair.effective_inertia)
             + pair.normal * (along * dashpot(modes.twist, pair.effective_inertia));
-        load.damping_power =
-            tension * pair.separation_speed + shear.dot(pair.slip) + moment.dot(pair.spin_difference);
+        load.damping_power = tension * pair.separation_speed
+            + shear.dot(pair.slip)
+            + moment.dot(pair.angular_velocity_difference);
         load.add(pair, tension, shear, moment);
     }
 
@@ -323,15 +324,22 @@ impl Beam {
             + stored(state.twist * state.twist, modes.twist))
     }
 
-    /// How fast this bond alone is, from the masses [kg], moments of inertia [kg m²] and arms [m] of its two grains;
-    /// for grains with z bonds times z.
+    /// How fast this bond alone is, from the masses [kg], moments of inertia [kg m²] and lever arms [m] of its two
+    /// grains; for grains with z bonds times z.
     ///
     /// ω² is the largest of the stretching, the twisting and a bound (sum) on the coupled shearing and bending mode.
-    pub fn pace(&self, state: &BeamState, masses: [f64; 2], inertias: [f64; 2], arms: [f64; 2]) -> Pace {
+    pub fn pace(
+        &self,
+        state: &BeamState,
+        masses: [f64; 2],
+        inertias: [f64; 2],
+        lever_arms: [f64; 2],
+    ) -> Pace {
         let modes = self.modes(state);
         let per_mass = 1.0 / masses[0] + 1.0 / masses[1];
         let per_inertia = 1.0 / inertias[0] + 1.0 / inertias[1];
-        let levers = arms[0] * arms[0] / inertias[0] + arms[1] * arms[1] / inertias[1];
+        let levers =
+            lever_arms[0] * lever_arms[0] / inertias[0] + lever_arms[1] * lever_arms[1] / inertias[1];
         let across = modes.shear * (per_mass + levers) + modes.bending * per_inertia;
         let square = (modes.normal * per_mass).max(modes.twist * per_inertia).max(across);
         let ratio = self.damping_ratio * (1.0 + levers / per_mass).sqrt();
@@ -345,8 +353,8 @@ impl BeamLoad {
     fn add(&mut self, pair: &BeamPair, tension: f64, shear: Vec3, moment: Vec3) {
         let lever = pair.normal.cross(shear);
         self.force += pair.normal * tension + shear;
-        self.moment_i += lever * pair.arms[0] + moment;
-        self.moment_j += lever * pair.arms[1] - moment;
+        self.torque_i += lever * pair.lever_arms[0] + moment;
+        self.torque_j += lever * pair.lever_arms[1] - moment;
     }
 }
 

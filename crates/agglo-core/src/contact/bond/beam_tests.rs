@@ -30,7 +30,7 @@ fn by_hand() -> [f64; 4] {
 
 fn at_rest() -> (BeamState, BeamPair) {
     let state = beam(0.0).new_state(RADIUS, 1.4e-3, 2.5e-3, N);
-    (state, BeamPair { distance: 2.5e-3, normal: N, arms: [1.1e-3, 1.4e-3], ..Default::default() })
+    (state, BeamPair { distance: 2.5e-3, normal: N, lever_arms: [1.1e-3, 1.4e-3], ..Default::default() })
 }
 
 #[test]
@@ -43,16 +43,16 @@ fn stiffness_of_the_four_modes() {
     assert_close!(law.energy(&after, 2.5e-3 + 1e-6), 0.5 * normal * 1e-12, 1e-9, "in J");
     let (load, after) = law.advance(&state, &BeamPair { displacement: SIDE * 1e-6, ..rest });
     assert_close_vector!(load.force, SIDE * (shear * 1e-6), 1e-9, "in N");
-    assert_close_vector!(load.moment_i, Vec3::AXES[2] * (shear * 1e-6 * 1.1e-3), 1e-9, "in N m");
-    assert_close_vector!(load.moment_j, Vec3::AXES[2] * (shear * 1e-6 * 1.4e-3), 1e-9, "in N m");
+    assert_close_vector!(load.torque_i, Vec3::AXES[2] * (shear * 1e-6 * 1.1e-3), 1e-9, "in N m");
+    assert_close_vector!(load.torque_j, Vec3::AXES[2] * (shear * 1e-6 * 1.4e-3), 1e-9, "in N m");
     assert_close!(law.energy(&after, 2.5e-3), 0.5 * shear * 1e-12, 1e-9, "in J");
     let (load, after) = law.advance(&state, &BeamPair { rotation: SIDE * 1e-3, ..rest });
-    assert_close_vector!(load.moment_i, SIDE * (bending * 1e-3), 1e-9, "in N m");
-    assert_close_vector!(load.moment_j, SIDE * (-bending * 1e-3), 1e-9, "in N m");
+    assert_close_vector!(load.torque_i, SIDE * (bending * 1e-3), 1e-9, "in N m");
+    assert_close_vector!(load.torque_j, SIDE * (-bending * 1e-3), 1e-9, "in N m");
     assert_close!(law.energy(&after, 2.5e-3), 0.5 * bending * 1e-6, 1e-9, "in J");
     let (load, after) = law.advance(&state, &BeamPair { rotation: N * 1e-3, ..rest });
-    assert_close_vector!(load.moment_i, N * (twist * 1e-3), 1e-9, "in N m");
-    assert_close_vector!(load.moment_j, N * (-twist * 1e-3), 1e-9, "in N m");
+    assert_close_vector!(load.torque_i, N * (twist * 1e-3), 1e-9, "in N m");
+    assert_close_vector!(load.torque_j, N * (-twist * 1e-3), 1e-9, "in N m");
     assert_close!(law.energy(&after, 2.5e-3), 0.5 * twist * 1e-6, 1e-9, "in J");
 }
 
@@ -108,7 +108,7 @@ fn strength() {
 struct Grain {
     position: Vec3,
     velocity: Vec3,
-    spin: Vec3,
+    angular_velocity: Vec3,
     radius: f64,
     mass: f64,
 }
@@ -120,7 +120,7 @@ impl Grain {
 
     fn push(&mut self, impulse: Vec3, turn: Vec3) {
         self.velocity += impulse / self.mass;
-        self.spin += turn / self.inertia();
+        self.angular_velocity += turn / self.inertia();
     }
 }
 
@@ -145,7 +145,9 @@ impl Chain {
         let kinetic: f64 = self
             .grains
             .iter()
-            .map(|g| 0.5 * (g.mass * g.velocity.norm_squared() + g.inertia() * g.spin.norm_squared()))
+            .map(|g| {
+                0.5 * (g.mass * g.velocity.norm_squared() + g.inertia() * g.angular_velocity.norm_squared())
+            })
             .sum();
         kinetic + self.stored()
     }
@@ -156,7 +158,10 @@ impl Chain {
     }
 
     fn angular_momentum(&self) -> Vec3 {
-        self.grains.iter().map(|g| g.position.cross(g.velocity * g.mass) + g.spin * g.inertia()).sum()
+        self.grains
+            .iter()
+            .map(|g| g.position.cross(g.velocity * g.mass) + g.angular_velocity * g.inertia())
+            .sum()
     }
 
     fn drift(&mut self, dt: f64) {
@@ -172,18 +177,18 @@ impl Chain {
         let (distance, normal) = (across.norm(), across.normalized());
         let velocity = j.velocity - i.velocity;
         let middle = (across - velocity * (0.5 * dt)).normalized();
-        let arms = crate::contact::arms([i.radius, j.radius], distance);
-        let levers = i.spin * arms[0] + j.spin * arms[1];
+        let lever_arms = crate::contact::lever_arms([i.radius, j.radius], distance);
+        let levers = i.angular_velocity * lever_arms[0] + j.angular_velocity * lever_arms[1];
         BeamPair {
             distance,
             normal,
-            arms,
+            lever_arms,
             displacement: (velocity - levers.cross(middle)).rejected_from(middle) * dt,
-            rotation: (j.spin - i.spin) * dt,
-            spin_angle: 0.5 * dt * (i.spin + j.spin).dot(middle),
+            rotation: (j.angular_velocity - i.angular_velocity) * dt,
+            turn_about_normal: 0.5 * dt * (i.angular_velocity + j.angular_velocity).dot(middle),
             separation_speed: velocity.dot(normal),
             slip: (velocity - levers.cross(normal)).rejected_from(normal),
-            spin_difference: j.spin - i.spin,
+            angular_velocity_difference: j.angular_velocity - i.angular_velocity,
             effective_mass: i.mass * j.mass / (i.mass + j.mass),
             effective_inertia: i.inertia() * j.inertia() / (i.inertia() + j.inertia()),
         }
@@ -195,8 +200,8 @@ impl Chain {
         for (k, (bond, pair)) in self.bonds.iter_mut().zip(pairs).enumerate() {
             let (load, state) = self.law.advance(bond, &pair);
             *bond = state;
-            self.grains[k].push(load.force * kick, load.moment_i * kick);
-            self.grains[k + 1].push(load.force * -kick, load.moment_j * kick);
+            self.grains[k].push(load.force * kick, load.torque_i * kick);
+            self.grains[k + 1].push(load.force * -kick, load.torque_j * kick);
         }
     }
 
@@ -215,14 +220,14 @@ fn two_grains(damping_ratio: f64) -> Chain {
     let first = Grain {
         position: Vec3::ZERO,
         velocity: random() * 0.5,
-        spin: random() * 300.0,
+        angular_velocity: random() * 300.0,
         radius: RADIUS,
         mass: 1e-5,
     };
     let second = Grain {
         position: random() * 2.5e-3,
         velocity: random() * 0.5,
-        spin: random() * 300.0,
+        angular_velocity: random() * 300.0,
         radius: 1.4e-3,
         mass: 3e-5,
     };
@@ -254,7 +259,9 @@ fn damping_power_is_the_work_of_the_dashpots() {
     let (plain, _) = beam(0.0).advance(&chain.bonds[0], &chain.pair(0, 0.0));
     let [i, j] = [chain.grains[0], chain.grains[1]];
     let power = |load: &BeamLoad| {
-        load.force.dot(j.velocity - i.velocity) - load.moment_i.dot(i.spin) - load.moment_j.dot(j.spin)
+        load.force.dot(j.velocity - i.velocity)
+            - load.torque_i.dot(i.angular_velocity)
+            - load.torque_j.dot(j.angular_velocity)
     };
     let lost = power(&damped) - power(&plain);
     assert_above!(lost, 0.0);
@@ -262,8 +269,8 @@ fn damping_power_is_the_work_of_the_dashpots() {
     assert_eq!(plain.damping_power, 0.0);
     assert_eq!([damped.tensile_use, damped.shear_use], [plain.tensile_use, plain.shear_use]);
     let across = j.position - i.position;
-    let turning = damped.moment_i + damped.moment_j - across.cross(damped.force);
-    assert_below!(turning.norm(), 1e-12 * damped.moment_i.norm());
+    let turning = damped.torque_i + damped.torque_j - across.cross(damped.force);
+    assert_below!(turning.norm(), 1e-12 * damped.torque_i.norm());
 }
 
 /// A pair at ζ = 0.1 rings down as e^(-ζ ω t) in its axial mode.
@@ -274,7 +281,7 @@ fn axial_ringing() {
     let mass = pair.grains[0].mass * pair.grains[1].mass / 4e-5;
     let omega = (by_hand()[0] / mass).sqrt();
     for (grain, speed) in pair.grains.iter_mut().zip([-3e-3, 1e-3]) {
-        (grain.velocity, grain.spin) = (across * speed, Vec3::ZERO);
+        (grain.velocity, grain.angular_velocity) = (across * speed, Vec3::ZERO);
     }
     let damped = omega * 0.99_f64.sqrt();
     let steps = 20_000;
@@ -305,7 +312,7 @@ fn rigid_rotation() {
             for (grain, from) in pair.grains.iter_mut().zip(start) {
                 let to = from.rotated_about(axis, angle * f64::from(k));
                 grain.velocity = to - grain.position;
-                grain.spin = axis * angle;
+                grain.angular_velocity = axis * angle;
                 grain.position = to;
             }
             let seen = pair.pair(0, 1.0);
@@ -336,14 +343,16 @@ fn stored_energy_is_the_work_of_the_path() {
         let way = if k < steps / 2 { 1.0 } else { -1.0 } / f64::from(steps);
         pair.grains[0].velocity = (e1 * 2e-5 + e2 * 1e-5) * way;
         pair.grains[1].velocity = pair.bonds[0].normal * (1e-5 * way);
-        pair.grains[0].spin = (e2 + pair.bonds[0].normal) * (2e-2 * way);
-        pair.grains[1].spin = e1 * (-1e-2 * way);
+        pair.grains[0].angular_velocity = (e2 + pair.bonds[0].normal) * (2e-2 * way);
+        pair.grains[1].angular_velocity = e1 * (-1e-2 * way);
         pair.drift(1.0);
         let (load, state) = pair.law.advance(&pair.bonds[0], &pair.pair(0, 1.0));
         pair.bonds[0] = state;
         let [i, j] = [pair.grains[0], pair.grains[1]];
         let done = |load: &BeamLoad| {
-            load.force.dot(j.velocity - i.velocity) - load.moment_i.dot(i.spin) - load.moment_j.dot(j.spin)
+            load.force.dot(j.velocity - i.velocity)
+                - load.torque_i.dot(i.angular_velocity)
+                - load.torque_j.dot(j.angular_velocity)
         };
         work += 0.5 * (done(&before) + done(&load));
         before = load;
@@ -367,7 +376,7 @@ fn critical_step_of_a_pair() {
         let mut pair = two_grains(damping);
         for grain in &mut pair.grains {
             grain.velocity *= 1e-7;
-            grain.spin *= 1e-7;
+            grain.angular_velocity *= 1e-7;
         }
         let [i, j] = [pair.grains[0], pair.grains[1]];
         let (masses, inertias) = ([i.mass, j.mass], [i.inertia(), j.inertia()]);
@@ -383,7 +392,7 @@ fn critical_step_of_a_pair() {
         let grain = |at: f64, speed: f64, mass: f64| Grain {
             position: N * at,
             velocity: N * speed,
-            spin: Vec3::ZERO,
+            angular_velocity: Vec3::ZERO,
             radius: RADIUS,
             mass,
         };
@@ -398,13 +407,13 @@ fn critical_step_of_a_pair() {
 #[test]
 fn pace_of_an_unequal_pair() {
     let [normal, shear, bending, twist] = by_hand();
-    let (masses, inertias, arms) = ([1e-5, 3e-5], [4e-12, 2e-11], [1.1e-3, 1.4e-3]);
+    let (masses, inertias, lever_arms) = ([1e-5, 3e-5], [4e-12, 2e-11], [1.1e-3, 1.4e-3]);
     let per_mass = 1.0 / 1e-5 + 1.0 / 3e-5;
     let per_inertia = 1.0 / 4e-12 + 1.0 / 2e-11;
     let levers = 1.21e-6 / 4e-12 + 1.96e-6 / 2e-11;
     let square = shear * (per_mass + levers) + bending * per_inertia;
     assert_above!(square, (normal * per_mass).max(twist * per_inertia));
-    let pace = beam(0.2).pace(&at_rest().0, masses, inertias, arms);
+    let pace = beam(0.2).pace(&at_rest().0, masses, inertias, lever_arms);
     assert_close!(pace.square, square, 1e-12, "in 1/s²");
     assert_close!(pace.rate, 0.4 * (1.0 + levers / per_mass).sqrt() * square.sqrt(), 1e-12, "in 1/s");
 }
@@ -415,7 +424,7 @@ fn tip_under(force: Vec3, bonds: usize) -> Vec3 {
     let grain = |k: usize| Grain {
         position: N * (2.0 * RADIUS * k as f64),
         velocity: Vec3::ZERO,
-        spin: Vec3::ZERO,
+        angular_velocity: Vec3::ZERO,
         radius: RADIUS,
         mass: 1e-5,
     };
@@ -430,9 +439,9 @@ fn tip_under(force: Vec3, bonds: usize) -> Vec3 {
         row.grains[bonds].velocity += force * (dt / 1e-5);
         for grain in &mut row.grains {
             grain.velocity *= 1.0 - 1.6 * lowest * dt;
-            grain.spin *= 1.0 - 1.6 * lowest * dt;
+            grain.angular_velocity *= 1.0 - 1.6 * lowest * dt;
         }
-        (row.grains[0].velocity, row.grains[0].spin) = (Vec3::ZERO, Vec3::ZERO);
+        (row.grains[0].velocity, row.grains[0].angular_velocity) = (Vec3::ZERO, Vec3::ZERO);
     }
     row.grains[bonds].position - N * length
 }

@@ -16,8 +16,8 @@
 //! | p_b    | `exponent`             | -    | power of the strain                                |
 //! | K_rb   | `tangential_stiffness` | Pa/m | tangential bonding constant                        |
 //! | ℰ*     | `threshold_strain`     | -    | overlap strain from which the bond acts            |
-//! | ℰ      | `touch.strain()`       | -    | overlap over the sum of the radii                  |
-//! | A      | `touch.area()`         | m²   | disc in which the spheres cut each other           |
+//! | ℰ      | `geometry.strain()`       | -    | overlap over the sum of the radii                  |
+//! | A      | `geometry.area()`         | m²   | disc in which the spheres cut each other           |
 //! | τ      |                        | -    | direction of j's slip relative to i                |
 //!
 //! # Valid when
@@ -41,13 +41,13 @@
 //! # Example
 //! ```
 //! # extern crate agglo_core as agglo;
-//! use agglo::contact::{Touch, bond::StrainBond};
+//! use agglo::contact::{ContactGeometry, bond::StrainBond};
 //! use agglo::units::Quantity;
 //! let bond = StrainBond {
 //!     stiffness: Quantity(1e6), exponent: 2.0, tangential_stiffness: Quantity(1e3), threshold_strain: 0.05,
 //! };
-//! let touch = Touch::new([1.0, 1.0], [1.0, 1.0], [1e7, 1e7], 1.8);
-//! assert!((bond.attraction(&touch) / (1e6 * 0.01 * touch.area()) - 1.0).abs() < 1e-12);
+//! let geometry = ContactGeometry::new([1.0, 1.0], [1.0, 1.0], [1e7, 1e7], 1.8);
+//! assert!((bond.attraction(&geometry) / (1e6 * 0.01 * geometry.area()) - 1.0).abs() < 1e-12);
 //! ```
 
 use schemars::JsonSchema;
@@ -55,7 +55,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::normal::NormalLaw;
 use crate::contact::normal::strain_power::{StrainPower, strain_power};
-use crate::contact::{PairConstants, Touch};
+use crate::contact::{ContactGeometry, PairConstants};
 use crate::law::{Context, Faults, Law};
 use crate::math::Pace;
 use crate::units::{AreaStiffness, Pressure};
@@ -98,46 +98,51 @@ impl Law for StrainBond {
 impl StrainBond {
     /// Whether the bond acts at this overlap.
     #[inline]
-    pub fn acts(&self, touch: &Touch) -> bool {
-        touch.overlap >= self.threshold_strain * touch.radius_sum
+    pub fn acts(&self, geometry: &ContactGeometry) -> bool {
+        geometry.overlap >= self.threshold_strain * geometry.radius_sum
     }
 
     /// Attraction [N], zero below the threshold.
     #[inline]
-    pub fn attraction(&self, touch: &Touch) -> f64 {
-        if !self.acts(touch) {
+    pub fn attraction(&self, geometry: &ContactGeometry) -> f64 {
+        if !self.acts(geometry) {
             return 0.0;
         }
-        self.stiffness.si() * strain_power(touch.strain(), self.exponent) * touch.area()
+        self.stiffness.si() * strain_power(geometry.strain(), self.exponent) * geometry.area()
     }
 
     /// Energy [J], zero up to the threshold and negative beyond, since the bond attracts.
-    pub fn energy(&self, touch: &Touch) -> f64 {
-        if !self.acts(touch) {
+    pub fn energy(&self, geometry: &ContactGeometry) -> f64 {
+        if !self.acts(geometry) {
             return 0.0;
         }
-        let threshold = Touch { overlap: self.threshold_strain.max(0.0) * touch.radius_sum, ..*touch };
-        let integral = touch.strain_integral(self.exponent) - threshold.strain_integral(self.exponent);
+        let threshold =
+            ContactGeometry { overlap: self.threshold_strain.max(0.0) * geometry.radius_sum, ..*geometry };
+        let integral = geometry.strain_integral(self.exponent) - threshold.strain_integral(self.exponent);
         -self.stiffness.si() * integral
     }
 
     /// Tangential force [N] along the relative tangential velocity, from the slip speed [m/s] and the step
     /// [s]. All of its work is lost.
     #[inline]
-    pub fn tangential(&self, touch: &Touch, slip_speed: f64, dt: f64) -> f64 {
-        if self.acts(touch) { self.tangential_stiffness.si() * slip_speed * touch.area() * dt } else { 0.0 }
+    pub fn tangential(&self, geometry: &ContactGeometry, slip_speed: f64, dt: f64) -> f64 {
+        if self.acts(geometry) {
+            self.tangential_stiffness.si() * slip_speed * geometry.area() * dt
+        } else {
+            0.0
+        }
     }
 
     /// How fast the bond is at this overlap: its attraction, or its tangential part, which carries the step as that of
     /// `regularized` does.
-    pub fn pace(&self, touch: &Touch) -> Pace {
-        if !self.acts(touch) {
+    pub fn pace(&self, geometry: &ContactGeometry) -> Pace {
+        if !self.acts(geometry) {
             return Pace::NONE;
         }
-        let bonding = Touch { stiffness: self.stiffness.si(), ..*touch };
+        let bonding = ContactGeometry { stiffness: self.stiffness.si(), ..*geometry };
         let along = StrainPower { exponent: self.exponent }.pace(&PairConstants::default(), &bonding);
-        let tangential = 4.0 * self.tangential_stiffness.si() * touch.area();
-        along.max(Pace::of_spring(tangential, touch.sliding_mass()))
+        let tangential = 4.0 * self.tangential_stiffness.si() * geometry.area();
+        along.max(Pace::of_spring(tangential, geometry.sliding_mass()))
     }
 }
 
@@ -158,12 +163,14 @@ mod tests {
     fn attraction_is_minus_the_slope_of_energy() {
         for exponent in [1.0, 2.0, 2.5] {
             for radii in [[1.0, 1.0], [1e-3, 3e-3]] {
-                let touch =
-                    |overlap| Touch { overlap, ..Touch::new(radii, [1.0; 2], [1e7; 2], radii[0] + radii[1]) };
+                let geometry = |overlap| ContactGeometry {
+                    overlap,
+                    ..ContactGeometry::new(radii, [1.0; 2], [1e7; 2], radii[0] + radii[1])
+                };
                 let law = bond(exponent);
                 for strain in [0.06, 0.1, 0.2] {
                     let at = strain * (radii[0] + radii[1]);
-                    assert_slope(at, |x| law.energy(&touch(x)), |x| -law.attraction(&touch(x)));
+                    assert_slope(at, |x| law.energy(&geometry(x)), |x| -law.attraction(&geometry(x)));
                 }
             }
         }
@@ -171,7 +178,8 @@ mod tests {
 
     #[test]
     fn threshold() {
-        let at = |overlap| Touch { overlap, ..Touch::new([1.0; 2], [1.0; 2], [1e7; 2], 2.0) };
+        let at =
+            |overlap| ContactGeometry { overlap, ..ContactGeometry::new([1.0; 2], [1.0; 2], [1e7; 2], 2.0) };
         let law = bond(2.0);
         assert_eq!([law.attraction(&at(0.0999)), law.energy(&at(0.0999))], [0.0, 0.0]);
         assert_eq!(law.energy(&at(0.1)), 0.0);
@@ -185,9 +193,10 @@ mod tests {
     fn the_papers_bond_never_wins() {
         let contact = StrainPower { exponent: 2.0 };
         for overlap in [0.1, 0.2, 0.5, 1.0] {
-            let touch = Touch { overlap, ..Touch::new([1.0; 2], [1.0; 2], [1e7; 2], 2.0) };
-            let sum = contact.force(&PairConstants::default(), &touch) - bond(2.0).attraction(&touch);
-            assert_close!(sum, 9e6 * touch.strain().powi(2) * touch.area(), 1e-12);
+            let geometry =
+                ContactGeometry { overlap, ..ContactGeometry::new([1.0; 2], [1.0; 2], [1e7; 2], 2.0) };
+            let sum = contact.force(&PairConstants::default(), &geometry) - bond(2.0).attraction(&geometry);
+            assert_close!(sum, 9e6 * geometry.strain().powi(2) * geometry.area(), 1e-12);
         }
     }
 }

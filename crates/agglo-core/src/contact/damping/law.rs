@@ -1,6 +1,5 @@
-//! What a dashpot along the line of centers can do.
-
-use crate::contact::{Elastic, PairConstants, Touch};
+/// What a dashpot along the line of centers can do.
+use crate::contact::{ContactGeometry, Elastic, PairConstants};
 use crate::law::Law;
 use crate::math::Real;
 use crate::particles::Mixture;
@@ -11,7 +10,12 @@ pub trait DampingLaw: Law {
     const TAKES_STIFFNESS: bool;
 
     /// Dashpot coefficient c [N s/m]; the force on the pair is -c times the speed of separation.
-    fn coefficient<F: Real>(&self, pair: &PairConstants<F>, touch: &Touch<F>, elastic: &Elastic<F>) -> F;
+    fn coefficient<F: Real>(
+        &self,
+        pair: &PairConstants<F>,
+        geometry: &ContactGeometry<F>,
+        elastic: &Elastic<F>,
+    ) -> F;
 
     /// Writes down what it has for a pair of materials, or what the pair has by itself.
     fn settle(&self, _: &mut PairConstants, _: Option<&Mixture>) {}

@@ -8,7 +8,7 @@ pub use law::DampingLaw;
 pub use restitution::{Restitution, damping_ratio};
 pub use viscous_area::ViscousArea;
 
-use super::{Elastic, PairConstants, Touch};
+use super::{ContactGeometry, Elastic, PairConstants};
 use crate::math::{Pace, Real};
 use crate::particles::Mixture;
 
@@ -32,8 +32,13 @@ impl Damping {
 
     /// Dashpot coefficient c [N s/m]; the force on the pair is -c times the speed of separation.
     #[inline]
-    pub fn coefficient<F: Real>(&self, pair: &PairConstants<F>, touch: &Touch<F>, elastic: &Elastic<F>) -> F {
-        each_damping!(self, law => law.coefficient(pair, touch, elastic))
+    pub fn coefficient<F: Real>(
+        &self,
+        pair: &PairConstants<F>,
+        geometry: &ContactGeometry<F>,
+        elastic: &Elastic<F>,
+    ) -> F {
+        each_damping!(self, law => law.coefficient(pair, geometry, elastic))
     }
 
     /// Writes down what it has for a pair of materials, or what the pair has by itself.
@@ -47,8 +52,8 @@ impl Damping {
     }
 
     /// How fast the dashpot is at this overlap.
-    pub fn pace(&self, pair: &PairConstants, touch: &Touch, elastic: &Elastic) -> Pace {
-        Pace::of_dashpot(self.coefficient(pair, touch, elastic), touch.effective_mass)
+    pub fn pace(&self, pair: &PairConstants, geometry: &ContactGeometry, elastic: &Elastic) -> Pace {
+        Pace::of_dashpot(self.coefficient(pair, geometry, elastic), geometry.effective_mass)
     }
 
     /// Whether it can outgrow the elastic contact, so that only the overlap of the moment says how fast it is.

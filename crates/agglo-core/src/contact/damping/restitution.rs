@@ -43,12 +43,12 @@
 //! # Example
 //! ```
 //! # extern crate agglo_core as agglo;
-//! use agglo::contact::{Elastic, PairConstants, Touch, damping::{DampingLaw, Restitution}};
+//! use agglo::contact::{Elastic, PairConstants, ContactGeometry, damping::{DampingLaw, Restitution}};
 //! let spring = Elastic { stiffness: 400.0, exponent: 1.0, ..Default::default() };
-//! let touch = Touch { effective_mass: 1.0, ..Default::default() };
+//! let geometry = ContactGeometry { effective_mass: 1.0, ..Default::default() };
 //! let (law, mut pair) = (Restitution { restitution: 0.0 }, PairConstants::default());
 //! law.settle(&mut pair, None);
-//! let dashpot = law.coefficient(&pair, &touch, &spring);
+//! let dashpot = law.coefficient(&pair, &geometry, &spring);
 //! assert_eq!(dashpot, 2.0 * 20.0);
 //! ```
 
@@ -58,7 +58,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::DampingLaw;
-use crate::contact::{Elastic, PairConstants, Touch};
+use crate::contact::{ContactGeometry, Elastic, PairConstants};
 use crate::law::{Context, Faults, Law};
 use crate::math::Real;
 use crate::particles::Mixture;
@@ -82,10 +82,15 @@ impl DampingLaw for Restitution {
 
     /// 0 where the elastic force does not grow with the overlap.
     #[inline]
-    fn coefficient<F: Real>(&self, pair: &PairConstants<F>, touch: &Touch<F>, elastic: &Elastic<F>) -> F {
+    fn coefficient<F: Real>(
+        &self,
+        pair: &PairConstants<F>,
+        geometry: &ContactGeometry<F>,
+        elastic: &Elastic<F>,
+    ) -> F {
         let n = elastic.exponent;
         let stiffness = elastic.stiffness.max(F::of(0.0));
-        let critical = (F::of((n + 1.0) / (2.0 * n)) * stiffness * touch.effective_mass).sqrt();
+        let critical = (F::of((n + 1.0) / (2.0 * n)) * stiffness * geometry.effective_mass).sqrt();
         F::of(2.0) * pair.damping_ratio * critical
     }
 
@@ -123,8 +128,8 @@ mod tests {
     fn rebound_speed(normal: &Normal, wanted: f64, mut pair: PairConstants, speed: f64, dt: f64) -> f64 {
         let law = Damping::Restitution(Restitution { restitution: wanted });
         law.settle(&mut pair, None);
-        let touch = Touch::new([2.5e-3, 4e-3], [2.6e-4, 1.1e-3], [1e7; 2], 6.5e-3);
-        HeadOn { pair, touch, normal, damping: Some(&law), speed }.integrate(dt).restitution
+        let geometry = ContactGeometry::new([2.5e-3, 4e-3], [2.6e-4, 1.1e-3], [1e7; 2], 6.5e-3);
+        HeadOn { pair, geometry, normal, damping: Some(&law), speed }.integrate(dt).restitution
     }
 
     /// Chung and Ooi (2011), test 3, with no clamp of the tensile end. What is left is the step's error.
@@ -158,7 +163,7 @@ mod tests {
         assert_eq!([damping_ratio(1.0), damping_ratio(0.0), damping_ratio(-1.0)], [0.0, 1.0, 1.0]);
         // By hand: ln 2 / √(π² + ln² 2).
         assert_near!(damping_ratio(0.5), 0.215_453_761_966, 1e-12);
-        let touch = Touch { effective_mass: 1.0, ..Default::default() };
+        let geometry = ContactGeometry { effective_mass: 1.0, ..Default::default() };
         let elastic = Elastic { stiffness: 1.0, exponent: 1.0, ..Default::default() };
         let own = Mixture {
             between: ["a".to_owned(), "b".to_owned()],
@@ -169,8 +174,8 @@ mod tests {
         let law = Restitution { restitution: 0.1 };
         let mut pair = PairConstants::default();
         law.settle(&mut pair, None);
-        assert_eq!(law.coefficient(&pair, &touch, &elastic), 2.0 * damping_ratio(0.1));
+        assert_eq!(law.coefficient(&pair, &geometry, &elastic), 2.0 * damping_ratio(0.1));
         law.settle(&mut pair, Some(&own));
-        assert_eq!(law.coefficient(&pair, &touch, &elastic), 0.0);
+        assert_eq!(law.coefficient(&pair, &geometry, &elastic), 0.0);
     }
 }

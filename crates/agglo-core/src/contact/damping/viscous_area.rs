@@ -12,7 +12,7 @@
 //! | symbol | name in code  | unit   | meaning                                    |
 //! |--------|---------------|--------|--------------------------------------------|
 //! | c      | `coefficient` | Pa s/m | damping per contact area                   |
-//! | A      | `touch.area()`| m²     | disc in which the spheres cut each other   |
+//! | A      | `geometry.area()`| m²     | disc in which the spheres cut each other   |
 //! | v_n    |               | m/s    | velocity along the normal from i to j      |
 //!
 //! # Valid when
@@ -30,10 +30,10 @@
 //! # Example
 //! ```
 //! # extern crate agglo_core as agglo;
-//! use agglo::contact::{Elastic, PairConstants, Touch, damping::{DampingLaw, ViscousArea}};
+//! use agglo::contact::{Elastic, PairConstants, ContactGeometry, damping::{DampingLaw, ViscousArea}};
 //! let law = ViscousArea { coefficient: agglo::units::Quantity(1e5) };
-//! let touch = Touch::new([1.0, 1.0], [1.0, 1.0], [1e7, 1e7], 1.6);
-//! let dashpot = law.coefficient(&PairConstants::default(), &touch, &Elastic::default());
+//! let geometry = ContactGeometry::new([1.0, 1.0], [1.0, 1.0], [1e7, 1e7], 1.6);
+//! let dashpot = law.coefficient(&PairConstants::default(), &geometry, &Elastic::default());
 //! assert!((dashpot / (1e5 * std::f64::consts::PI * 0.36) - 1.0).abs() < 1e-14);
 //! ```
 
@@ -41,7 +41,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::DampingLaw;
-use crate::contact::{Elastic, PairConstants, Touch};
+use crate::contact::{ContactGeometry, Elastic, PairConstants};
 use crate::law::{Context, Faults, Law};
 use crate::math::Real;
 use crate::units::AreaDamping;
@@ -64,8 +64,8 @@ impl DampingLaw for ViscousArea {
     const TAKES_STIFFNESS: bool = false;
 
     #[inline]
-    fn coefficient<F: Real>(&self, _: &PairConstants<F>, touch: &Touch<F>, _: &Elastic<F>) -> F {
-        F::of(self.coefficient.si()) * touch.area()
+    fn coefficient<F: Real>(&self, _: &PairConstants<F>, geometry: &ContactGeometry<F>, _: &Elastic<F>) -> F {
+        F::of(self.coefficient.si()) * geometry.area()
     }
 
     /// It grows with the area, without a bound of its own.
@@ -86,17 +86,18 @@ mod tests {
     #[test]
     fn weak_damping_takes_the_work_of_the_undamped_path() {
         let normal = Normal::StrainPower(StrainPower { exponent: 2.0 });
-        let (pair, touch) = (PairConstants::default(), Touch::new([0.05; 2], [3.0; 2], [1.5e7; 2], 0.1));
+        let (pair, geometry) =
+            (PairConstants::default(), ContactGeometry::new([0.05; 2], [3.0; 2], [1.5e7; 2], 0.1));
         let (speed, weak) = (0.05, 1e-2);
         let law = Damping::ViscousArea(ViscousArea { coefficient: Quantity(weak) });
-        let head_on = HeadOn { pair, touch, normal: &normal, damping: Some(&law), speed };
+        let head_on = HeadOn { pair, geometry, normal: &normal, damping: Some(&law), speed };
         let rebound = head_on.integrate(1e-5);
-        let energy = 0.5 * touch.effective_mass * speed * speed;
+        let energy = 0.5 * geometry.effective_mass * speed * speed;
         let (steps, deepest) = (200_000, rebound.largest_overlap);
         let mut work = 0.0;
         for k in 0..steps {
             let overlap = deepest * (f64::from(k) + 0.5) / f64::from(steps);
-            let here = Touch { overlap, ..touch };
+            let here = ContactGeometry { overlap, ..geometry };
             let left = 1.0 - normal.energy(&pair, &here) / energy;
             work += 2.0 * weak * here.area() * speed * left.max(0.0).sqrt() * deepest / f64::from(steps);
         }

@@ -1,7 +1,6 @@
-//! What a law of friction can do.
-
+/// What a law of friction can do.
 use super::spring::Memory;
-use crate::contact::{Elastic, PairConstants, Touch};
+use crate::contact::{ContactGeometry, Elastic, PairConstants};
 use crate::law::{Faults, Law};
 use crate::math::{Pace, Real, Vector};
 use crate::particles::Mixture;
@@ -17,7 +16,7 @@ pub struct Sliding<F = f64> {
     pub velocity: Vector<F>,
     /// Angle [rad] by which the pair turned about its normal over the step: dt (w_i + w_j) . n / 2; zero for a law
     /// without memory.
-    pub spin_angle: F,
+    pub turn_about_normal: F,
     /// The elastic law's force and stiffness.
     pub elastic: Elastic<F>,
     /// Normal dashpot [N s/m].
@@ -38,13 +37,14 @@ pub trait FrictionLaw: Law {
     fn force<F: Real>(
         &self,
         pair: &PairConstants<F>,
-        touch: &Touch<F>,
+        geometry: &ContactGeometry<F>,
         sliding: &Sliding<F>,
         before: &Self::Memory<F>,
     ) -> (Vector<F>, Self::Memory<F>);
 
     /// How fast it is, with the elastic law and the normal dashpot [N s/m].
-    fn pace(&self, pair: &PairConstants, touch: &Touch, elastic: &Elastic, dashpot: f64) -> Pace;
+    fn pace(&self, pair: &PairConstants, geometry: &ContactGeometry, elastic: &Elastic, dashpot: f64)
+    -> Pace;
 
     /// Writes down the coefficients for a pair of materials, or what the pair has by itself.
     fn settle(&self, pair: &mut PairConstants, own: Option<&Mixture>);

@@ -45,7 +45,7 @@
 //! ```
 //! # extern crate agglo_core as agglo;
 //! use agglo::contact::friction::{FrictionLaw, Mindlin, Sliding, TangentialSpring};
-//! use agglo::contact::{Elastic, PairConstants, Touch};
+//! use agglo::contact::{Elastic, PairConstants, ContactGeometry};
 //! use agglo::math::Vec3;
 //! let law = Mindlin { static_friction: 0.5, dynamic_friction: None, stiffness_ratio: Some(0.8), dashpot: 0.0 };
 //! let mut pair = PairConstants::default();
@@ -54,7 +54,7 @@
 //!     normal: Vec3::AXES[0], displacement: Vec3::new(0.0, 1e-6, 0.0), normal_force: 1.0,
 //!     elastic: Elastic { stiffness: 1e5, ..Default::default() }, ..Default::default()
 //! };
-//! let (force, _) = law.force(&pair, &Touch::default(), &sliding, &TangentialSpring::default());
+//! let (force, _) = law.force(&pair, &ContactGeometry::default(), &sliding, &TangentialSpring::default());
 //! assert!((force.y - 0.8 * 1e5 * 1e-6).abs() < 1e-15);
 //! ```
 
@@ -64,7 +64,7 @@ use serde::{Deserialize, Serialize};
 use super::law::check_coefficients;
 use super::spring::shortened;
 use super::{FrictionLaw, Sliding, TangentialSpring};
-use crate::contact::{Elastic, PairConstants, Touch};
+use crate::contact::{ContactGeometry, Elastic, PairConstants};
 use crate::law::{Context, Faults, Law, Needs};
 use crate::math::{Pace, Real, Vector};
 use crate::particles::property::{POISSON_RATIO, YOUNGS_MODULUS};
@@ -114,13 +114,13 @@ impl FrictionLaw for Mindlin {
     fn force<F: Real>(
         &self,
         pair: &PairConstants<F>,
-        _: &Touch<F>,
+        _: &ContactGeometry<F>,
         sliding: &Sliding<F>,
         before: &TangentialSpring<F>,
     ) -> (Vector<F>, TangentialSpring<F>) {
         let zero = F::of(0.0);
         let stiffness = pair.tangential_ratio * sliding.elastic.stiffness.max(zero);
-        let carried = before.carried(sliding.normal, sliding.spin_angle, stiffness);
+        let carried = before.carried(sliding.normal, sliding.turn_about_normal, stiffness);
         // The mean over a step in which the stiffness rises: second order. A falling one is exact with its end.
         let rising = F::both(zero.below(before.stiffness), before.stiffness.below(stiffness));
         let loading = F::select(rising, F::of(0.5) * (before.stiffness + stiffness), stiffness);
@@ -140,8 +140,14 @@ impl FrictionLaw for Mindlin {
     }
 
     /// That of the tangential spring and its dashpot.
-    fn pace(&self, pair: &PairConstants, touch: &Touch, elastic: &Elastic, dashpot: f64) -> Pace {
-        let mass = touch.sliding_mass();
+    fn pace(
+        &self,
+        pair: &PairConstants,
+        geometry: &ContactGeometry,
+        elastic: &Elastic,
+        dashpot: f64,
+    ) -> Pace {
+        let mass = geometry.sliding_mass();
         Pace::of_spring(pair.tangential_ratio * elastic.stiffness, mass)
             + Pace::of_dashpot(self.dashpot * dashpot, mass)
     }
@@ -177,7 +183,7 @@ mod tests {
     fn advance(law: &Mindlin, before: &TangentialSpring, sliding: &Sliding) -> (Vec3, TangentialSpring) {
         let mut pair = PairConstants::default();
         law.settle(&mut pair, None);
-        law.force(&pair, &Touch::default(), sliding, before)
+        law.force(&pair, &ContactGeometry::default(), sliding, before)
     }
 
     fn slide(by: Vec3, normal_stiffness: f64, normal_force: f64) -> Sliding {
@@ -279,7 +285,7 @@ mod tests {
         assert!((spring.force + Vec3::AXES[2]).norm() < 1e-9, "{:?}", spring.force);
         spring.force = Vec3::AXES[0];
         for _ in 0..steps {
-            let step = Sliding { spin_angle: angle, ..slide(Vec3::ZERO, 1.25, 10.0) };
+            let step = Sliding { turn_about_normal: angle, ..slide(Vec3::ZERO, 1.25, 10.0) };
             spring = advance(&LAW, &spring, &step).1;
         }
         // The tangent of each small angle stands for the angle: error angle²/3 per step's angle.
@@ -291,7 +297,8 @@ mod tests {
         PairConstants { effective_modulus: 25e9, tangential_ratio: ratio, ..Default::default() }
     }
 
-    /// In gross sliding v_t' = v_t - μ (1 + e) v_n and each spin gains (5/4) μ (1 + e) v_n / R (equal spheres).
+    /// In gross sliding v_t' = v_t - μ (1 + e) v_n and each angular velocity gains (5/4) μ (1 + e) v_n / R (equal
+    /// spheres).
     #[test]
     fn val_gross_sliding() {
         let friction = Mindlin { static_friction: 0.092, stiffness_ratio: None, ..LAW };
@@ -314,9 +321,13 @@ mod tests {
         let tangent = Vec3::AXES[2].cross(n);
         let expected = v_t - 0.092 * 2.0 * v_n;
         assert!((relative.dot(tangent) / expected - 1.0).abs() < 1e-3, "{relative:?}");
-        let spin = 1.25 * 0.092 * 2.0 * v_n / 2.5e-3;
-        assert!((end.spins[0].norm() / spin - 1.0).abs() < 1e-3, "{:?} {spin}", end.spins[0]);
-        assert_near_vector!(end.spins[0], end.spins[1], 1e-9);
+        let angular_velocity = 1.25 * 0.092 * 2.0 * v_n / 2.5e-3;
+        assert!(
+            (end.angular_velocities[0].norm() / angular_velocity - 1.0).abs() < 1e-3,
+            "{:?} {angular_velocity}",
+            end.angular_velocities[0]
+        );
+        assert_near_vector!(end.angular_velocities[0], end.angular_velocities[1], 1e-9);
     }
 
     /// Stored and kinetic energy together never rise, at any angle, for any normal law, with and without dashpots.

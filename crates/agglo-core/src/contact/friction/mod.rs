@@ -10,7 +10,7 @@ pub use mindlin::Mindlin;
 pub use regularized::Regularized;
 pub use spring::{Memory, TangentialSpring};
 
-use super::{Elastic, PairConstants, Touch};
+use super::{ContactGeometry, Elastic, PairConstants};
 use crate::math::{Pace, Vec3};
 use crate::particles::Mixture;
 
@@ -37,19 +37,25 @@ impl Friction {
     pub fn force(
         &self,
         pair: &PairConstants,
-        touch: &Touch,
+        geometry: &ContactGeometry,
         sliding: &Sliding,
         before: &TangentialSpring,
     ) -> (Vec3, TangentialSpring) {
         each_friction!(self, law => {
-            let (force, memory) = law.force(pair, touch, sliding, &Memory::taken_from(before));
+            let (force, memory) = law.force(pair, geometry, sliding, &Memory::taken_from(before));
             (force, memory.kept())
         })
     }
 
     /// How fast it is, with the elastic law and the normal dashpot [N s/m].
-    pub fn pace(&self, pair: &PairConstants, touch: &Touch, elastic: &Elastic, dashpot: f64) -> Pace {
-        each_friction!(self, law => law.pace(pair, touch, elastic, dashpot))
+    pub fn pace(
+        &self,
+        pair: &PairConstants,
+        geometry: &ContactGeometry,
+        elastic: &Elastic,
+        dashpot: f64,
+    ) -> Pace {
+        each_friction!(self, law => law.pace(pair, geometry, elastic, dashpot))
     }
 
     /// Writes down the coefficients for a pair of materials, or what the pair has by itself.

@@ -39,20 +39,20 @@
 //! ```
 //! # extern crate agglo_core as agglo;
 //! use agglo::contact::friction::{FrictionLaw, Regularized, Sliding};
-//! use agglo::contact::{Elastic, PairConstants, Touch};
+//! use agglo::contact::{Elastic, PairConstants, ContactGeometry};
 //! use agglo::math::Vec3;
 //! let law = Regularized {
 //!     stiffness: agglo::units::Quantity(1e7), static_friction: 0.4, dynamic_friction: 0.3,
 //! };
 //! let mut pair = PairConstants::default();
 //! law.settle(&mut pair, None);
-//! let touch = Touch { overlap: 1e-4, ..Touch::new([1.0; 2], [1.0; 2], [1e7; 2], 2.0) };
+//! let geometry = ContactGeometry { overlap: 1e-4, ..ContactGeometry::new([1.0; 2], [1.0; 2], [1e7; 2], 2.0) };
 //! let (velocity, dt) = (Vec3::new(0.0, 1e-2, 0.0), 1e-4);
 //! let force = |load| {
 //!     let elastic = Elastic { force: load, ..Default::default() };
-//!     law.force(&pair, &touch, &Sliding { velocity, elastic, dt, ..Default::default() }, &()).0
+//!     law.force(&pair, &geometry, &Sliding { velocity, elastic, dt, ..Default::default() }, &()).0
 //! };
-//! assert!((force(1e3).y / (1e7 * 1e-2 * touch.area() * 1e-4) - 1.0).abs() < 1e-14);
+//! assert!((force(1e3).y / (1e7 * 1e-2 * geometry.area() * 1e-4) - 1.0).abs() < 1e-14);
 //! assert!((force(1e-3).y / (0.3 * 1e-3) - 1.0).abs() < 1e-14);
 //! ```
 
@@ -61,7 +61,7 @@ use serde::{Deserialize, Serialize};
 
 use super::law::check_coefficients;
 use super::{FrictionLaw, Sliding};
-use crate::contact::{Elastic, PairConstants, Touch};
+use crate::contact::{ContactGeometry, Elastic, PairConstants};
 use crate::law::{Context, Faults, Law};
 use crate::math::{Pace, Real, Vector};
 use crate::particles::Mixture;
@@ -116,20 +116,20 @@ impl FrictionLaw for Regularized {
     fn force<F: Real>(
         &self,
         pair: &PairConstants<F>,
-        touch: &Touch<F>,
+        geometry: &ContactGeometry<F>,
         sliding: &Sliding<F>,
         (): &(),
     ) -> (Vector<F>, ()) {
         let speed = sliding.velocity.norm();
-        let size = self.size(pair, touch.area(), speed, sliding.dt, sliding.elastic.force);
+        let size = self.size(pair, geometry.area(), speed, sliding.dt, sliding.elastic.force);
         let slips = F::of(0.0).below(speed);
         (Vector::select(slips, sliding.velocity * (size / speed), Vector::default()), ())
     }
 
     /// That of the stick force. Its dashpot K A Δt becomes critical at the step Δt = 1/√(K A/m_t): that of a spring of
     /// 4 K A.
-    fn pace(&self, _: &PairConstants, touch: &Touch, _: &Elastic, _: f64) -> Pace {
-        Pace::of_spring(4.0 * self.stiffness.si() * touch.area(), touch.sliding_mass())
+    fn pace(&self, _: &PairConstants, geometry: &ContactGeometry, _: &Elastic, _: f64) -> Pace {
+        Pace::of_spring(4.0 * self.stiffness.si() * geometry.area(), geometry.sliding_mass())
     }
 
     fn settle(&self, pair: &mut PairConstants, own: Option<&Mixture>) {
@@ -176,18 +176,19 @@ mod tests {
     fn it_points_along_the_slip() {
         let mut pair = PairConstants::default();
         LAW.settle(&mut pair, None);
-        let touch = Touch { overlap: 0.1, ..Touch::new([1.0; 2], [1.0; 2], [1e7; 2], 2.0) };
+        let geometry =
+            ContactGeometry { overlap: 0.1, ..ContactGeometry::new([1.0; 2], [1.0; 2], [1e7; 2], 2.0) };
         let elastic = Elastic { force: 1e9, ..Default::default() };
         let sliding =
             Sliding { velocity: Vec3::new(0.0, 3e-3, -4e-3), elastic, dt: 1e-2, ..Default::default() };
-        let (force, ()) = LAW.force(&pair, &touch, &sliding, &());
+        let (force, ()) = LAW.force(&pair, &geometry, &sliding, &());
         assert_near_vector!(
             force,
-            sliding.velocity * (1e7 * 1e-2 * touch.area()),
+            sliding.velocity * (1e7 * 1e-2 * geometry.area()),
             1e-14 * force.norm(),
             "in N"
         );
-        let (none, ()) = LAW.force(&pair, &touch, &Sliding { velocity: Vec3::ZERO, ..sliding }, &());
+        let (none, ()) = LAW.force(&pair, &geometry, &Sliding { velocity: Vec3::ZERO, ..sliding }, &());
         assert_eq!(none, Vec3::ZERO);
     }
 

@@ -62,16 +62,16 @@ impl TangentialSpring {
 }
 
 impl<F: Real> TangentialSpring<F> {
-    /// The force [N] after the contact has turned to `normal` and by `spin_angle` [rad] about it, relaxed
+    /// The force [N] after the contact has turned to `normal` and by `turn_about_normal` [rad] about it, relaxed
     /// where the stiffness [N/m] has fallen.
     #[inline]
-    pub(super) fn carried(&self, normal: Vector<F>, spin_angle: F, stiffness: F) -> Vector<F> {
+    pub(super) fn carried(&self, normal: Vector<F>, turn_about_normal: F, stiffness: F) -> Vector<F> {
         let zero = F::of(0.0);
         let before = self.force.norm_squared();
         if F::all(before.at_most(zero)) {
             return Vector::default();
         }
-        let turned = self.force.rejected_from(normal) + normal.cross(self.force) * spin_angle;
+        let turned = self.force.rejected_from(normal) + normal.cross(self.force) * turn_about_normal;
         let after = turned.norm_squared();
         let fell = stiffness.below(self.stiffness);
         let relaxed = F::select(fell, stiffness / self.stiffness, F::of(1.0));

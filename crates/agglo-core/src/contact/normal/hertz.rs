@@ -22,7 +22,7 @@
 //!
 //! # Compared with others
 //! The same elastic part as `hertz` of LIGGGHTS and `hertz/material` of LAMMPS. The contact radius is
-//! √(R* δ); the disc of [`Touch::area`] is twice as large as its circle.
+//! √(R* δ); the disc of [`ContactGeometry::area`] is twice as large as its circle.
 //!
 //! # In a scenario
 //! ```toml
@@ -36,18 +36,18 @@
 //! # Example
 //! ```
 //! # extern crate agglo_core as agglo;
-//! use agglo::contact::{PairConstants, Touch, normal::{Hertz, NormalLaw}};
+//! use agglo::contact::{PairConstants, ContactGeometry, normal::{Hertz, NormalLaw}};
 //! let pair = PairConstants { effective_modulus: 1e9, ..Default::default() };
-//! let touch = Touch { overlap: 1e-6, effective_radius: 1e-3, ..Default::default() };
+//! let geometry = ContactGeometry { overlap: 1e-6, effective_radius: 1e-3, ..Default::default() };
 //! let by_hand = 4.0 / 3.0 * 1e9 * (1e-3_f64).sqrt() * (1e-6_f64).powf(1.5);
-//! assert!((Hertz {}.force(&pair, &touch) / by_hand - 1.0).abs() < 1e-14);
+//! assert!((Hertz {}.force(&pair, &geometry) / by_hand - 1.0).abs() < 1e-14);
 //! ```
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::NormalLaw;
-use crate::contact::{PairConstants, Touch};
+use crate::contact::{ContactGeometry, PairConstants};
 use crate::law::{Law, Needs};
 use crate::math::{Pace, Real};
 use crate::particles::property::{POISSON_RATIO, YOUNGS_MODULUS};
@@ -68,17 +68,17 @@ impl Law for Hertz {
 
 impl NormalLaw for Hertz {
     #[inline]
-    fn force<F: Real>(&self, pair: &PairConstants<F>, touch: &Touch<F>) -> F {
-        F::of(2.0 / 3.0) * touch.overlap * self.tangent_stiffness(pair, touch)
+    fn force<F: Real>(&self, pair: &PairConstants<F>, geometry: &ContactGeometry<F>) -> F {
+        F::of(2.0 / 3.0) * geometry.overlap * self.tangent_stiffness(pair, geometry)
     }
 
-    fn energy(&self, pair: &PairConstants, touch: &Touch) -> f64 {
-        0.4 * touch.overlap * self.force(pair, touch)
+    fn energy(&self, pair: &PairConstants, geometry: &ContactGeometry) -> f64 {
+        0.4 * geometry.overlap * self.force(pair, geometry)
     }
 
     #[inline]
-    fn tangent_stiffness<F: Real>(&self, pair: &PairConstants<F>, touch: &Touch<F>) -> F {
-        F::of(2.0) * pair.effective_modulus * (touch.effective_radius * touch.overlap).sqrt()
+    fn tangent_stiffness<F: Real>(&self, pair: &PairConstants<F>, geometry: &ContactGeometry<F>) -> F {
+        F::of(2.0) * pair.effective_modulus * (geometry.effective_radius * geometry.overlap).sqrt()
     }
 
     #[inline]
@@ -116,7 +116,7 @@ mod tests {
             let effective_modulus = modulus / (2.0 * (1.0 - poisson * poisson));
             let rebound = HeadOn {
                 pair: PairConstants { effective_modulus, ..Default::default() },
-                touch: Touch::new([0.01; 2], [mass; 2], [0.0; 2], 0.02),
+                geometry: ContactGeometry::new([0.01; 2], [mass; 2], [0.0; 2], 0.02),
                 normal: &Normal::Hertz(Hertz {}),
                 damping: None,
                 speed: 20.0,

@@ -29,17 +29,17 @@
 //! # Example
 //! ```
 //! # extern crate agglo_core as agglo;
-//! use agglo::contact::{PairConstants, Touch, normal::{Hooke, NormalLaw}};
+//! use agglo::contact::{PairConstants, ContactGeometry, normal::{Hooke, NormalLaw}};
 //! let law = Hooke { stiffness: agglo::units::Quantity(1e3) };
-//! let touch = Touch { overlap: 1e-6, ..Default::default() };
-//! assert_eq!(law.force(&PairConstants::default(), &touch), 1e3 * 1e-6);
+//! let geometry = ContactGeometry { overlap: 1e-6, ..Default::default() };
+//! assert_eq!(law.force(&PairConstants::default(), &geometry), 1e3 * 1e-6);
 //! ```
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::NormalLaw;
-use crate::contact::{PairConstants, Touch};
+use crate::contact::{ContactGeometry, PairConstants};
 use crate::law::{Context, Faults, Law, note_if};
 use crate::math::Real;
 use crate::units::Stiffness;
@@ -65,16 +65,16 @@ impl Law for Hooke {
 
 impl NormalLaw for Hooke {
     #[inline]
-    fn force<F: Real>(&self, _: &PairConstants<F>, touch: &Touch<F>) -> F {
-        F::of(self.stiffness.si()) * touch.overlap
+    fn force<F: Real>(&self, _: &PairConstants<F>, geometry: &ContactGeometry<F>) -> F {
+        F::of(self.stiffness.si()) * geometry.overlap
     }
 
-    fn energy(&self, _: &PairConstants, touch: &Touch) -> f64 {
-        0.5 * self.stiffness.si() * touch.overlap * touch.overlap
+    fn energy(&self, _: &PairConstants, geometry: &ContactGeometry) -> f64 {
+        0.5 * self.stiffness.si() * geometry.overlap * geometry.overlap
     }
 
     #[inline]
-    fn tangent_stiffness<F: Real>(&self, _: &PairConstants<F>, _: &Touch<F>) -> F {
+    fn tangent_stiffness<F: Real>(&self, _: &PairConstants<F>, _: &ContactGeometry<F>) -> F {
         F::of(self.stiffness.si())
     }
 
@@ -96,7 +96,7 @@ mod tests {
     fn contact_lasts_half_a_period() {
         let rebound = HeadOn {
             pair: PairConstants::default(),
-            touch: Touch::new([1.0, 2.0], [2.0, 2.0], [0.0; 2], 3.0),
+            geometry: ContactGeometry::new([1.0, 2.0], [2.0, 2.0], [0.0; 2], 3.0),
             normal: &Normal::Hooke(Hooke { stiffness: Quantity(100.0) }),
             damping: None,
             speed: 0.3,

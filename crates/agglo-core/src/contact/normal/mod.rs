@@ -10,7 +10,7 @@ pub use hooke::Hooke;
 pub use law::NormalLaw;
 pub use strain_power::StrainPower;
 
-use super::{PairConstants, Touch};
+use super::{ContactGeometry, PairConstants};
 use crate::math::{Pace, Real};
 use crate::particles::Material;
 
@@ -26,24 +26,24 @@ family! {
 impl Normal {
     /// Repulsion [N].
     #[inline]
-    pub fn force<F: Real>(&self, pair: &PairConstants<F>, touch: &Touch<F>) -> F {
-        each_normal!(self, law => law.force(pair, touch))
+    pub fn force<F: Real>(&self, pair: &PairConstants<F>, geometry: &ContactGeometry<F>) -> F {
+        each_normal!(self, law => law.force(pair, geometry))
     }
 
     /// Energy stored [J]; the force is its slope over the overlap.
-    pub fn energy(&self, pair: &PairConstants, touch: &Touch) -> f64 {
-        each_normal!(self, law => law.energy(pair, touch))
+    pub fn energy(&self, pair: &PairConstants, geometry: &ContactGeometry) -> f64 {
+        each_normal!(self, law => law.energy(pair, geometry))
     }
 
     /// Slope of the force over the overlap [N/m].
     #[inline]
-    pub fn tangent_stiffness<F: Real>(&self, pair: &PairConstants<F>, touch: &Touch<F>) -> F {
-        each_normal!(self, law => law.tangent_stiffness(pair, touch))
+    pub fn tangent_stiffness<F: Real>(&self, pair: &PairConstants<F>, geometry: &ContactGeometry<F>) -> F {
+        each_normal!(self, law => law.tangent_stiffness(pair, geometry))
     }
 
     /// How fast a contact is that reaches this overlap.
-    pub fn pace(&self, pair: &PairConstants, touch: &Touch) -> Pace {
-        each_normal!(self, law => law.pace(pair, touch))
+    pub fn pace(&self, pair: &PairConstants, geometry: &ContactGeometry) -> Pace {
+        each_normal!(self, law => law.pace(pair, geometry))
     }
 
     /// How fast a wave crosses a grain of this radius [m], where a step must not outrun it either.
@@ -77,15 +77,15 @@ mod tests {
         let pair = PairConstants { effective_modulus: 3e9, ..Default::default() };
         for law in every_law() {
             for radii in [[1.0, 1.0], [1e-3, 4e-3], [5e-6, 1e-4]] {
-                let touch = |overlap| Touch {
+                let geometry = |overlap| ContactGeometry {
                     overlap,
-                    ..Touch::new(radii, [1.0, 2.0], [1e7, 3e7], radii[0] + radii[1])
+                    ..ContactGeometry::new(radii, [1.0, 2.0], [1e7, 3e7], radii[0] + radii[1])
                 };
                 for part in [1e-5, 1e-2, 0.2, 0.9] {
                     let at = part * radii[0];
-                    let force = |x| law.force(&pair, &touch(x));
-                    assert_slope(at, |x| law.energy(&pair, &touch(x)), force);
-                    assert_slope(at, force, |x| law.tangent_stiffness(&pair, &touch(x)));
+                    let force = |x| law.force(&pair, &geometry(x));
+                    assert_slope(at, |x| law.energy(&pair, &geometry(x)), force);
+                    assert_slope(at, force, |x| law.tangent_stiffness(&pair, &geometry(x)));
                 }
             }
         }
@@ -96,10 +96,13 @@ mod tests {
     fn edges_and_exponents() {
         let pair = PairConstants { effective_modulus: 3e9, ..Default::default() };
         for law in every_law() {
-            let touch = |overlap| Touch { overlap, ..Touch::new([1.0, 0.5], [1.0; 2], [1e7; 2], 1.5) };
-            assert_eq!([law.force(&pair, &touch(0.0)), law.energy(&pair, &touch(0.0))], [0.0, 0.0]);
-            assert_finite!(law.tangent_stiffness(&pair, &touch(0.0)));
-            let ratio = law.force(&pair, &touch(2e-9)) / law.force(&pair, &touch(1e-9));
+            let geometry = |overlap| ContactGeometry {
+                overlap,
+                ..ContactGeometry::new([1.0, 0.5], [1.0; 2], [1e7; 2], 1.5)
+            };
+            assert_eq!([law.force(&pair, &geometry(0.0)), law.energy(&pair, &geometry(0.0))], [0.0, 0.0]);
+            assert_finite!(law.tangent_stiffness(&pair, &geometry(0.0)));
+            let ratio = law.force(&pair, &geometry(2e-9)) / law.force(&pair, &geometry(1e-9));
             assert_near!(ratio.log2(), law.exponent(), 1e-6);
         }
     }

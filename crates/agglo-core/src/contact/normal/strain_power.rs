@@ -6,15 +6,15 @@
 //! ```
 //!
 //! # Source
-//! [A] T. I. Zohdi, Comput. Mech. 57, 465 (2016), eqs 11-15; A from eqs 64-69, see [`Touch::area`].
+//! [A] T. I. Zohdi, Comput. Mech. 57, 465 (2016), eqs 11-15; A from eqs 64-69, see [`ContactGeometry::area`].
 //!
 //! # Symbols
 //! | symbol | name in code      | unit | meaning                                                    |
 //! |--------|-------------------|------|------------------------------------------------------------|
-//! | K      | `touch.stiffness` | Pa   | mean of the grains' `contact_stiffness`, softened by heat  |
+//! | K      | `geometry.stiffness` | Pa   | mean of the grains' `contact_stiffness`, softened by heat  |
 //! | p      | `exponent`        | -    | power of the strain, > -1                                  |
-//! | ℰ      | `touch.strain()`  | -    | overlap over the sum of the radii                          |
-//! | A      | `touch.area()`    | m²   | disc in which the spheres cut each other                   |
+//! | ℰ      | `geometry.strain()`  | -    | overlap over the sum of the radii                          |
+//! | A      | `geometry.area()`    | m²   | disc in which the spheres cut each other                   |
 //!
 //! # Valid when
 //! The contact is a model of a soft coating or of crushed asperities; K is fitted, not a material's modulus.
@@ -38,10 +38,10 @@
 //! # Example
 //! ```
 //! # extern crate agglo_core as agglo;
-//! use agglo::contact::{PairConstants, Touch, normal::{NormalLaw, StrainPower}};
-//! let touch = Touch::new([1.0, 1.0], [1.0, 1.0], [1e7, 1e7], 1.8);
+//! use agglo::contact::{PairConstants, ContactGeometry, normal::{NormalLaw, StrainPower}};
+//! let geometry = ContactGeometry::new([1.0, 1.0], [1.0, 1.0], [1e7, 1e7], 1.8);
 //! let by_hand = 1e7 * 0.1 * 0.1 * std::f64::consts::PI * (1.0 - 0.81);
-//! let force = StrainPower { exponent: 2.0 }.force(&PairConstants::default(), &touch);
+//! let force = StrainPower { exponent: 2.0 }.force(&PairConstants::default(), &geometry);
 //! assert!((force / by_hand - 1.0).abs() < 1e-14);
 //! ```
 
@@ -49,7 +49,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::NormalLaw;
-use crate::contact::{PairConstants, Touch};
+use crate::contact::{ContactGeometry, PairConstants};
 use crate::law::{Context, Faults, Law, Needs};
 use crate::math::{Pace, Real};
 use crate::particles::Property;
@@ -88,27 +88,29 @@ impl Law for StrainPower {
 
 impl NormalLaw for StrainPower {
     #[inline]
-    fn force<F: Real>(&self, _: &PairConstants<F>, touch: &Touch<F>) -> F {
-        touch.stiffness * strain_power(touch.strain(), self.exponent) * touch.area()
+    fn force<F: Real>(&self, _: &PairConstants<F>, geometry: &ContactGeometry<F>) -> F {
+        geometry.stiffness * strain_power(geometry.strain(), self.exponent) * geometry.area()
     }
 
-    fn energy(&self, _: &PairConstants, touch: &Touch) -> f64 {
-        touch.stiffness * touch.strain_integral(self.exponent)
+    fn energy(&self, _: &PairConstants, geometry: &ContactGeometry) -> f64 {
+        geometry.stiffness * geometry.strain_integral(self.exponent)
     }
 
     /// Negative where a much smaller grain is nearly swallowed.
     #[inline]
-    fn tangent_stiffness<F: Real>(&self, _: &PairConstants<F>, touch: &Touch<F>) -> F {
-        let growth = F::of(self.exponent) * touch.area_over_overlap() + touch.area_slope();
-        touch.stiffness * strain_power(touch.strain(), self.exponent) * growth
+    fn tangent_stiffness<F: Real>(&self, _: &PairConstants<F>, geometry: &ContactGeometry<F>) -> F {
+        let growth = F::of(self.exponent) * geometry.area_over_overlap() + geometry.area_slope();
+        geometry.stiffness * strain_power(geometry.strain(), self.exponent) * growth
     }
 
     /// How fast the contact is at this overlap or on the way to it: that of unequal grains is stiffest before the
     /// smaller one is swallowed.
-    fn pace(&self, pair: &PairConstants, touch: &Touch) -> Pace {
-        let at = |part: f64| self.tangent_stiffness(pair, &Touch { overlap: part * touch.overlap, ..*touch });
+    fn pace(&self, pair: &PairConstants, geometry: &ContactGeometry) -> Pace {
+        let at = |part: f64| {
+            self.tangent_stiffness(pair, &ContactGeometry { overlap: part * geometry.overlap, ..*geometry })
+        };
         let stiffest = [1.0, 0.75, 0.5, 0.25].map(at).into_iter().fold(0.0, f64::max);
-        Pace::of_spring(stiffest, touch.effective_mass)
+        Pace::of_spring(stiffest, geometry.effective_mass)
     }
 
     /// The force grows like overlap^(p+1), since the area grows like the overlap.
@@ -126,13 +128,13 @@ mod tests {
     #[test]
     fn limit_near_touching() {
         let (radii, overlap) = ([0.05, 0.02], 1e-10);
-        let touch = Touch::new(radii, [1.0; 2], [2e7, 4e7], 0.07 - overlap);
+        let geometry = ContactGeometry::new(radii, [1.0; 2], [2e7, 4e7], 0.07 - overlap);
         let effective = 0.05 * 0.02 / 0.07;
-        let delta = touch.overlap;
+        let delta = geometry.overlap;
         let by_hand = 2.0 * std::f64::consts::PI * 3e7 * effective * delta.powi(3) / (0.07 * 0.07);
         let law = StrainPower { exponent: 2.0 };
-        assert_close!(law.force(&PairConstants::default(), &touch), by_hand, 1e-7, "in N");
-        let ratio = law.tangent_stiffness(&PairConstants::default(), &touch) * delta / by_hand;
+        assert_close!(law.force(&PairConstants::default(), &geometry), by_hand, 1e-7, "in N");
+        let ratio = law.tangent_stiffness(&PairConstants::default(), &geometry) * delta / by_hand;
         assert_near!(ratio, 3.0, 1e-6);
     }
 }

@@ -53,7 +53,7 @@ fn primaries(state: &MicroState) -> Vec<u32> {
     state.grown.iter().map(|grown| grown.primaries).collect()
 }
 
-/// The first collision comes after 1 mm at 4 m/s, 0.25 ms; the pair flies on at 8/13 m/s. All figures by hand.
+/// The first collision comes after 1 mm at 4 m/s, 0.25 ms; the pair flies on at 8/13 m/s. All quantities by hand.
 #[test]
 fn two_that_stick() {
     let microscale = microscale(STICKY, "event_driven");

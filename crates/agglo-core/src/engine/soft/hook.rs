@@ -126,7 +126,7 @@ impl Attached {
     pub fn supply(loads: &Loads, motion: &Motion<'_>, at: usize) -> Supply {
         let (force, torque) = (loads.force[at], loads.torque[at]);
         Supply {
-            power: force.dot(motion.velocity[at]) + torque.dot(motion.spin[at]),
+            power: force.dot(motion.velocity[at]) + torque.dot(motion.angular_velocity[at]),
             force,
             torque: motion.position[at].cross(force) + torque,
         }

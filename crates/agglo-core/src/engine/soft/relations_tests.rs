@@ -116,7 +116,7 @@ fn falling_in(grains: &mut Particles) {
     let mut stream = Stream::new(11, Purpose::Sampling, 0);
     for at in 0..grains.len() {
         grains.velocity[at] = grains.position[at] * -2e4 + stream.direction();
-        grains.spin[at] = Vec3::new(stream.normal(), stream.normal(), stream.normal()) * 1e4;
+        grains.angular_velocity[at] = Vec3::new(stream.normal(), stream.normal(), stream.normal()) * 1e4;
     }
 }
 
@@ -202,7 +202,7 @@ fn kinds(simulation: &Simulation) -> Vec<Kind> {
     let mut kinds = vec![
         by_grain("position", "m", &|at| grains.position[at]),
         by_grain("velocity", "m/s", &|at| grains.velocity[at]),
-        by_grain("spin", "rad/s", &|at| grains.spin[at]),
+        by_grain("angular_velocity", "rad/s", &|at| grains.angular_velocity[at]),
         by_grain("mass", "kg", &|at| scalar(grains.mass[at])),
         by_grain("inertial mass", "kg", &|at| scalar(system.inertial_mass[at])),
         by_grain("charge", "C", &|at| scalar(grains.charge[at])),
@@ -445,8 +445,8 @@ fn lists_built_always_or_never_give_the_same_bits() {
     }
 }
 
-/// Grains that came to rest before the clock starts have the velocities and spins that the scenario gave to each by its
-/// name, wherever sorting has put it.
+/// Grains that came to rest before the clock starts have the linear and angular velocities that the scenario gave to
+/// each by its name, wherever sorting has put it.
 #[test]
 fn a_relaxed_start_gives_each_grain_its_own_motion() {
     let scenario = scenario(&format!("{VERLET}{RELAXED}"));
@@ -463,13 +463,17 @@ fn a_relaxed_start_gives_each_grain_its_own_motion() {
     assert!(at_home < 10, "{at_home} of 60 grains stand where they were placed");
     for at in 0..grains.len() {
         let id = grains.id[at] as usize;
-        let (velocity, spin) = (placed.velocity[id], placed.spin[id]);
+        let (velocity, angular_velocity) = (placed.velocity[id], placed.angular_velocity[id]);
         assert!(
             grains.velocity[at] == velocity,
             "grain {id}: {:?} m/s, expected {velocity:?}",
             grains.velocity[at]
         );
-        assert!(grains.spin[at] == spin, "grain {id}: {:?} rad/s, expected {spin:?}", grains.spin[at]);
+        assert!(
+            grains.angular_velocity[at] == angular_velocity,
+            "grain {id}: {:?} rad/s, expected {angular_velocity:?}",
+            grains.angular_velocity[at]
+        );
         assert!(grains.mass[at] == placed.mass[id], "grain {id}: {:e} kg", grains.mass[at]);
     }
 }

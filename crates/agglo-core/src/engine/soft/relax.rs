@@ -93,15 +93,15 @@ fn rested(
     // Names are 0, 1, 2 ..., in whatever order.
     let mut motions = vec![(Vec3::ZERO, Vec3::ZERO); still.len()];
     for (at, &id) in still.id.iter().enumerate() {
-        motions[id as usize] = (still.velocity[at], still.spin[at]);
+        motions[id as usize] = (still.velocity[at], still.angular_velocity[at]);
     }
     still.velocity.fill(Vec3::ZERO);
-    still.spin.fill(Vec3::ZERO);
+    still.angular_velocity.fill(Vec3::ZERO);
     let mut simulation = Simulation::with(&quiet, start);
     settle(&mut simulation, relaxation, watch)?;
     let grains = &mut simulation.system.grains;
     for at in 0..grains.len() {
-        (grains.velocity[at], grains.spin[at]) = motions[grains.id[at] as usize];
+        (grains.velocity[at], grains.angular_velocity[at]) = motions[grains.id[at] as usize];
     }
     Ok(simulation.restarted(settings))
 }
@@ -127,7 +127,7 @@ fn settle(
         simulation.step()?;
         let kept = (-simulation.clock().last_step / damping_time).exp();
         let grains = &mut simulation.system.grains;
-        grains.velocity.iter_mut().chain(&mut grains.spin).for_each(|motion| *motion *= kept);
+        grains.velocity.iter_mut().chain(&mut grains.angular_velocity).for_each(|motion| *motion *= kept);
     }
 }
 

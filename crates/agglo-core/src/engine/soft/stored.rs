@@ -16,11 +16,11 @@ impl Simulation {
         let system = &self.system;
         let contact = system.with_contacts(contact_energy);
         let grains = &system.grains;
-        let (kinetic, spin) = self.sum(
+        let (kinetic, rotational) = self.sum(
             |at| {
                 (
                     0.5 * system.inertial_mass[at] * grains.velocity[at].norm_squared(),
-                    0.5 * grains.inertia(at) * grains.spin[at].norm_squared(),
+                    0.5 * grains.inertia(at) * grains.angular_velocity[at].norm_squared(),
                 )
             },
             |a, b| (a.0 + b.0, a.1 + b.1),
@@ -28,7 +28,7 @@ impl Simulation {
         );
         Stored {
             kinetic,
-            spin,
+            rotational,
             elastic: contact.normal,
             tangential_spring: system.spring_energy(),
             bonds: contact.bond + system.network.energy(grains),
@@ -45,7 +45,8 @@ impl Simulation {
         self.sum(
             |at| {
                 let linear = grains.velocity[at] * system.inertial_mass[at];
-                let angular = grains.position[at].cross(linear) + grains.spin[at] * grains.inertia(at);
+                let angular =
+                    grains.position[at].cross(linear) + grains.angular_velocity[at] * grains.inertia(at);
                 Momentum { linear, angular }
             },
             |a, b| Momentum { linear: a.linear + b.linear, angular: a.angular + b.angular },

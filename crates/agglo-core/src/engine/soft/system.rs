@@ -26,7 +26,7 @@ pub struct Trial {
     /// Velocities [m/s].
     pub velocity: Vec<Vec3>,
     /// Angular velocities [rad/s].
-    pub spin: Vec<Vec3>,
+    pub angular_velocity: Vec<Vec3>,
     /// Loads at this motion.
     pub loads: Loads,
     /// Rates at this motion.
@@ -73,7 +73,7 @@ impl System {
         let trial = Trial {
             position: grains.position.clone(),
             velocity: grains.velocity.clone(),
-            spin: grains.spin.clone(),
+            angular_velocity: grains.angular_velocity.clone(),
             loads: Loads::none(n),
             ..Trial::default()
         };
@@ -122,7 +122,11 @@ impl System {
     /// The committed motion.
     pub fn motion(&self) -> Motion<'_> {
         let grains = &self.grains;
-        Motion { position: &grains.position, velocity: &grains.velocity, spin: &grains.spin }
+        Motion {
+            position: &grains.position,
+            velocity: &grains.velocity,
+            angular_velocity: &grains.angular_velocity,
+        }
     }
 
     /// Evaluates all loads and rates at the trial motion, at the end of a step of `dt` [s] that ends at `time` [s].
@@ -134,8 +138,16 @@ impl System {
     fn evaluate_after(&mut self, elapsed: f64, time: f64, dt: f64) {
         self.bring_lists_up_to_date();
         let Self { grains, laws, network, contacts, list, near, trial, hook, .. } = self;
-        let now = Motion { position: &trial.position, velocity: &trial.velocity, spin: &trial.spin };
-        let before = Motion { position: &grains.position, velocity: &grains.velocity, spin: &grains.spin };
+        let now = Motion {
+            position: &trial.position,
+            velocity: &trial.velocity,
+            angular_velocity: &trial.angular_velocity,
+        };
+        let before = Motion {
+            position: &grains.position,
+            velocity: &grains.velocity,
+            angular_velocity: &grains.angular_velocity,
+        };
         let world = ContactWorld {
             grains,
             laws: laws.contact.as_ref(),
@@ -207,7 +219,7 @@ impl System {
         let Self { grains, trial, .. } = self;
         std::mem::swap(&mut grains.position, &mut trial.position);
         std::mem::swap(&mut grains.velocity, &mut trial.velocity);
-        std::mem::swap(&mut grains.spin, &mut trial.spin);
+        std::mem::swap(&mut grains.angular_velocity, &mut trial.angular_velocity);
         std::mem::swap(&mut self.loads, &mut trial.loads);
         self.rates = trial.rates;
         self.network.commit();
@@ -231,7 +243,7 @@ impl System {
     pub fn list_neighbors(&mut self) {
         self.trial.position.clone_from(&self.grains.position);
         self.trial.velocity.clone_from(&self.grains.velocity);
-        self.trial.spin.clone_from(&self.grains.spin);
+        self.trial.angular_velocity.clone_from(&self.grains.angular_velocity);
         self.bring_lists_up_to_date();
     }
 
@@ -248,8 +260,8 @@ impl System {
 
     /// The same at the trial motion.
     pub fn with_trial_contacts<R>(&self, look: impl FnOnce(&ContactWorld<'_>) -> R) -> R {
-        let Trial { position, velocity, spin, .. } = &self.trial;
-        self.with_contacts_at(Motion { position, velocity, spin }, look)
+        let Trial { position, velocity, angular_velocity, .. } = &self.trial;
+        self.with_contacts_at(Motion { position, velocity, angular_velocity }, look)
     }
 
     fn with_contacts_at<R>(&self, motion: Motion<'_>, look: impl FnOnce(&ContactWorld<'_>) -> R) -> R {
@@ -275,8 +287,8 @@ impl System {
             let [i, j] = ends.map(|grain| grain as usize);
             loads.force[i] -= load.force;
             loads.force[j] += load.force;
-            loads.torque[i] -= load.moment_i;
-            loads.torque[j] -= load.moment_j;
+            loads.torque[i] -= load.torque_i;
+            loads.torque[j] -= load.torque_j;
             rates.bond_damping -= load.damping_power;
         })
     }
@@ -452,13 +464,13 @@ impl Gather<'_> {
         for &pair in self.list.joined(grain) {
             if let Some(load) = self.contacts.load(pair as usize) {
                 force -= load.force;
-                torque += load.couple * load.arms[1];
+                torque += load.couple * load.lever_arms[1];
             }
         }
         for pair in self.list.owned(grain) {
             if let Some(load) = self.contacts.load(pair) {
                 force += load.force;
-                torque += load.couple * load.arms[0];
+                torque += load.couple * load.lever_arms[0];
             }
         }
         (force, torque)

@@ -1,4 +1,5 @@
-//! What a contact and a bond remember turns with the pair about its axis: by the mean of both spins, in space.
+//! What a contact and a bond remember turns with the pair about its axis: by the mean of both angular velocities, in
+//! space.
 
 use super::Simulation;
 use crate::contact::friction::TangentialSpring;
@@ -41,7 +42,7 @@ fn memory_turns_with_the_mean_of_both_spins() {
     let scenario = Scenario::from_toml(HEAVY).unwrap_or_else(|faults| panic!("{faults}"));
     let mut grains = crate::testing::place(&scenario).unwrap();
     // 30 and 10 rad/s about the axis: after 1000 steps of 50 us the mean has turned by 1 rad.
-    grains.spin = vec![Vec3::AXES[0] * 30.0, Vec3::AXES[0] * 10.0];
+    grains.angular_velocity = vec![Vec3::AXES[0] * 30.0, Vec3::AXES[0] * 10.0];
     let started = Simulation::start(&scenario, grains).unwrap_or_else(|error| panic!("{error}"));
     let mut state = started.state();
     let [y, z] = [Vec3::AXES[1], Vec3::AXES[2]];

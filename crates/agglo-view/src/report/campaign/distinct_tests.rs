@@ -1,10 +1,10 @@
-//! Charts and tables of a search and of studies: from files of distinct figures, back by the names of series and columns.
+//! Charts and tables of a search and of studies: from files of distinct quantities, back by the names of series and columns.
 
 use std::fs;
 
 use super::*;
 use crate::chart::{Axis, Bars, Chart, Curves, Drawn, Place, Reference, Spread};
-use crate::report::Figures;
+use crate::report::QuantityTable;
 
 /// What is to be large, so that each cost has another sign than its value, with a limit.
 const SEARCH: &str = "version = 1\nseed = 5\nbase.template = \"reacting\"\n[[objectives]]\nmaximize = \"n_f\"\n\
@@ -179,14 +179,14 @@ fn parallel_axes_stand_under_their_names() {
     assert_eq!(pairs.words, ["v_m_s from 21 to 25", "hardness_Pa from 101 to 105"]);
 }
 
-fn table<'a>(report: &'a Report, title: &str) -> &'a Figures {
+fn table<'a>(report: &'a Report, title: &str) -> &'a QuantityTable {
     let titles: Vec<&str> = report.tables.iter().map(|table| table.title.as_str()).collect();
     let found = report.tables.iter().find(|table| table.title.contains(title));
     found.unwrap_or_else(|| panic!("no table {title:?} among {titles:?}"))
 }
 
 /// Holds a row of a table to what stands under each of its heads.
-fn assert_row(table: &Figures, row: usize, wanted: &[(&str, &str)]) {
+fn assert_row(table: &QuantityTable, row: usize, wanted: &[(&str, &str)]) {
     let found: Vec<(&str, &str)> =
         table.head.iter().map(String::as_str).zip(table.rows[row].iter().map(String::as_str)).collect();
     assert_eq!(found, wanted, "row {row} of {:?}", table.title);
@@ -201,7 +201,7 @@ fn parameters_of_the_best_stand_under_their_heads() {
     assert_row(table, 1, &[("rank", "2"), ("evaluation", "11"), ("v_m_s", "22"), ("hardness_Pa", "102")]);
 }
 
-/// The first keeps the limit when it is run once more, which is what counts; the second misses it. The means of figures are
+/// The first keeps the limit when it is run once more, which is what counts; the second misses it. The means of quantities are
 /// those of the evaluation.
 #[test]
 fn outcomes_of_the_best_stand_under_their_heads() {

@@ -93,7 +93,7 @@ fn each_target(sheet: &Sheet, draw: fn(&Sheet, &str) -> Option<Chart>) -> Vec<Ch
     charts.collect()
 }
 
-/// A chart of bars for each parameter; its words have their figures.
+/// A chart of bars for each parameter; its words have their quantities.
 fn chart(sheet: &Sheet, title: String, caption: String, axis: &str, series: Vec<Bar>) -> Option<Chart> {
     let names = sheet.words("parameter")?.into_iter().map(str::to_owned).collect();
     let bars = Bars { label: "parameter".to_owned(), names, axis: Axis::new(axis, ""), series };
@@ -105,10 +105,11 @@ fn bar(sheet: &Sheet, name: &str, column: &str, spread: Spread) -> Option<Bar> {
 }
 
 fn said(bars: &Bars) -> Vec<String> {
-    let figure = |value: &f64| if value.is_finite() { format!("{value:.4}") } else { "not known".to_owned() };
+    let quantity =
+        |value: &f64| if value.is_finite() { format!("{value:.4}") } else { "not known".to_owned() };
     let of = |one: &Bar| {
         let pairs =
-            bars.names.iter().zip(&one.values).map(|(name, value)| format!("{name} {}", figure(value)));
+            bars.names.iter().zip(&one.values).map(|(name, value)| format!("{name} {}", quantity(value)));
         format!("{}: {}", one.name, pairs.collect::<Vec<_>>().join(", "))
     };
     bars.series.iter().map(of).collect()

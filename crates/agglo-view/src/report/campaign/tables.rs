@@ -1,7 +1,7 @@
 //! Tables of searches and studies.
 
 use super::folder::Folder;
-use crate::report::Figures;
+use crate::report::QuantityTable;
 use agglo::folder::CampaignFolder;
 use agglo::folder::names::{
     BEST, BEST_RUN, CAMPAIGN, DIFFERENCES, EVALUATIONS, FAILURES, REFINEMENT, SCENARIO, SENSITIVITY,
@@ -13,7 +13,7 @@ use agglo::text::column;
 const MOST_FAILURES: usize = 50;
 
 /// The tables; those without data are left out.
-pub fn tables(folder: &Folder) -> Vec<Figures> {
+pub fn tables(folder: &Folder) -> Vec<QuantityTable> {
     let best = [parameters(folder), outcomes(folder)];
     let studied = [
         whole(&folder.refinement, "What refinement says", &format!("From {REFINEMENT}.")),
@@ -27,12 +27,12 @@ pub fn tables(folder: &Folder) -> Vec<Figures> {
         ),
         whole(&folder.sensitivity, "Sensitivity", &format!("From {SENSITIVITY}.")),
     ];
-    let tables = best.into_iter().chain(studied).chain([figures(folder), failures(folder)]);
+    let tables = best.into_iter().chain(studied).chain([quantities(folder), failures(folder)]);
     tables.flatten().chain([again(folder)]).collect()
 }
 
 /// The parameters of the best candidates ([B], tables 1 and 2).
-fn parameters(folder: &Folder) -> Option<Figures> {
+fn parameters(folder: &Folder) -> Option<QuantityTable> {
     if folder.is_study() {
         return None;
     }
@@ -46,7 +46,7 @@ fn parameters(folder: &Folder) -> Option<Figures> {
 }
 
 /// What the best candidates come to ([B], table 3).
-fn outcomes(folder: &Folder) -> Option<Figures> {
+fn outcomes(folder: &Folder) -> Option<QuantityTable> {
     if folder.is_study() {
         return None;
     }
@@ -120,13 +120,13 @@ fn negated(entry: &str) -> String {
     }
 }
 
-fn whole(sheet: &Sheet, title: &str, about: &str) -> Option<Figures> {
+fn whole(sheet: &Sheet, title: &str, about: &str) -> Option<QuantityTable> {
     let columns: Vec<&str> = sheet.names.iter().map(String::as_str).collect();
     picked(sheet, &columns, title, about)
 }
 
 /// Some columns of a sheet, before the charts.
-fn picked(sheet: &Sheet, columns: &[&str], title: &str, about: &str) -> Option<Figures> {
+fn picked(sheet: &Sheet, columns: &[&str], title: &str, about: &str) -> Option<QuantityTable> {
     let says_something = |at: &usize| sheet.rows.iter().any(|row| !row[*at].is_empty());
     let places: Vec<usize> =
         columns.iter().filter_map(|name| sheet.place(name)).filter(says_something).collect();
@@ -137,7 +137,7 @@ fn picked(sheet: &Sheet, columns: &[&str], title: &str, about: &str) -> Option<F
     let row = |row: usize| columns.iter().map(|column| column[row].clone()).collect();
     let rows = (0..sheet.rows.len()).map(row).collect();
     let head = places.iter().map(|&at| sheet.names[at].clone()).collect();
-    Some(Figures { title: title.to_owned(), about: about.to_owned(), is_first: true, head, rows })
+    Some(QuantityTable { title: title.to_owned(), about: about.to_owned(), is_first: true, head, rows })
 }
 
 /// A column as people read it: numbers with enough digits to be told apart, words and counts as they are.
@@ -155,13 +155,13 @@ fn shown(sheet: &Sheet, at: usize) -> Vec<String> {
     sheet.rows.iter().map(&mut text).collect()
 }
 
-fn figures(folder: &Folder) -> Option<Figures> {
+fn quantities(folder: &Folder) -> Option<QuantityTable> {
     let rows =
-        folder.summary.as_ref()?.table().into_iter().map(|(what, figure)| vec![what, figure]).collect();
-    Some(Figures { title: "Figures".to_owned(), rows, ..Figures::default() })
+        folder.summary.as_ref()?.table().into_iter().map(|(what, quantity)| vec![what, quantity]).collect();
+    Some(QuantityTable { title: "Quantities".to_owned(), rows, ..QuantityTable::default() })
 }
 
-fn failures(folder: &Folder) -> Option<Figures> {
+fn failures(folder: &Folder) -> Option<QuantityTable> {
     let sheet = &folder.failures;
     if sheet.rows.is_empty() {
         return None;
@@ -172,17 +172,17 @@ fn failures(folder: &Folder) -> Option<Figures> {
     } else {
         String::new()
     };
-    Some(Figures {
+    Some(QuantityTable {
         title: "Warnings: candidates that could not be run".to_owned(),
         about,
         head: sheet.names.clone(),
         rows: sheet.rows.iter().take(MOST_FAILURES).cloned().collect(),
-        ..Figures::default()
+        ..QuantityTable::default()
     })
 }
 
 /// How to run it again: version, seed, command.
-fn again(folder: &Folder) -> Figures {
+fn again(folder: &Folder) -> QuantityTable {
     let mut rows = Vec::new();
     let mut row = |what: &str, value: String| rows.push(vec![what.to_owned(), value]);
     if let Some(summary) = &folder.summary {
@@ -196,12 +196,12 @@ fn again(folder: &Folder) -> Figures {
     if CampaignFolder::at(&folder.root).best_run().scenario().is_file() {
         row("command of the best one's run", format!("agglo run {BEST_RUN}/{SCENARIO} -o best-again"));
     }
-    Figures {
+    QuantityTable {
         title: "To run it again".to_owned(),
         about: "In this folder. The same version, files and seed give the same numbers, to the last bit, on the same \
                 machine and any number of threads."
             .to_owned(),
         rows,
-        ..Figures::default()
+        ..QuantityTable::default()
     }
 }

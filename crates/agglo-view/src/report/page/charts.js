@@ -1,4 +1,4 @@
-// Charts by plotly: hover for figures, drag to zoom, double click to go back, click a name to hide its line.
+// Charts by plotly: hover for values, drag to zoom, double click to go back, click a name to hide its line.
 
 const LINES = REPORT.palette.lines.map(([color, dashes, width]) => ({
   color, width, dash: dashes.split(" ").filter(Boolean).map((part) => `${part}px`).join(",") || "solid",

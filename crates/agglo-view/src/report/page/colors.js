@@ -42,8 +42,8 @@ function css(color) {
   return `rgb(${color.map((part) => Math.round(255 * part)).join(" ")})`;
 }
 
-// A figure in few digits, for people: 0.00123 -> "1.23e-3".
-function figure(value) {
+// A quantity in few digits, for people: 0.00123 -> "1.23e-3".
+function quantity(value) {
   if (!Number.isFinite(value)) return "none";
   const size = Math.abs(value);
   if (size !== 0 && (size < 1e-3 || size >= 1e5)) return value.toExponential(2).replace("e+", "e");

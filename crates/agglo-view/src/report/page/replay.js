@@ -154,7 +154,7 @@ class Replay {
     if (grain < 0) rows.push(["state", this.whyAbsent(this.chosen)]);
     for (const { name, label, unit } of grain < 0 ? [] : this.plan.columns) {
       const values = this.frames.values(this.frame, name);
-      if (values && name !== "id") rows.push([label, `${figure(values[grain])} ${unit}`.trim()]);
+      if (values && name !== "id") rows.push([label, `${quantity(values[grain])} ${unit}`.trim()]);
     }
     list.replaceChildren(...rows.flatMap(([what, how]) => [element("dt", what), element("dd", how)]));
   }
@@ -189,7 +189,7 @@ class Replay {
     const bar = element("i", "");
     const stops = Array.from({ length: 11 }, (_, k) => css(mapped(map, k / 10)));
     bar.style.background = `linear-gradient(to right, ${stops.join(",")})`;
-    legend.append(element("b", figure(low)), bar, element("b", figure(high)));
+    legend.append(element("b", quantity(low)), bar, element("b", quantity(high)));
   }
 
   // The colors of the first names; there are more names than colors, and these come again.

@@ -1,4 +1,4 @@
-//! Tables, summary and frames of hard spheres: from a state of distinct figures through the run's own path, and back by the
+//! Tables, summary and frames of hard spheres: from a state of distinct quantities through the run's own path, and back by the
 //! names of the columns.
 
 use std::f64::consts::TAU;
@@ -13,7 +13,7 @@ use crate::impact::ImpactEnergy;
 use crate::ledger::CollisionFlows;
 use crate::math::Vec3;
 use crate::record::frames::{FieldValues, Frame};
-use crate::run::distinct::{Named, assert_figures, assert_table, tables};
+use crate::run::distinct::{Named, assert_quantities, assert_table, tables};
 use crate::run::frames::FrameLists;
 
 /// Round-off: sums of 3 grains and differences of a few energies.
@@ -281,7 +281,7 @@ fn a_row_is_remembered_for_the_next() {
 }
 
 #[test]
-fn figures_of_hard_spheres_stand_under_their_keys() {
+fn quantities_of_hard_spheres_stand_under_their_keys() {
     let Summary::Hard(summary) = distinct().summary(&scenario(), 7.25) else { panic!("of hard spheres") };
     let energy = energies().map(|(name, joule)| (format!("energy.{name}"), joule));
     let mut wanted = growth(false);
@@ -330,17 +330,17 @@ fn figures_of_hard_spheres_stand_under_their_keys() {
         "nothing cools"
     );
     assert_eq!((summary.run.title.as_str(), summary.run.threads), ("distinct", rayon::current_num_threads()));
-    // Warnings of laws are no figures of the state.
+    // Warnings of laws are no quantities of the state.
     tree["warnings"].as_object_mut().unwrap().retain(|text, _| ["one", "two"].contains(&text.as_str()));
-    assert_figures("summary.json", &tree, &wanted, &["threads", "grains", "tc_bounces"], ROUND_OFF);
+    assert_quantities("summary.json", &tree, &wanted, &["threads", "grains", "tc_bounces"], ROUND_OFF);
 }
 
-/// What is printed at the end, each row with its own figures.
+/// What is printed at the end, each row with its own quantities.
 #[test]
-fn rows_of_the_closing_table_have_their_own_figures() {
+fn rows_of_the_closing_table_have_their_own_quantities() {
     let Summary::Hard(summary) = distinct().summary(&scenario(), 7.25) else { panic!("of hard spheres") };
     let table = summary.table();
-    let figure = |what: &str| table.iter().find(|(known, _)| known == what).unwrap().1.as_str();
+    let quantity = |what: &str| table.iter().find(|(known, _)| known == what).unwrap().1.as_str();
     let wanted = [
         ("simulated time", "500 ms in 71 steps"),
         ("grains", "3 left of 10"),
@@ -351,7 +351,7 @@ fn rows_of_the_closing_table_have_their_own_figures() {
         ("temperature", "323.1 K in the mean, 290 K to 420 K"),
     ];
     for (what, due) in wanted {
-        assert_eq!(figure(what), due, "row {what}: found on the left, due on the right");
+        assert_eq!(quantity(what), due, "row {what}: found on the left, due on the right");
     }
 }
 

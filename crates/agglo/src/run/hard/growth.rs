@@ -1,4 +1,4 @@
-//! How far the grains have grown: figures of one moment.
+//! How far the grains have grown: quantities of one moment.
 //!
 //! # Equation
 //! ```text
@@ -18,7 +18,7 @@
 //! | θ      | `granular_temperature` | m²/s² | number mean about the center of mass's velocity V     |
 //!
 //! # Valid when
-//! There is at least one grain; without any, all figures are 0.
+//! There is at least one grain; without any, all quantities are 0.
 //!
 //! # Compared with others
 //! [B] starts from equal spheres, where n_f is the number of primaries of the mean sphere; with scattered sizes it is
@@ -48,7 +48,7 @@
 use crate::engine::hard::Snapshot;
 use crate::math::Vec3;
 
-/// Figures of the grains at one moment.
+/// Quantities of the grains at one moment.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Growth {
     /// How many grains.
@@ -86,7 +86,7 @@ pub struct Growth {
 }
 
 impl Growth {
-    /// Takes the figures.
+    /// Takes the quantities.
     pub fn of(now: &Snapshot) -> Self {
         let grains = &now.grains;
         let Some(largest) = largest_of(&grains.radius) else { return Self::default() };
@@ -149,7 +149,7 @@ mod tests {
 
     /// Three grains by hand; numbers are small integers, so that sums carry no rounding but that of thirds.
     #[test]
-    fn figures_by_hand() {
+    fn quantities_by_hand() {
         let rows = [
             (1.0, 1.0, 100.0, [4.0, 0.0, 0.0], 1),
             (3.0, 2.0, 400.0, [1.0, 0.0, 3.0], 7),

@@ -1,15 +1,15 @@
-//! Runs of hard spheres: their tables, frames and figures.
+//! Runs of hard spheres: their tables, frames and quantities.
 
-mod figures;
 mod growth;
 mod now;
 pub(super) mod panels;
+mod quantities;
 mod scales;
 mod summary;
 pub(super) mod tables;
 
-pub use figures::{CountFigures, GrowthFigures, MotionFigures, RunFigures, ScaleFigures};
 pub use growth::Growth;
+pub use quantities::{CountQuantities, GrowthQuantities, MotionQuantities, RunQuantities, ScaleQuantities};
 pub use summary::HardSummary;
 
 use serde::{Deserialize, Serialize};

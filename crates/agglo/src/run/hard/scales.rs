@@ -1,4 +1,4 @@
-//! How far a run of hard spheres is from where its models end: figures of its grains at the end.
+//! How far a run of hard spheres is from where its models end: quantities of its grains at the end.
 
 use crate::acoustics::Medium;
 use crate::engine::hard::Snapshot;
@@ -8,7 +8,7 @@ use crate::measure::biot_number;
 use crate::particles::Material;
 use crate::scenario::Scenario;
 
-/// Figures that say whether models hold; those that cannot be had are left out.
+/// Quantities that say whether models hold; those that cannot be had are left out.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Scales {
     /// Radius [m] at which the largest grain's own gravity would matter ([B] 4.16).
@@ -20,11 +20,11 @@ pub struct Scales {
 }
 
 impl Scales {
-    /// Takes the figures; `largest` is the place of the largest grain in the snapshot.
+    /// Takes the quantities; `largest` is the place of the largest grain in the snapshot.
     pub fn of(scenario: &Scenario, now: &Snapshot, largest: usize) -> Self {
         let materials: Vec<&Material> = scenario.materials.values().collect();
         let places = 0..now.grains.len();
-        let most = |figures: &mut dyn Iterator<Item = f64>| figures.reduce(f64::max);
+        let most = |quantities: &mut dyn Iterator<Item = f64>| quantities.reduce(f64::max);
         let medium = (scenario.medium != Medium::default()).then_some(&scenario.medium);
         let reynolds = |at: usize, medium: &Medium| {
             medium.reynolds_number(now.grains.radius[at], now.grains.velocity[at].norm())
@@ -94,7 +94,7 @@ convection = "20 W/(m2 K)"
 
     /// Bi = (20 + 4 σ 0.5 1e9) 6e-3/(3 2), the other one is colder; b = (3/2000) sqrt(1e6/(2 π 6.6743e-11)) = 73.2 km.
     #[test]
-    fn figures_by_hand() {
+    fn quantities_by_hand() {
         let scales = Scales::of(&scenario(""), &grains(), 2);
         assert_close!(scales.biot.unwrap(), 0.133_407_488_38, 1e-12);
         let radius = 1.5e-3 * (1e6 / (std::f64::consts::TAU * 6.6743e-11)).sqrt();
@@ -118,7 +118,7 @@ convection = "20 W/(m2 K)"
     }
 
     #[test]
-    fn no_grains_have_no_figures() {
+    fn no_grains_have_no_quantities() {
         assert_eq!(Scales::of(&scenario(""), &Snapshot::default(), 0), Scales::default());
     }
 }

@@ -1,4 +1,4 @@
-//! The table of sizes and the figures of scale, from the state of distinct figures.
+//! The table of sizes and the quantities of scale, from the state of distinct quantities.
 
 use super::distinct_tests::{distinct, scenario};
 use super::*;
@@ -52,7 +52,7 @@ fn assert_row<S>(table: &'static Table<S>, row: &S, wanted: &[Named<'_>]) {
     assert_columns(table.file, &names, &values, wanted, 0.0);
 }
 
-/// Figures that are all different, each under its own name and bounds in their order.
+/// Quantities that are all different, each under its own name and bounds in their order.
 #[test]
 fn values_stand_under_their_columns() {
     let kernel = KernelRow {

@@ -12,8 +12,10 @@ use crate::run::summary::{time_row, wall_row, warnings_row};
 use crate::scenario::Scenario;
 use crate::text::readable;
 
-use super::figures::{CountFigures, GrowthFigures, MotionFigures, RunFigures, ScaleFigures};
 use super::growth::Growth;
+use super::quantities::{
+    CountQuantities, GrowthQuantities, MotionQuantities, RunQuantities, ScaleQuantities,
+};
 use super::scales::Scales;
 
 /// Part of all impacts that bounces made elastic may be before it is said that they can matter.
@@ -25,24 +27,24 @@ const TC_MATTERS: &str = "bounces made elastic against inelastic collapse are mo
                              than 0.1 % of the energy that impacts took: the gas is too dense or loses too much for hard \
                              spheres; see whether another engine.event_driven.contact_duration changes the answer";
 
-/// What a run of hard spheres came to; `summary.json` holds the same. Figures that cannot be had are null.
+/// What a run of hard spheres came to; `summary.json` holds the same. Quantities that cannot be had are null.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct HardSummary {
     /// What was run, for how long and how.
     #[serde(flatten)]
-    pub run: RunFigures,
+    pub run: RunQuantities,
     /// How far the grains have grown.
     #[serde(flatten)]
-    pub growth: GrowthFigures,
+    pub growth: GrowthQuantities,
     /// How far the models are from their limits.
     #[serde(flatten)]
-    pub scales: ScaleFigures,
+    pub scales: ScaleQuantities,
     /// What happened.
     #[serde(flatten)]
-    pub counts: CountFigures,
+    pub counts: CountQuantities,
     /// How warm and how fast the grains are at the end.
     #[serde(flatten)]
-    pub motion: MotionFigures,
+    pub motion: MotionQuantities,
     /// The ledger of energy.
     pub energy: Balance,
     /// Momentum that walls do not explain, over the grains' momenta.
@@ -65,11 +67,11 @@ impl HardSummary {
         let scales = Scales::of(scenario, &now, growth.largest);
         let (grains, state) = (growth.grains as u64, &simulation.system().state);
         Self {
-            run: RunFigures::of(scenario, simulation, grains, (steps_are, wall_s)),
-            growth: GrowthFigures::of(&growth, simulation.grains_at_start(), mean_radius_start_m),
-            scales: ScaleFigures::of(&scales, growth.largest_radius),
-            counts: CountFigures::of(&state.counts, simulation.clock().step, state.ledger.flows.kept),
-            motion: MotionFigures::of(&growth),
+            run: RunQuantities::of(scenario, simulation, grains, (steps_are, wall_s)),
+            growth: GrowthQuantities::of(&growth, simulation.grains_at_start(), mean_radius_start_m),
+            scales: ScaleQuantities::of(&scales, growth.largest_radius),
+            counts: CountQuantities::of(&state.counts, simulation.clock().step, state.ledger.flows.kept),
+            motion: MotionQuantities::of(&growth),
             energy: simulation.balance(),
             momentum_drift_relative: simulation.momentum_drift_relative(),
             warnings: state.warnings.counts().clone(),
@@ -79,7 +81,7 @@ impl HardSummary {
 
     /// The same with a warning where the TC model (bounces made elastic against inelastic collapse) can matter.
     fn with_tc_warning(mut self) -> Self {
-        let CountFigures { impacts, tc_bounces, tc_kept: kept, .. } = self.counts;
+        let CountQuantities { impacts, tc_bounces, tc_kept: kept, .. } = self.counts;
         let lost = self.energy.normal + self.energy.friction;
         let can_matter = tc_bounces as f64 > TC_SHARE * impacts as f64 || kept > KEPT_SHARE * (lost + kept);
         if tc_bounces > 0 && can_matter {
@@ -90,16 +92,16 @@ impl HardSummary {
 
     /// How much the TC model did, where it did anything.
     fn tc_row(&self) -> Option<(&'static str, String)> {
-        let CountFigures { impacts, tc_bounces, tc_kept: kept, .. } = self.counts;
+        let CountQuantities { impacts, tc_bounces, tc_kept: kept, .. } = self.counts;
         let share = 100.0 * tc_bounces as f64 / impacts as f64;
         let lost = self.energy.normal + self.energy.friction;
         let part = 100.0 * kept / (lost + kept);
         let kept = readable(kept, "J");
-        let figures = format!(
+        let quantities = format!(
             "{tc_bounces} bounces of pairs that bounced again and again, {share:.2} % of the impacts; they kept {kept}, \
              {part:.1e} % of what impacts took"
         );
-        (tc_bounces > 0).then_some(("made elastic", figures))
+        (tc_bounces > 0).then_some(("made elastic", quantities))
     }
 
     /// The summary as rows of a table: what, how much.
@@ -126,7 +128,7 @@ impl HardSummary {
             ("momentum drift", format!("{:.3e} of all momentum", self.momentum_drift_relative)),
             ("warnings", warnings_row(&self.warnings)),
         ]);
-        rows.into_iter().map(|(what, figure)| (what.to_owned(), figure)).collect()
+        rows.into_iter().map(|(what, quantity)| (what.to_owned(), quantity)).collect()
     }
 
     /// How far the models are from their limits, where that can be said.
@@ -150,7 +152,10 @@ impl HardSummary {
         let part = self.energy.unexplained();
         let is_alarming = part > Limits::default().drift_warning;
         is_alarming.then(|| {
-            ("unexplained energy", format!("{part:.3e} of all energy: these figures are not to be believed"))
+            (
+                "unexplained energy",
+                format!("{part:.3e} of all energy: these quantities are not to be believed"),
+            )
         })
     }
 
@@ -180,7 +185,7 @@ impl HardSummary {
     }
 
     fn impacts_row(&self) -> String {
-        let CountFigures { impacts, bounces, merges, fragmentations, .. } = self.counts;
+        let CountQuantities { impacts, bounces, merges, fragmentations, .. } = self.counts;
         format!("{impacts}: {bounces} bounces, {merges} merges, {fragmentations} breakages")
     }
 
@@ -198,7 +203,8 @@ mod tests {
 
     fn summary(tc_bounces: u64, kept: f64) -> HardSummary {
         let energy = Balance { normal: 0.9, friction: 0.1, ..Balance::default() };
-        let counts = CountFigures { impacts: 1000, tc_bounces, tc_kept: kept, ..CountFigures::default() };
+        let counts =
+            CountQuantities { impacts: 1000, tc_bounces, tc_kept: kept, ..CountQuantities::default() };
         HardSummary { counts, energy, ..HardSummary::default() }.with_tc_warning()
     }
 
@@ -206,14 +212,20 @@ mod tests {
     #[test]
     fn bounces_made_elastic_are_told() {
         let row = |summary: &HardSummary| {
-            summary.table().into_iter().find(|(what, _)| what == "made elastic").map(|(_, figures)| figures)
+            summary
+                .table()
+                .into_iter()
+                .find(|(what, _)| what == "made elastic")
+                .map(|(_, quantities)| quantities)
         };
         assert_eq!(row(&summary(0, 0.0)), None);
         let few = summary(9, 0.5e-3);
-        let figures = row(&few).unwrap();
+        let quantities = row(&few).unwrap();
         assert!(
-            figures.contains("9 bounces") && figures.contains("0.90 %") && figures.contains("5.0e-2 % of"),
-            "{figures}"
+            quantities.contains("9 bounces")
+                && quantities.contains("0.90 %")
+                && quantities.contains("5.0e-2 % of"),
+            "{quantities}"
         );
         assert_empty!(few.warnings);
         assert_eq!(summary(11, 0.5e-3).warnings[TC_MATTERS], 11);

@@ -70,7 +70,7 @@ fn a_run_resumed_at_any_moment_ends_in_the_same_state() {
     }
 }
 
-/// Figures of the summary that are ratios of others, and false heat where the published sum makes some: without reaction the
+/// Quantities of the summary that are ratios of others, and false heat where the published sum makes some: without reaction the
 /// consistent balance makes none.
 #[test]
 fn ratios_of_the_summary() {

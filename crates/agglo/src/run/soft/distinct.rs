@@ -1,4 +1,4 @@
-//! A run of soft spheres in whose state no two figures are equal.
+//! A run of soft spheres in whose state no two quantities are equal.
 
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
@@ -54,7 +54,7 @@ pub const TRAP: f64 = 3e4;
 pub const TIMES: [f64; 2] = [0.5, 3e-3];
 
 /// Spin [rad/s] of a grain.
-pub fn spin(id: usize) -> Vec3 {
+pub fn angular_velocity(id: usize) -> Vec3 {
     Vec3::new(40.0 + 3.0 * id as f64, -20.0 + 7.0 * id as f64, 11.0 * id as f64 - 15.0)
 }
 
@@ -114,7 +114,7 @@ pub fn ledger() -> Ledger {
     let start = Opening {
         stored: Stored {
             kinetic: 1.0,
-            spin: 0.6,
+            rotational: 0.6,
             elastic: 0.35,
             tangential_spring: 0.4,
             bonds: 0.15,
@@ -213,7 +213,7 @@ fn put(state: &mut Json) {
     let grains = &mut state["grains"];
     grains["mass"] = column(&|id| json!(MASSES[id]));
     grains["velocity"] = column(&|id| vector(Vec3::from(VELOCITIES[id])));
-    grains["spin"] = column(&|id| vector(spin(id)));
+    grains["angular_velocity"] = column(&|id| vector(angular_velocity(id)));
     grains["charge"] = column(&|id| json!(charge(id)));
     grains["temperature"] = column(&|id| json!(300.0 + id as f64));
     grains["polarity"] = column(&|id| json!(if id % 3 == 0 { -1.0 } else { 1.0 }));
@@ -260,15 +260,15 @@ pub struct ByHand {
 
 /// See [`ByHand`].
 pub fn by_hand() -> ByHand {
-    let (mut kinetic, mut spinning) = (0.0, 0.0);
+    let (mut kinetic, mut rotational) = (0.0, 0.0);
     let mut momentum = [Vec3::ZERO; 2];
     for id in 0..RADII.len() {
         let (mass, velocity, place) = (MASSES[id], Vec3::from(VELOCITIES[id]), Vec3::from(PLACES[id]));
         let inertia = 2.0 / 5.0 * mass * RADII[id] * RADII[id];
         kinetic += mass * velocity.dot(velocity) / 2.0;
-        spinning += inertia * spin(id).dot(spin(id)) / 2.0;
+        rotational += inertia * angular_velocity(id).dot(angular_velocity(id)) / 2.0;
         momentum[0] += velocity * mass;
-        momentum[1] += place.cross(velocity * mass) + spin(id) * inertia;
+        momentum[1] += place.cross(velocity * mass) + angular_velocity(id) * inertia;
     }
     let (modulus, ratio) = ELASTIC;
     let effective = modulus / (2.0 * (1.0 - ratio * ratio));
@@ -298,7 +298,7 @@ pub fn by_hand() -> ByHand {
     ByHand {
         stored: Stored {
             kinetic,
-            spin: spinning,
+            rotational,
             elastic: 8.0 / 15.0 * effective * shared.sqrt() * overlap.powf(2.5),
             tangential_spring: Vec3::from(SPRING.0).norm_squared() / (2.0 * SPRING.1),
             bonds,
@@ -321,7 +321,7 @@ pub fn energies() -> [(&'static str, f64); 18] {
         + (2.125 + 3.25 + friction + 6.5 + 7.75);
     [
         ("kinetic_J", stored.kinetic),
-        ("spin_J", stored.spin),
+        ("rotational_J", stored.rotational),
         ("elastic_J", stored.elastic),
         ("tangential_spring_J", stored.tangential_spring),
         ("bonds_J", stored.bonds),

@@ -1,4 +1,4 @@
-//! Frames of soft spheres: from a state of distinct figures through the run's own path into files, and back by the names of
+//! Frames of soft spheres: from a state of distinct quantities through the run's own path into files, and back by the names of
 //! the fields.
 
 use super::distinct::*;
@@ -52,7 +52,7 @@ fn fields_of_grains_stand_under_their_names() {
     let wanted = [
         ("id", scalars(|id| id as f64)),
         ("velocity_m_s", vectors(|id| VELOCITIES[id])),
-        ("spin_rad_s", vectors(|id| spin(id).to_array())),
+        ("angular_velocity_rad_s", vectors(|id| angular_velocity(id).to_array())),
         ("radius_m", scalars(|id| RADII[id])),
         ("mass_kg", scalars(|id| MASSES[id])),
         ("material", scalars(|id| if id == 2 { 1.0 } else { 0.0 })),

@@ -1,4 +1,4 @@
-//! Runs of soft spheres: their tables, frames and figures.
+//! Runs of soft spheres: their tables, frames and quantities.
 
 mod now;
 pub(super) mod panels;
@@ -15,7 +15,7 @@ mod rows_tests;
 #[cfg(test)]
 mod summary_tests;
 
-pub use summary::{Clusters, EnergyFigures, PulseFigures, SoftSummary};
+pub use summary::{Clusters, EnergyQuantities, PulseQuantities, SoftSummary};
 
 use serde::{Deserialize, Serialize};
 
@@ -50,7 +50,7 @@ impl SoftState<'_> {
 /// A run of soft spheres.
 pub struct Soft {
     simulation: Simulation,
-    /// The clusters of the start, which figures are relative to.
+    /// The clusters of the start, which quantities are relative to.
     start: Clusters,
     cluster_gap: f64,
     with_bonds: bool,

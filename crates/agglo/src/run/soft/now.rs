@@ -77,13 +77,13 @@ impl Now {
         }
     }
 
-    /// A figure of all pulses together.
-    pub fn sum(&self, figure: fn(&PulseCount) -> f64) -> f64 {
-        self.pulses.iter().map(figure).sum()
+    /// A quantity of all pulses together.
+    pub fn sum(&self, quantity: fn(&PulseCount) -> f64) -> f64 {
+        self.pulses.iter().map(quantity).sum()
     }
 
     /// A count of all pulses together.
-    pub fn count(&self, figure: fn(&PulseCount) -> u64) -> u64 {
-        self.pulses.iter().map(figure).sum()
+    pub fn count(&self, quantity: fn(&PulseCount) -> u64) -> u64 {
+        self.pulses.iter().map(quantity).sum()
     }
 }

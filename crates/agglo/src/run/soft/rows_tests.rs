@@ -1,4 +1,4 @@
-//! Tables over time of soft spheres: from a state of distinct figures into files, and back by the names of the columns.
+//! Tables over time of soft spheres: from a state of distinct quantities into files, and back by the names of the columns.
 
 use super::distinct::*;
 use super::*;

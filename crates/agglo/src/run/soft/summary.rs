@@ -38,8 +38,8 @@ pub struct SoftSummary {
     pub threads: usize,
     /// Seed.
     pub seed: u64,
-    /// Figures of each pulse.
-    pub pulses: Vec<PulseFigures>,
+    /// Quantities of each pulse.
+    pub pulses: Vec<PulseQuantities>,
     /// Acoustic energy launched [J]: the powers of all pulses times how long their hits press.
     #[serde(rename = "acoustic_energy_J")]
     pub acoustic_energy: f64,
@@ -58,7 +58,7 @@ pub struct SoftSummary {
     /// Part of the bonds at the start that are fewer at the end; null without bonds at the start.
     pub bonds_broken_fraction: Option<f64>,
     /// The ledger of energy.
-    pub energy: EnergyFigures,
+    pub energy: EnergyQuantities,
     /// Part of the forces that the near field's cut-off left out at the start (root mean square); null without one.
     #[serde(default)]
     pub near_field_truncation: Option<f64>,
@@ -71,9 +71,9 @@ pub struct SoftSummary {
     pub warnings: BTreeMap<String, u64>,
 }
 
-/// Figures of one pulse.
+/// Quantities of one pulse.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
-pub struct PulseFigures {
+pub struct PulseQuantities {
     /// Number of the beam.
     pub beam: u32,
     /// Start [s].
@@ -110,7 +110,7 @@ pub struct PulseFigures {
     pub beam_magnitude: f64,
 }
 
-impl PulseFigures {
+impl PulseQuantities {
     fn new(count: &PulseCount, left: &BeamPower) -> Self {
         Self {
             beam: count.beam,
@@ -148,7 +148,7 @@ pub struct Clusters {
 
 /// The ledger of energy with its drift.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
-pub struct EnergyFigures {
+pub struct EnergyQuantities {
     /// The channels and the drift.
     #[serde(flatten)]
     pub balance: Balance,
@@ -160,7 +160,7 @@ pub struct EnergyFigures {
     pub unexplained_limit: f64,
 }
 
-impl EnergyFigures {
+impl EnergyQuantities {
     /// Whether so much is not explained that the run warned.
     pub fn is_alarming(&self) -> bool {
         self.unexplained_largest > self.unexplained_limit
@@ -191,7 +191,7 @@ impl SoftSummary {
             grains: simulation.system.grains.len(),
             threads: rayon::current_num_threads(),
             seed,
-            pulses: PulseFigures::of_all(&simulation.pulses),
+            pulses: PulseQuantities::of_all(&simulation.pulses),
             acoustic_energy: simulation.pulses.energy(),
             clusters_start,
             clusters,
@@ -200,7 +200,7 @@ impl SoftSummary {
             bonds_start,
             bonds_end,
             bonds_broken_fraction: (bonds_start > 0).then(|| 1.0 - bonds_end as f64 / bonds_start as f64),
-            energy: EnergyFigures {
+            energy: EnergyQuantities {
                 balance: simulation.balance(),
                 unexplained_largest: simulation.ledger.worst,
                 unexplained_limit: simulation.drift_warning(),
@@ -215,7 +215,7 @@ impl SoftSummary {
     /// The summary as rows of a table: what, how much.
     pub fn table(&self) -> Vec<(String, String)> {
         let mut rows = Vec::new();
-        let mut row = |what: &str, figure: String| rows.push((what.to_owned(), figure));
+        let mut row = |what: &str, quantity: String| rows.push((what.to_owned(), quantity));
         row("simulated time", time_row(self.time_s, self.steps, "steps"));
         row("wall time", wall_row(self.wall_s, self.threads));
         row("grains", self.grains.to_string());

@@ -1,9 +1,9 @@
-//! The summary of soft spheres: from a state of distinct figures, by the names of its keys.
+//! The summary of soft spheres: from a state of distinct quantities, by the names of its keys.
 
 use super::distinct::*;
 use super::*;
 use crate::math::Vec3;
-use crate::run::distinct::assert_figures;
+use crate::run::distinct::assert_quantities;
 
 fn found() -> SoftSummary {
     let Summary::Soft(summary) = distinct().summary(&scenario(), 7.25) else { panic!("of soft spheres") };
@@ -12,7 +12,7 @@ fn found() -> SoftSummary {
 
 /// Everything but the pulses. Half a second; 8 bonds at the start of which 2 are left; three pulses' power for 2 ms.
 #[test]
-fn figures_of_soft_spheres_stand_under_their_keys() {
+fn quantities_of_soft_spheres_stand_under_their_keys() {
     let mut tree = serde_json::to_value(found()).unwrap();
     tree["pulses"] = serde_json::json!([]);
     let ByHand { drift: [drift, _], .. } = by_hand();
@@ -47,17 +47,17 @@ fn figures_of_soft_spheres_stand_under_their_keys() {
         ("warnings.two", 16.0),
     ]);
     // As for the table of energy.
-    assert_figures("summary.json", &tree, &wanted, &["threads"], 1e-9);
+    assert_quantities("summary.json", &tree, &wanted, &["threads"], 1e-9);
     let (title, threads) = (tree["title"].as_str(), tree["threads"].as_u64());
     assert_eq!((title, threads), (Some("distinct"), Some(rayon::current_num_threads() as u64)));
 }
 
 /// Each pulse by itself: [A] 39 with the rays that it has in flight.
 #[test]
-fn figures_of_pulses_stand_under_their_keys() {
+fn quantities_of_pulses_stand_under_their_keys() {
     let summary = found();
     assert_eq!(summary.pulses.len(), 3, "pulses");
-    for (at, (figures, count)) in summary.pulses.iter().zip(pulses()).enumerate() {
+    for (at, (quantities, count)) in summary.pulses.iter().zip(pulses()).enumerate() {
         let (mut flow, mut magnitude) = (count.flow_ended, count.power_escaped + count.power_truncated);
         for (_, _, direction, _, power) in RAYS.iter().filter(|ray| ray.0 == at) {
             flow += Vec3::from(*direction) * *power;
@@ -79,21 +79,21 @@ fn figures_of_pulses_stand_under_their_keys() {
             ("beam_magnitude", magnitude / count.power_in),
         ];
         let place = format!("pulse {at} of summary.json");
-        let tree = serde_json::to_value(figures).unwrap();
-        assert_figures(&place, &tree, &wanted, &["beam", "in_flight"], 1e-13);
+        let tree = serde_json::to_value(quantities).unwrap();
+        assert_quantities(&place, &tree, &wanted, &["beam", "in_flight"], 1e-13);
         assert_eq!(
-            (figures.beam, figures.in_flight),
+            (quantities.beam, quantities.in_flight),
             (count.beam, u64::from(count.in_flight)),
             "{place}: beam, in_flight"
         );
     }
 }
 
-/// What is printed at the end, each row with its own figures.
+/// What is printed at the end, each row with its own quantities.
 #[test]
-fn rows_of_the_closing_table_have_their_own_figures() {
+fn rows_of_the_closing_table_have_their_own_quantities() {
     let table: Vec<(String, String)> = found().table();
-    let rows: Vec<String> = table.iter().map(|(what, figure)| format!("{what}: {figure}")).collect();
+    let rows: Vec<String> = table.iter().map(|(what, quantity)| format!("{what}: {quantity}")).collect();
     let threads = rayon::current_num_threads();
     let wall = format!("wall time: 7.25 s on {threads} threads");
     let wanted = [
@@ -113,13 +113,13 @@ fn rows_of_the_closing_table_have_their_own_figures() {
     assert_eq!(rows[..wanted.len()], wanted, "found on the left, due on the right");
     let last: Vec<&str> = table[wanted.len()..].iter().map(|(what, _)| what.as_str()).collect();
     assert_eq!(last, ["energy drift", "unexplained energy", "momentum drift", "warnings"]);
-    let figure = |what: &str| &table.iter().find(|(known, _)| known == what).unwrap().1;
+    let quantity = |what: &str| &table.iter().find(|(known, _)| known == what).unwrap().1;
     let [.., (_, drift)] = energies();
-    assert_eq!(*figure("energy drift"), format!("{drift:.3e} of all energy"));
+    assert_eq!(*quantity("energy drift"), format!("{drift:.3e} of all energy"));
     let unexplained =
         "up to 6.250e-2 of all energy, above limits.drift_warning = 3e-3: make the step smaller";
-    assert_eq!(*figure("unexplained energy"), unexplained);
+    assert_eq!(*quantity("unexplained energy"), unexplained);
     let momentum = by_hand().drift[0].norm() / 40.0;
-    assert_eq!(*figure("momentum drift"), format!("{momentum:.3e} of all momentum"));
-    assert_eq!(*figure("warnings"), "2 kinds, 30 in all");
+    assert_eq!(*quantity("momentum drift"), format!("{momentum:.3e} of all momentum"));
+    assert_eq!(*quantity("warnings"), "2 kinds, 30 in all");
 }

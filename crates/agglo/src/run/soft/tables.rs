@@ -22,7 +22,7 @@ const fn energy(told: &Entry) -> Column<Now> {
 pub static ENERGY: Table<Now> = Table { file: names::ENERGY, columns: &[
     TIME,
     energy(&told::KINETIC).on(&STORES).glance(9),
-    energy(&told::SPIN).on(&STORES),
+    energy(&told::ROTATIONAL).on(&STORES),
     energy(&told::ELASTIC).on(&STORES),
     energy(&told::TANGENTIAL_SPRING).on(&STORES),
     energy(&told::BONDS).on(&STORES),

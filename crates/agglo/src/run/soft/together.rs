@@ -38,7 +38,7 @@ impl Together {
         Self { summary, labels: clusters.labels, contacts }
     }
 
-    /// The figures of a summary.
+    /// The quantities of a summary.
     pub fn clusters(&self) -> Clusters {
         Clusters { count: self.summary.count, largest_fraction: self.summary.largest_mass_fraction }
     }

@@ -3,7 +3,7 @@
 use crate::acoustics::Medium;
 use crate::contact::{Bonds, ContactLaws, PairTable};
 use crate::fields::near_field::{NearField, Source};
-use crate::fields::{Channel, Drag, Fields, Flow, FlowAt, Grain, Part, spin_coefficient};
+use crate::fields::{Channel, Drag, Fields, Flow, FlowAt, Grain, Part, rotational_drag};
 use crate::law::Chosen;
 use crate::ledger::{Supplies, Supply};
 use crate::math::Vec3;
@@ -68,13 +68,13 @@ impl Laws {
     #[inline]
     pub fn response(&self, grains: &Particles, at: usize, motion: (Vec3, Vec3), time: f64) -> Response {
         let ((position, velocity), radius, fields) = (motion, grains.radius[at], &self.fields);
-        let (drag, spin) = fields.drag.as_ref().map_or((0.0, 0.0), |law| {
+        let (drag, rotational_drag) = fields.drag.as_ref().map_or((0.0, 0.0), |law| {
             let slip = self.flow_velocity_at(position, time) - velocity;
-            (law.coefficient(&self.medium, radius, slip), spin_coefficient(&self.medium, radius))
+            (law.coefficient(&self.medium, radius, slip), rotational_drag(&self.medium, radius))
         });
         let turning =
             if fields.turn() { fields.turning(&self.grain(grains, at, motion, time)) } else { Vec3::ZERO };
-        Response { drag, turning, spin }
+        Response { drag, turning, rotational_drag }
     }
 
     /// Whether forces on single grains answer to their velocities.
@@ -144,11 +144,11 @@ impl Laws {
             Channel::Drag => book(&mut supplies.drag, force, power),
         });
         if let Some(drag) = &self.fields.drag {
-            let (flow, spin) = (self.flow_at(position, time), motion.spin[at]);
+            let (flow, angular_velocity) = (self.flow_at(position, time), motion.angular_velocity[at]);
             let force = drag.force(&self.medium, radius, velocity, &flow);
             book(&mut supplies.drag, force, force.dot(velocity));
-            total.torque = Drag::torque(&self.medium, radius, spin, &flow);
-            supplies.drag.power += total.torque.dot(spin);
+            total.torque = Drag::torque(&self.medium, radius, angular_velocity, &flow);
+            supplies.drag.power += total.torque.dot(angular_velocity);
             supplies.drag.torque += total.torque;
         }
         total

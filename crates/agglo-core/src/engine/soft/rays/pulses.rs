@@ -269,8 +269,9 @@ impl Pulses {
             let impulse = system.ray_loads.force[grain] * scale;
             let twist = system.ray_loads.torque[grain] * scale;
             let (r, s) = (grains.position[grain], trial.position[grain]);
-            let mean_spin = (grains.spin[grain] + trial.spin[grain]) * 0.5;
-            let work = impulse.dot(s - r) / dt + twist.dot(mean_spin);
+            let mean_angular_velocity =
+                (grains.angular_velocity[grain] + trial.angular_velocity[grain]) * 0.5;
+            let work = impulse.dot(s - r) / dt + twist.dot(mean_angular_velocity);
             let torque = ((r + s) * 0.5).cross(impulse) + twist;
             sum = sum + Supply { power: work, force: impulse, torque };
         }
@@ -285,7 +286,7 @@ impl Pulses {
         }
     }
 
-    /// Figures of all pulses so far.
+    /// Quantities of all pulses so far.
     pub fn counts(&self) -> &[PulseCount] {
         self.state.flight.pulses()
     }

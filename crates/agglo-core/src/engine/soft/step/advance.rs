@@ -86,7 +86,7 @@ impl System {
         let from_start = ahead == Ahead::AsAtStart;
         let at_time = if from_start { time } else { time + dt };
         let has_response = laws.has_response();
-        let moving = (&mut trial.position[..], (&mut trial.velocity[..], &mut trial.spin[..]));
+        let moving = (&mut trial.position[..], (&mut trial.velocity[..], &mut trial.angular_velocity[..]));
         let views = (moving, trial.loads.views());
         let leaf = |range: Range<usize>,
                     ((r, (v, w)), mut end): ((&mut [Vec3], Turning<'_>), LoadViews<'_>)| {
@@ -104,17 +104,18 @@ impl System {
                 let (per_mass, per_inertia) = (dt / inertial_mass[grain], dt / grains.inertia(grain));
                 let (mut kick, mut twist) = (force * per_mass, torque * per_inertia);
                 if has_response {
-                    let (velocity, spin) = (grains.velocity[grain], grains.spin[grain]);
+                    let (velocity, angular_velocity) =
+                        (grains.velocity[grain], grains.angular_velocity[grain]);
                     // Where and how fast the loads at the end are taken.
                     let (position, guess) = if from_start {
-                        (grains.position[grain], (velocity, spin))
+                        (grains.position[grain], (velocity, angular_velocity))
                     } else {
                         (r[slot], (v[slot], w[slot]))
                     };
                     let response = laws.response(grains, grain, (position, guess.0), at_time);
                     let parts = (phi * per_mass, phi * per_inertia);
-                    let solved = response.solved((velocity + kick, spin + twist), guess, parts);
-                    (kick, twist) = (solved.velocity - velocity, solved.spin - spin);
+                    let solved = response.solved((velocity + kick, angular_velocity + twist), guess, parts);
+                    (kick, twist) = (solved.velocity - velocity, solved.angular_velocity - angular_velocity);
                     solved.correct(slot, &mut end, position, &mut correction);
                     let flow = laws.flow_change([(grains.position[grain], time), (position, at_time)]);
                     correction.bend += response.bend((kick, twist), flow);
@@ -124,7 +125,7 @@ impl System {
                 change.note(grain, position - r[slot], moved, grains.radius[grain]);
                 r[slot] = position;
                 v[slot] = grains.velocity[grain] + kick;
-                w[slot] = grains.spin[grain] + twist;
+                w[slot] = grains.angular_velocity[grain] + twist;
             }
             (change, correction)
         };
@@ -134,13 +135,13 @@ impl System {
         change
     }
 
-    /// Corrects the trial velocities and spins with the loads at the trial motion, which ends at `time` [s], positions
-    /// kept.
+    /// Corrects the trial linear and angular velocities with the loads at the trial motion, which ends at `time` [s],
+    /// positions kept.
     pub(in crate::engine::soft) fn correct_velocities(&mut self, time: f64, dt: f64) {
         let ray_scale = self.ray_scale(dt);
         let Self { grains, trial, loads, ray_loads, inertial_mass, laws, .. } = self;
         let (has_response, position) = (laws.has_response(), &trial.position);
-        let views = ((&mut trial.velocity[..], &mut trial.spin[..]), trial.loads.views());
+        let views = ((&mut trial.velocity[..], &mut trial.angular_velocity[..]), trial.loads.views());
         let leaf = |range: Range<usize>, ((v, w), mut end): (Turning<'_>, LoadViews<'_>)| {
             let mut correction = Correction::default();
             for (slot, grain) in range.enumerate() {
@@ -151,8 +152,10 @@ impl System {
                     torque += ray_loads.torque[grain] * scale;
                 }
                 let (per_mass, per_inertia) = (dt / inertial_mass[grain], dt / grains.inertia(grain));
-                let explicit =
-                    (grains.velocity[grain] + force * per_mass, grains.spin[grain] + torque * per_inertia);
+                let explicit = (
+                    grains.velocity[grain] + force * per_mass,
+                    grains.angular_velocity[grain] + torque * per_inertia,
+                );
                 if has_response {
                     let guess = (v[slot], w[slot]);
                     let response = laws.response(grains, grain, (position[grain], guess.0), time);
@@ -160,9 +163,12 @@ impl System {
                     solved.correct(slot, &mut end, position[grain], &mut correction);
                     let flow =
                         laws.flow_change([(grains.position[grain], time - dt), (position[grain], time)]);
-                    let change = (solved.velocity - grains.velocity[grain], solved.spin - grains.spin[grain]);
+                    let change = (
+                        solved.velocity - grains.velocity[grain],
+                        solved.angular_velocity - grains.angular_velocity[grain],
+                    );
                     correction.bend += response.bend(change, flow);
-                    (v[slot], w[slot]) = (solved.velocity, solved.spin);
+                    (v[slot], w[slot]) = (solved.velocity, solved.angular_velocity);
                 } else {
                     (v[slot], w[slot]) = explicit;
                 }

@@ -96,11 +96,16 @@ fn rays_push_and_turn_each_grain() {
                 system.move_trial(0.0, dt, 0.5, Ahead::AsAtStart);
             }
             for grain in 0..3 {
-                let (velocity, spin) =
+                let (velocity, angular_velocity) =
                     (Vec3::AXES[0] + push * (grain as f64 / 1e-8), twist * (grain as f64 / inertia));
-                // Drag takes 6 π η R dt/m = 1e-6 of a speed in 5 ns, and 1.3e-5 of a spin.
+                // Drag takes 6 π η R dt/m = 1e-6 of a speed in 5 ns, and 1.3e-5 of an angular velocity.
                 assert_near_vector!(system.trial.velocity[grain], velocity, 2e-6 * velocity.norm(), "in m/s");
-                assert_near_vector!(system.trial.spin[grain], spin, 2e-5 * spin.norm(), "in rad/s");
+                assert_near_vector!(
+                    system.trial.angular_velocity[grain],
+                    angular_velocity,
+                    2e-5 * angular_velocity.norm(),
+                    "in rad/s"
+                );
             }
         }
     }

@@ -19,7 +19,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::contact::pass::contact_pace;
-use crate::contact::{Bonds, ContactLaws, Touch};
+use crate::contact::{Bonds, ContactGeometry, ContactLaws};
 use crate::fields::Fields;
 use crate::math::Pace;
 
@@ -155,13 +155,13 @@ fn contact(system: &System, partners: &[usize], strain: f64, with_waves: bool) -
         let with = |&partner: &usize| {
             let ends = [at, partner];
             let radii = ends.map(|k| grains.radius[k]);
-            let touch = Touch::new(
+            let geometry = ContactGeometry::new(
                 radii,
                 ends.map(|k| grains.mass[k]),
                 ends.map(|k| grains.contact_stiffness[k]),
                 (radii[0] + radii[1]) * (1.0 - strain),
             );
-            laws.pace(system.laws.pairs.of(grains.material[at], grains.material[partner]), &touch)
+            laws.pace(system.laws.pairs.of(grains.material[at], grains.material[partner]), &geometry)
         };
         partners.iter().map(with).fold(alone, Pace::max)
     })

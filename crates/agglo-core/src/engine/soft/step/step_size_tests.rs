@@ -89,7 +89,7 @@ fn field(word: &str, text: &str) -> Pace {
     paces(text).fields[at]
 }
 
-/// Drag by its solved rate of spin; q B/m and the gradient of E over all axes; 2 γ (∂B/∂z)².
+/// Drag by its solved rate of rotation; q B/m and the gradient of E over all axes; 2 γ (∂B/∂z)².
 #[test]
 fn forces_on_single_grains() {
     let drag = paces("[fields.drag]\nlaw = \"stokes\"\n").drag;

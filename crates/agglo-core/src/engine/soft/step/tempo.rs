@@ -98,7 +98,7 @@ mod tests {
         assert_eq!(tempo.shorter(1.0, 1e-9), Some(0.1));
     }
 
-    /// Each of its figures alone makes it one that no run can have come to.
+    /// Each of its quantities alone makes it one that no run can have come to.
     #[test]
     fn forged_steps_are_told() {
         let whole = Tempo { safety: 0.125, longest: 1.0, shortest: [0.5, f64::INFINITY] };

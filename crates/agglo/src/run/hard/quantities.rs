@@ -1,4 +1,4 @@
-//! The groups of figures that the summary of hard spheres is made of. In `summary.json` they stand side by side.
+//! The groups of quantities that the summary of hard spheres is made of. In `summary.json` they stand side by side.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,7 +10,7 @@ use super::scales::Scales;
 
 /// What was run, for how long and how.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
-pub struct RunFigures {
+pub struct RunQuantities {
     /// Version of agglo.
     pub version: String,
     /// The scenario's title.
@@ -40,7 +40,7 @@ pub struct RunFigures {
 
 /// How far the grains have grown.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
-pub struct GrowthFigures {
+pub struct GrowthQuantities {
     /// Grains at the start.
     pub grains_start: u64,
     /// Grains at the end.
@@ -68,7 +68,7 @@ pub struct GrowthFigures {
 
 /// How far the models are from their limits; null where that cannot be said.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
-pub struct ScaleFigures {
+pub struct ScaleQuantities {
     /// Radius at which the largest grain's own gravity would matter ([B] 4.16) [m].
     pub self_gravity_radius_m: Option<f64>,
     /// Largest radius at the end over that.
@@ -81,7 +81,7 @@ pub struct ScaleFigures {
 
 /// What happened.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
-pub struct CountFigures {
+pub struct CountQuantities {
     /// Impacts.
     pub impacts: u64,
     /// Impacts after which both went on.
@@ -115,7 +115,7 @@ pub struct CountFigures {
 
 /// How warm and how fast the grains are at the end.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
-pub struct MotionFigures {
+pub struct MotionQuantities {
     /// Mean temperature by mass [K].
     #[serde(rename = "temperature_mean_K")]
     pub temperature_mean: f64,
@@ -135,7 +135,7 @@ fn per(whole: f64, parts: u64) -> Option<f64> {
     (parts > 0).then(|| whole / parts as f64)
 }
 
-impl RunFigures {
+impl RunQuantities {
     /// Of a simulation that ended, of which `grains` are left.
     pub fn of(
         scenario: &Scenario,
@@ -161,7 +161,7 @@ impl RunFigures {
     }
 }
 
-impl GrowthFigures {
+impl GrowthQuantities {
     /// Of grains that were so many and in the mean so large [m] at the start.
     pub fn of(growth: &Growth, grains_start: u64, mean_radius_start_m: f64) -> Self {
         let ratio = growth.mean_radius / mean_radius_start_m;
@@ -181,7 +181,7 @@ impl GrowthFigures {
     }
 }
 
-impl ScaleFigures {
+impl ScaleQuantities {
     /// Of grains of which the largest has this radius [m].
     pub fn of(scales: &Scales, largest_radius: f64) -> Self {
         Self {
@@ -193,7 +193,7 @@ impl ScaleFigures {
     }
 }
 
-impl CountFigures {
+impl CountQuantities {
     /// Of so many steps; bounces that were made elastic kept `tc_kept` [J].
     pub fn of(counts: &Counts, steps: u64, tc_kept: f64) -> Self {
         Self {
@@ -215,7 +215,7 @@ impl CountFigures {
     }
 }
 
-impl MotionFigures {
+impl MotionQuantities {
     /// Of grains at one moment.
     pub fn of(growth: &Growth) -> Self {
         Self {

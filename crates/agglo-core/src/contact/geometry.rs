@@ -19,7 +19,7 @@
 //! | d      | `distance()`       | m    | distance of the centers                             |
 //! | u      | `strain()`         | -    | E of [A] 14, overlap over the sum of the radii    |
 //! | A      | `area()`           | m²   | disc in which the spheres cut each other            |
-//! | L_i    | `arms()[0]`        | m    | from the center of i to that disc along the normal  |
+//! | L_i    | `lever_arms()[0]`  | m    | from the center of i to that disc along the normal  |
 //!
 //! # Valid when
 //! |R_i - R_j| < d <= S. One sphere inside the other has no disc: A = 0 there. For very unequal spheres the
@@ -31,21 +31,21 @@
 //! # Example
 //! ```
 //! # extern crate agglo_core as agglo;
-//! use agglo::contact::Touch;
-//! let touch = Touch::new([1.0, 1.0], [1.0, 1.0], [1e7, 1e7], 1.6);
-//! assert!((touch.area() - std::f64::consts::PI * (1.0 - 0.64)).abs() < 1e-14);
+//! use agglo::contact::ContactGeometry;
+//! let geometry = ContactGeometry::new([1.0, 1.0], [1.0, 1.0], [1e7, 1e7], 1.6);
+//! assert!((geometry.area() - std::f64::consts::PI * (1.0 - 0.64)).abs() < 1e-14);
 //! ```
 
 use std::f64::consts::FRAC_PI_4;
 
 use crate::math::Real;
 
-/// Terms after which the series of [`Touch::strain_integral`] is cut.
+/// Terms after which the series of [`ContactGeometry::strain_integral`] is cut.
 const LONGEST_SERIES: u32 = 2000;
 
 /// The geometry and inertia of one touching pair, as the laws see it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Touch<F = f64> {
+pub struct ContactGeometry<F = f64> {
     /// δ = R_i + R_j - d [m], > 0; below 0 for a law that acts beyond touching.
     pub overlap: F,
     /// R_i + R_j [m].
@@ -60,7 +60,7 @@ pub struct Touch<F = f64> {
     pub stiffness: F,
 }
 
-impl<F: Real> Touch<F> {
+impl<F: Real> ContactGeometry<F> {
     /// Two grains with radii [m], masses [kg] and contact stiffness [Pa], centers `distance` [m] apart.
     #[inline]
     pub fn new(radii: [F; 2], masses: [F; 2], stiffness: [F; 2], distance: F) -> Self {
@@ -130,7 +130,7 @@ impl<F: Real> Touch<F> {
     }
 }
 
-impl Touch {
+impl ContactGeometry {
     /// Integral of E^p A over the overlap from 0 to δ [m³]: energy per stiffness of a strain-power law.
     ///
     /// From the power series u (2 - u) h = 2 q u - (1 + 3 w) u² - w Σ (k + 2) u^(k+1), k >= 2, w = 1 - q,
@@ -158,7 +158,7 @@ impl Touch {
 /// Distances [m] along the line of centers from each of two spheres to the plane of their common disc
 /// ([A] 69); their sum is `distance` [m], also for spheres that do not touch.
 #[inline]
-pub fn arms(radii: [f64; 2], distance: f64) -> [f64; 2] {
+pub fn lever_arms(radii: [f64; 2], distance: f64) -> [f64; 2] {
     let near = 0.5 * (distance - (radii[1] - radii[0]) * (radii[1] + radii[0]) / distance);
     [near, distance - near]
 }
@@ -170,8 +170,11 @@ mod tests {
     use super::*;
     use crate::contact::check::assert_slope;
 
-    fn touch(radii: [f64; 2], overlap: f64) -> Touch {
-        Touch { overlap, ..Touch::new(radii, [1.0, 2.0], [1.0, 1.0], radii[0] + radii[1]) }
+    fn geometry(radii: [f64; 2], overlap: f64) -> ContactGeometry {
+        ContactGeometry {
+            overlap,
+            ..ContactGeometry::new(radii, [1.0, 2.0], [1.0, 1.0], radii[0] + radii[1])
+        }
     }
 
     const PAIRS: [[f64; 2]; 4] = [[1.0, 1.0], [1.0, 0.7], [0.02, 0.5], [3e-6, 1e-4]];
@@ -186,10 +189,10 @@ mod tests {
                 let d = radii[0] + radii[1] - overlap;
                 let near = 0.5 * (d - (radii[1] * radii[1] - radii[0] * radii[0]) / d);
                 let literal = PI * (radii[0] * radii[0] - near * near);
-                let area = touch(radii, overlap).area();
+                let area = geometry(radii, overlap).area();
                 assert!((area - literal).abs() < 1e-14 * radii[1].max(radii[0]).powi(2), "{radii:?} {part}");
-                assert_near!(arms(radii, d)[0], near, 1e-14 * radii[1].max(radii[0]));
-                assert_close!(touch([radii[1], radii[0]], overlap).area(), area, 1e-15);
+                assert_near!(lever_arms(radii, d)[0], near, 1e-14 * radii[1].max(radii[0]));
+                assert_close!(geometry([radii[1], radii[0]], overlap).area(), area, 1e-15);
             }
         }
     }
@@ -200,20 +203,20 @@ mod tests {
         for radii in PAIRS {
             let effective = radii[0] * radii[1] / (radii[0] + radii[1]);
             let overlap = 1e-14 * effective;
-            let ratio = touch(radii, overlap).area() / (2.0 * PI * effective * overlap);
+            let ratio = geometry(radii, overlap).area() / (2.0 * PI * effective * overlap);
             assert!((ratio - 1.0).abs() < 3e-14, "{radii:?}: {ratio}");
-            assert_eq!(touch(radii, 0.0).area(), 0.0);
+            assert_eq!(geometry(radii, 0.0).area(), 0.0);
         }
     }
 
     #[test]
     fn a_swallowed_sphere_has_no_area() {
         for distance in [0.3, 0.1, 0.0] {
-            let inside = Touch::new([1.0, 0.5], [1.0, 1.0], [1.0, 1.0], distance);
+            let inside = ContactGeometry::new([1.0, 0.5], [1.0, 1.0], [1.0, 1.0], distance);
             assert_eq!([inside.area(), inside.area_slope()], [0.0, 0.0]);
             assert_finite!(inside.strain_integral(2.0));
         }
-        assert_finite!(Touch::new([1.0, 1.0], [1.0, 1.0], [1.0, 1.0], 0.0).area());
+        assert_finite!(ContactGeometry::new([1.0, 1.0], [1.0, 1.0], [1.0, 1.0], 0.0).area());
     }
 
     #[test]
@@ -222,10 +225,10 @@ mod tests {
             let smaller = radii[0].min(radii[1]);
             for part in [1e-6, 0.01, 0.3, 1.2] {
                 let at = part * smaller;
-                assert_slope(at, |x| touch(radii, x).area(), |x| touch(radii, x).area_slope());
+                assert_slope(at, |x| geometry(radii, x).area(), |x| geometry(radii, x).area_slope());
                 for power in [0.5, 1.0, 2.0, 3.3] {
-                    let integral = |x| touch(radii, x).strain_integral(power);
-                    let integrand = |x| touch(radii, x).strain().powf(power) * touch(radii, x).area();
+                    let integral = |x| geometry(radii, x).strain_integral(power);
+                    let integrand = |x| geometry(radii, x).strain().powf(power) * geometry(radii, x).area();
                     assert_slope(at, integral, integrand);
                 }
             }
@@ -237,6 +240,6 @@ mod tests {
     fn integral_of_equal_spheres_in_closed_form() {
         let u: f64 = 0.3;
         let by_hand = PI / 4.0 * 8.0 * (u.powi(4) / 2.0 - u.powi(5) / 5.0);
-        assert_close!(touch([1.0, 1.0], 0.6).strain_integral(2.0), by_hand, 1e-14);
+        assert_close!(geometry([1.0, 1.0], 0.6).strain_integral(2.0), by_hand, 1e-14);
     }
 }
