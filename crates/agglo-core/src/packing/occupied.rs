@@ -33,9 +33,10 @@ impl Occupied {
     /// Whether a sphere here would keep its distance from all others.
     pub fn is_free(&self, center: Vec3, radius: f64) -> bool {
         let reach = |largest: f64| radius + largest + self.gap;
-        self.cells.all_near(center, reach, |other, other_radius, image| {
+        let seen_from = |image| self.seen_from(image, center);
+        self.cells.all_near(center, reach, seen_from, |seen, other, other_radius| {
             let least = radius + other_radius + self.gap;
-            (self.seen_from(image, center) - other).norm_squared() >= least * least
+            (seen - other).norm_squared() >= least * least
         })
     }
 
@@ -43,13 +44,13 @@ impl Occupied {
     pub fn covers(&self, middle: Vec3, half_edge: f64, radius: f64) -> bool {
         // A sphere that covers the cube reaches at least half an edge past its middle.
         let reach = |largest: f64| (radius + largest + self.gap - half_edge).max(0.0);
-        let leaves_some = |other: Vec3, other_radius: f64, image: [i8; 3]| {
+        let seen_from = |image| self.seen_from(image, middle);
+        let leaves_some = |seen: Vec3, other: Vec3, other_radius: f64| {
             let least = radius + other_radius + self.gap;
-            let between = self.seen_from(image, middle) - other;
-            let [x, y, z] = between.to_array().map(|along| along.abs() + half_edge);
+            let [x, y, z] = (seen - other).to_array().map(|along| along.abs() + half_edge);
             x * x + y * y + z * z >= least * least
         };
-        !self.cells.all_near(middle, reach, leaves_some)
+        !self.cells.all_near(middle, reach, seen_from, leaves_some)
     }
 
     /// A place [m] as an image sees it.

@@ -31,13 +31,20 @@ impl Level<Chained> {
     }
 
     #[inline]
-    fn all_near(&self, center: Vec3, reach: f64, holds: &mut impl FnMut(Vec3, f64, [i8; 3]) -> bool) -> bool {
+    fn all_near<P: Copy>(
+        &self,
+        center: Vec3,
+        reach: f64,
+        seen_from: &impl Fn([i8; 3]) -> P,
+        holds: &mut impl FnMut(P, Vec3, f64) -> bool,
+    ) -> bool {
         self.lattice.all_within(center, reach, &mut |buckets, _, image| {
+            let seen = seen_from(image);
             self.spheres.first[buckets].iter().all(|&first| {
                 let mut at = first;
                 while at != NONE {
                     let link = &self.spheres.spheres[at as usize];
-                    if !holds(link.center, link.radius, image) {
+                    if !holds(seen, link.center, link.radius) {
                         return false;
                     }
                     at = link.next;
@@ -84,17 +91,19 @@ impl CellIndex<Chained> {
         self.levels[own].insert(center, radius);
     }
 
-    /// Whether `holds` says so of all spheres near a place. It is asked with center [m], radius [m] and number of the image of
-    /// every sphere whose center is nearer than `reach` gives for the largest radius around, and of more.
+    /// Whether `holds` says so of all spheres near a place. It is asked with what `seen_from` makes of the number of the image,
+    /// and center [m] and radius [m] of every sphere whose center is nearer than `reach` gives for the largest radius around, and
+    /// of more.
     #[inline]
-    pub fn all_near(
+    pub fn all_near<P: Copy>(
         &self,
         center: Vec3,
         reach: impl Fn(f64) -> f64,
-        mut holds: impl FnMut(Vec3, f64, [i8; 3]) -> bool,
+        seen_from: impl Fn([i8; 3]) -> P,
+        mut holds: impl FnMut(P, Vec3, f64) -> bool,
     ) -> bool {
         // From the largest down: what is in the way is mostly one of them.
         let mut levels = self.levels.iter().rev().filter(|level| !level.spheres.spheres.is_empty());
-        levels.all(|level| level.all_near(center, reach(level.largest_radius), &mut holds))
+        levels.all(|level| level.all_near(center, reach(level.largest_radius), &seen_from, &mut holds))
     }
 }

@@ -75,7 +75,7 @@ impl Lattice {
             if cells.is_finite() { cells.max(1.0) } else { 1.0 }
         };
         while (0..3).map(|axis| count(axis, width)).product::<f64>() > most as f64 {
-            width *= 1.25;
+            width *= 1.1;
         }
         for axis in 0..3 {
             let cells = count(axis, width);
