@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use agglo::folder::names;
 use agglo::record::{RecordError, atomic};
 use agglo::search::analysis::{
-    Convergence, EvaluationRow, Evaluations, Generation, Level, Moments, Objective, Status, Target, Verdict,
-    differences, elementary_effects, observed_order, settled, variance_shares, varies,
+    Convergence, EvaluationRow, Evaluations, Generation, Level, Moments, Objective, Share, Status, Target,
+    Verdict, differences, elementary_effects, observed_order, settled, variance_shares, varies,
 };
 use agglo::search::{Campaign, Plan};
 
@@ -377,17 +377,12 @@ fn shares(evaluations: &Evaluations, bootstraps: u32, level: f64, seed: u64) -> 
     let target = evaluations.targets()[0];
     let outcomes = evaluations.target(&target);
     let shares = variance_shares(evaluations.parameters.len(), &outcomes, bootstraps, level, seed);
-    let all = &shares.parameters;
-    let alone = Bar {
-        name: "alone".to_owned(),
-        values: all.iter().map(|share| share.first).collect(),
-        spread: Spread::Intervals(all.iter().map(|share| share.first_interval).collect()),
+    let bar = |name: &str, part: fn(&Share) -> (f64, [f64; 2])| {
+        let (values, intervals) = shares.parameters.iter().map(part).unzip();
+        Bar { name: name.to_owned(), values, spread: Spread::Intervals(intervals) }
     };
-    let total = Bar {
-        name: "with all others".to_owned(),
-        values: all.iter().map(|share| share.total).collect(),
-        spread: Spread::Intervals(all.iter().map(|share| share.total_interval).collect()),
-    };
+    let alone = bar("alone", |share| (share.first, share.first_interval));
+    let total = bar("with all others", |share| (share.total, share.total_interval));
     let noise = if shares.noise_share.is_nan() {
         "how much of the variance is noise of the replicates is not known".to_owned()
     } else {

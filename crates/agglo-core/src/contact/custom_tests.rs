@@ -1,12 +1,9 @@
 //! Formulas of contact against the laws that they write down.
 
 use super::*;
-use crate::acoustics::Medium;
 use crate::contact::check::assert_slope;
 use crate::contact::normal::{Hertz, NormalLaw};
-use crate::law::Sample;
-use crate::particles::Material;
-use crate::units::Quantity;
+use crate::testing::told_by;
 
 const HERTZ: &str = "4/3*effective_modulus*sqrt(effective_radius)*overlap^1.5";
 
@@ -106,36 +103,22 @@ fn energy_begins_where_the_force_does() {
     }
 }
 
-fn found(law: &Custom) -> String {
-    let material = Material { density: Quantity(2500.0), ..Material::default() };
-    let sample = Sample { radius: 1e-3, mass: 1e-5, charge: 0.0, material: &material };
-    let context = Context {
-        medium: &Medium::default(),
-        groups: 1,
-        largest_radius: 1e-3,
-        is_charged: false,
-        is_stepped: true,
-        samples: vec![sample],
-    };
-    let mut faults = Faults::default();
-    Law::faults(law, &mut faults, &context);
-    let faults = faults.found().iter().map(|fault| format!("{}: {}", fault.key, fault.message));
-    faults.chain(Law::notes(law, &context)).collect::<Vec<_>>().join("\n")
-}
-
 /// A thousandth in the energy is told, a ten-millionth is rounding; a kink, a pole and a root of what is negative are told with
 /// where they are.
 #[test]
 fn what_is_wrong_is_found_by_trying() {
-    let spring = |energy: &str| found(&law("2e4*overlap", Some(energy), None));
+    let spring = |energy: &str| told_by(&law("2e4*overlap", Some(energy), None));
     assert_eq!(spring("1e4*overlap^2"), "");
     assert_eq!(spring("1.0000001e4*overlap^2"), "");
     assert_contains!(spring("1.001e4*overlap^2"), "is not the energy of the force: at an overlap of");
     assert_contains!(spring("speed"), "cannot name speed");
-    assert_contains!(found(&law("1/(overlap - 2e-4)", None, None)), "is infinite at an overlap of 200 um");
-    assert_contains!(found(&law("sqrt(-overlap)", None, None)), "is not a number at an overlap of");
-    assert_contains!(found(&law("overlap + ln(speed + 0.5)", None, None)), "and a speed of -1 m/s");
-    assert_contains!(found(&law("overlap^0.5", None, Some(1e-4))), "is not a number at an overlap of -");
-    assert_contains!(found(&law("2e4*overlap - speed", None, None)), "drives grains instead of slowing them");
-    assert_contains!(found(&law("2e4*overlap - 1", None, None)), "jumps to -1 N where it begins to act");
+    assert_contains!(told_by(&law("1/(overlap - 2e-4)", None, None)), "is infinite at an overlap of 200 um");
+    assert_contains!(told_by(&law("sqrt(-overlap)", None, None)), "is not a number at an overlap of");
+    assert_contains!(told_by(&law("overlap + ln(speed + 0.5)", None, None)), "and a speed of -1 m/s");
+    assert_contains!(told_by(&law("overlap^0.5", None, Some(1e-4))), "is not a number at an overlap of -");
+    assert_contains!(
+        told_by(&law("2e4*overlap - speed", None, None)),
+        "drives grains instead of slowing them"
+    );
+    assert_contains!(told_by(&law("2e4*overlap - 1", None, None)), "jumps to -1 N where it begins to act");
 }

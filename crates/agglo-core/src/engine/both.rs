@@ -5,29 +5,44 @@ use std::borrow::Cow;
 use super::{Measures, SimError, Simulation, Start, hard, soft};
 use crate::particles::Particles;
 
+/// The part of the trait that both kinds of spheres have under the same names of their own.
+macro_rules! in_common {
+    ($engine:ident) => {
+        type Settings = $engine::Settings;
+        type State<'a> = $engine::SimulationState<'a>;
+
+        fn start(settings: Self::Settings, start: Start) -> Result<Self, SimError> {
+            Self::start(settings, start)
+        }
+
+        fn resume(settings: Self::Settings, state: Self::State<'_>) -> Result<Self, SimError> {
+            Self::resume(settings, state)
+        }
+
+        fn time(&self) -> f64 {
+            self.clock().time
+        }
+
+        fn end(&self) -> f64 {
+            self.end()
+        }
+
+        fn steps(&self) -> u64 {
+            self.clock().step
+        }
+
+        fn save(&self) -> Self::State<'_> {
+            self.state()
+        }
+
+        fn into_start(self) -> Start {
+            self.into_start()
+        }
+    };
+}
+
 impl Simulation for soft::Simulation {
-    type Settings = soft::Settings;
-    type State<'a> = soft::SimulationState<'a>;
-
-    fn start(settings: Self::Settings, start: Start) -> Result<Self, SimError> {
-        Self::start(settings, start)
-    }
-
-    fn resume(settings: Self::Settings, state: Self::State<'_>) -> Result<Self, SimError> {
-        Self::resume(settings, state)
-    }
-
-    fn time(&self) -> f64 {
-        self.clock().time
-    }
-
-    fn end(&self) -> f64 {
-        self.end()
-    }
-
-    fn steps(&self) -> u64 {
-        self.clock().step
-    }
+    in_common!(soft);
 
     /// One step: `until` does not bound it.
     fn advance(&mut self, _until: f64) -> Result<(), SimError> {
@@ -48,39 +63,10 @@ impl Simulation for soft::Simulation {
             unexplained: balance.drift_relative.abs(),
         }
     }
-
-    fn save(&self) -> Self::State<'_> {
-        self.state()
-    }
-
-    fn into_start(self) -> Start {
-        self.into_start()
-    }
 }
 
 impl Simulation for hard::Simulation {
-    type Settings = hard::Settings;
-    type State<'a> = hard::SimulationState<'a>;
-
-    fn start(settings: Self::Settings, start: Start) -> Result<Self, SimError> {
-        Self::start(settings, start)
-    }
-
-    fn resume(settings: Self::Settings, state: Self::State<'_>) -> Result<Self, SimError> {
-        Self::resume(settings, state)
-    }
-
-    fn time(&self) -> f64 {
-        self.clock().time
-    }
-
-    fn end(&self) -> f64 {
-        self.end()
-    }
-
-    fn steps(&self) -> u64 {
-        self.clock().step
-    }
+    in_common!(hard);
 
     fn advance(&mut self, until: f64) -> Result<(), SimError> {
         self.advance(until)
@@ -99,14 +85,6 @@ impl Simulation for hard::Simulation {
             kinetic_energy: balance.stored.kinetic,
             unexplained: balance.unexplained(),
         }
-    }
-
-    fn save(&self) -> Self::State<'_> {
-        self.state()
-    }
-
-    fn into_start(self) -> Start {
-        self.into_start()
     }
 }
 

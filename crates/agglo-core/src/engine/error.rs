@@ -257,7 +257,7 @@ pub enum SimError {
     },
     /// The ledger of hard spheres does not add up.
     #[error(
-        "t = {time:.6e} s: the ledger does not explain {part:.3} of all energy under {laws}; these quantities are \
+        "t = {time:.6e} s: the ledger does not explain {part:.3} of all energy under {laws}; these numbers are \
          not to be believed: it is a fault of the program, please report it"
     )]
     HardUnexplained {

@@ -1,9 +1,7 @@
 //! Formulas of fields: parts, slopes, and what is told of them.
 
 use super::*;
-use crate::acoustics::Medium;
-use crate::particles::Material;
-use crate::units::Quantity;
+use crate::testing::told_by;
 
 fn law(force: [&str; 3], energy: Option<&str>) -> Custom {
     Custom { energy: energy.map(Written::new), ..Custom::new(force) }
@@ -70,41 +68,24 @@ fn paces_in_closed_form() {
     assert_eq!(pace(["-8*x - vx", "-8*y - vy", "-8*z - vz"]), Pace { square: 16.0, rate: 2.0 });
 }
 
-fn found(law: &Custom) -> String {
-    let material = Material { density: Quantity(2500.0), ..Material::default() };
-    let sample = Sample { radius: 1e-3, mass: 1e-5, charge: 1e-9, material: &material };
-    let context = Context {
-        medium: &Medium::default(),
-        groups: 1,
-        largest_radius: 1e-3,
-        is_charged: false,
-        is_stepped: true,
-        samples: vec![sample],
-    };
-    let mut faults = Faults::default();
-    Law::faults(law, &mut faults, &context);
-    let lines = faults.found().iter().map(|fault| format!("{}: {}", fault.key, fault.message));
-    lines.collect::<Vec<_>>().join("\n")
-}
-
 /// An energy is held to the force at rest, at any time; a pole is none of the formula's business where no grain is.
 #[test]
 fn what_is_wrong_is_found_by_trying() {
     let trap = ["-2*x*exp(-t)", "-4*y*exp(-t)", "-vz"];
-    assert_eq!(found(&law(trap, Some("(x^2 + 2*y^2)*exp(-t)"))), "");
+    assert_eq!(told_by(&law(trap, Some("(x^2 + 2*y^2)*exp(-t)"))), "");
     assert_contains!(
-        found(&law(trap, Some("(x^2 + 2.01*y^2)*exp(-t)"))),
+        told_by(&law(trap, Some("(x^2 + 2.01*y^2)*exp(-t)"))),
         "energy: is not the energy of the force: at ("
     );
-    assert_contains!(found(&law(trap, Some("x^2 + 2*y^2"))), "is not the energy of the force");
-    assert_contains!(found(&law(["-y", "x", "0"], Some("x*y"))), "along ");
-    assert_contains!(found(&law(trap, Some("vx^2"))), "cannot name vx");
-    assert_eq!(found(&law(["1/x^2", "1/(1e-3 - x)", "0"], None)), "");
+    assert_contains!(told_by(&law(trap, Some("x^2 + 2*y^2"))), "is not the energy of the force");
+    assert_contains!(told_by(&law(["-y", "x", "0"], Some("x*y"))), "along ");
+    assert_contains!(told_by(&law(trap, Some("vx^2"))), "cannot name vx");
+    assert_eq!(told_by(&law(["1/x^2", "1/(1e-3 - x)", "0"], None)), "");
     assert_contains!(
-        found(&law(["sqrt(-1 - x^2)", "0", "0"], None)),
+        told_by(&law(["sqrt(-1 - x^2)", "0", "0"], None)),
         "force.0: \"sqrt(-1 - x^2)\" is infinite or not a number"
     );
-    let unknown = found(&law(["u", "0", "2 N"], None));
+    let unknown = told_by(&law(["u", "0", "2 N"], None));
     assert_contains!(unknown, "force.0: \"u\" uses \"u\"; a formula here knows x [m], y [m]");
     assert_contains!(
         unknown,

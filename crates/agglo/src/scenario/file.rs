@@ -115,45 +115,39 @@ pub(crate) struct StartTable {
     pub relax: Option<Relaxation>,
 }
 
-impl ScenarioFile {
-    /// What it says of its kind of spheres, without what it says of the other kind; nothing for hard spheres without a control
-    /// volume or laws of impact.
-    fn spheres(&self) -> Option<Engine> {
-        let soft = |scheme| {
-            let file = self.clone();
-            Some(Engine::Soft(Box::new(SoftSpheres {
-                scheme,
-                limits: file.limits.unwrap_or_default(),
-                relax: file.start.relax,
-                contact: file.contact,
-                bonds: file.bonds,
-                fields: file.fields.unwrap_or_default(),
-                acoustics: file.acoustics,
-            })))
-        };
-        let hard = |driver| {
-            let (volume, impact) = (self.volume.clone()?, self.impact.clone()?);
-            Some(Engine::Hard(Box::new(HardSpheres { driver, volume, impact })))
-        };
-        match &self.engine {
-            EngineTable::Staggered(scheme) => soft(Scheme::Staggered(scheme.clone())),
-            EngineTable::Verlet(scheme) => soft(Scheme::Verlet(scheme.clone())),
-            EngineTable::EventDriven(driver) => hard(Driver::EventDriven(driver.clone())),
-            EngineTable::TimeStepped(driver) => hard(Driver::TimeStepped(driver.clone())),
-        }
-    }
-}
-
 impl TryFrom<ScenarioFile> for Scenario {
     type Error = &'static str;
 
-    /// Takes what belongs to its kind of spheres.
+    /// Takes what belongs to its kind of spheres, and leaves what belongs to the other kind.
     ///
     /// # Errors
     /// For hard spheres without a control volume or laws of impact.
     fn try_from(file: ScenarioFile) -> Result<Self, &'static str> {
+        let StartTable { from, relax } = file.start;
+        let soft = |scheme| {
+            Engine::Soft(Box::new(SoftSpheres {
+                scheme,
+                limits: file.limits.unwrap_or_default(),
+                relax,
+                contact: file.contact,
+                bonds: file.bonds,
+                fields: file.fields.unwrap_or_default(),
+                acoustics: file.acoustics,
+            }))
+        };
+        let hard = |driver| match (file.volume, file.impact) {
+            (Some(volume), Some(impact)) => {
+                Ok(Engine::Hard(Box::new(HardSpheres { driver, volume, impact })))
+            }
+            _ => Err("hard spheres need [volume] and [impact]"),
+        };
         Ok(Self {
-            engine: file.spheres().ok_or("hard spheres need [volume] and [impact]")?,
+            engine: match file.engine {
+                EngineTable::Staggered(scheme) => soft(Scheme::Staggered(scheme)),
+                EngineTable::Verlet(scheme) => soft(Scheme::Verlet(scheme)),
+                EngineTable::EventDriven(driver) => hard(Driver::EventDriven(driver))?,
+                EngineTable::TimeStepped(driver) => hard(Driver::TimeStepped(driver))?,
+            },
             version: file.version,
             title: file.title,
             seed: file.seed,
@@ -162,7 +156,7 @@ impl TryFrom<ScenarioFile> for Scenario {
             materials: file.materials,
             mixtures: file.mixtures,
             grains: file.grains,
-            from: file.start.from,
+            from,
             measures: file.measures,
             output: file.output,
         })

@@ -18,7 +18,7 @@ use super::micro_state::MicroState;
 use super::record::{Homogenized, homogenize};
 use super::simulation::Simulation;
 use crate::domain::Volume;
-use crate::engine::{SimError, Start};
+use crate::engine::SimError;
 use crate::math::Vec3;
 use crate::math::rng::{Purpose, Stream};
 use crate::packing::{PackingError, fill_with, first_overlap};
@@ -181,8 +181,7 @@ impl Microscale {
         settings.end = duration;
         let mut stream = Stream::new(self.settings.seed, Purpose::Fragment, state.step);
         settings.seed = (stream.uniform() * (1_u64 << 53) as f64) as u64;
-        let start = Start { grown: state.grown.clone(), ..Start::from(&state.grains) };
-        let mut simulation = Simulation::start(settings, start)?;
+        let mut simulation = Simulation::begin(settings, &state.grains, &state.grown)?;
         simulation.system_mut().keeps_events = false;
         while !simulation.is_finished() {
             simulation.advance(duration)?;

@@ -112,11 +112,16 @@ impl Simulation {
         S: TryInto<Settings>,
         SimError: From<S::Error>,
     {
-        Self::begin(settings.try_into()?, &start.into())
+        let Start { grains, grown, warnings, .. } = start.into();
+        let mut simulation = Self::begin(settings.try_into()?, &grains, &grown)?;
+        for warning in &warnings {
+            simulation.system.state.warnings.add(warning);
+        }
+        Ok(simulation)
     }
 
-    fn begin(settings: Settings, start: &Start) -> Result<Self, SimError> {
-        let Start { grains, grown, .. } = start;
+    /// Starts with grains that stay with the caller, and what grown ones keep of their parts.
+    pub(super) fn begin(settings: Settings, grains: &Particles, grown: &[Grown]) -> Result<Self, SimError> {
         let heat_capacities: Vec<f64> = settings.materials.values().map(Material::specific_heat).collect();
         let mut spheres = Spheres::new(grains, |material| heat_capacities[material as usize]);
         for (bulk, grown) in spheres.bulk.iter_mut().zip(grown) {
@@ -138,9 +143,6 @@ impl Simulation {
         let options = settings.driver.clone();
         let mut system = Self::system_of(settings, state);
         for warning in system.laws.standing_warnings() {
-            system.state.warnings.add(warning);
-        }
-        for warning in &start.warnings {
             system.state.warnings.add(warning);
         }
         let driver = match &options {

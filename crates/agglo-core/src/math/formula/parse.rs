@@ -159,26 +159,27 @@ impl<'a> Reader<'a> {
         } else {
             self.product()?;
         }
-        while let Some(sign) = self.sign("+-") {
-            self.product()?;
-            self.join(sign);
-        }
-        Ok(())
+        self.joined_by("+-", Self::product)
     }
 
     fn product(&mut self) -> Result<(), String> {
         self.power()?;
-        while let Some(sign) = self.sign("*/") {
-            self.power()?;
-            self.join(sign);
-        }
-        Ok(())
+        self.joined_by("*/", Self::power)
     }
 
     fn power(&mut self) -> Result<(), String> {
         self.atom()?;
-        while let Some(sign) = self.sign("^") {
-            self.atom()?;
+        self.joined_by("^", Self::atom)
+    }
+
+    /// What follows the first part, as long as one of these signs comes next.
+    fn joined_by(
+        &mut self,
+        signs: &str,
+        part: impl Fn(&mut Self) -> Result<(), String>,
+    ) -> Result<(), String> {
+        while let Some(sign) = self.sign(signs) {
+            part(self)?;
             self.join(sign);
         }
         Ok(())
