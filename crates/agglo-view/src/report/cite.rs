@@ -153,7 +153,7 @@ mod tests {
     fn the_laws_of_the_file_are_cited_and_no_others() {
         let consistent = laws("acoustic");
         for law in
-            ["hertz", "restitution", "mindlin", "beam", "drag", "beams", "ray_force", "fresnel", "verlet"]
+            ["hertz", "restitution", "mindlin", "beam", "drag", "beams", "impulse", "fresnel", "verlet"]
         {
             assert!(consistent.contains(&law), "{law} is missing in {consistent:?}");
         }

@@ -102,7 +102,7 @@ impl Report {
         }
         let cards: String = self.charts.iter().map(card).collect();
         format!(
-            "<h2>Charts</h2>\n<p class=\"soft\">Point to see quantities, drag to zoom, double click to go back, click a \
+            "<h2>Charts</h2>\n<p class=\"soft\">Point to see values, drag to zoom, double click to go back, click a \
              name to hide its line.</p>\n<section id=\"charts\" class=\"charts\">\n{cards}</section>\n"
         )
     }
@@ -202,7 +202,8 @@ fn card(chart: &Chart) -> String {
 }
 
 fn table(table: &QuantityTable) -> String {
-    let head = |name: &String| format!("<th scope=\"col\">{}</th>", escaped(name));
+    // Names of columns are long words, which may break after an underscore.
+    let head = |name: &String| format!("<th scope=\"col\">{}</th>", escaped(name).replace('_', "_<wbr>"));
     let head: String = table.head.iter().map(head).collect();
     let head = if table.head.is_empty() { head } else { format!("<tr>{head}</tr>\n") };
     let cell = |cell: &String| format!("<td>{}</td>", escaped(cell));

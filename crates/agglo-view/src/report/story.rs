@@ -43,7 +43,8 @@ fn soft(summary: &SoftSummary) -> String {
     if summary.energy.is_alarming() {
         words.push(unexplained(summary.energy.unexplained_largest, summary.energy.unexplained_limit));
     }
-    words.push(format!("{} were followed for {}.", grains(summary.grains as u64), time(summary.time_s)));
+    let count = summary.grains as u64;
+    words.push(format!("{} {} followed for {}.", grains(count), was(count), time(summary.time_s)));
     let rays: u64 = summary.pulses.iter().map(|pulse| pulse.rays).sum();
     if rays > 0 {
         let [launched, absorbed]: [f64; 2] = [
@@ -84,17 +85,18 @@ fn hard(summary: &HardSummary) -> String {
     let (part, limit) = (summary.energy.unexplained(), Limits::default().drift_warning);
     let mut words: Vec<String> = (part > limit).then(|| unexplained(part, limit)).into_iter().collect();
     words.push(format!(
-        "{} moved for {} and met {} times: {}, {} and {}.",
+        "{} moved for {} and collided {}: {}, {} and {}.",
         grains(summary.growth.grains_start),
         time(summary.run.time_s),
-        summary.counts.impacts,
+        counted(summary.counts.impacts, "time"),
         counted(summary.counts.bounces, "bounce"),
         counted(summary.counts.merges, "merge"),
         counted(summary.counts.fragmentations, "breakage"),
     ));
     words.push(format!(
-        "{} are left, in the mean {:.3} times as large as at the start.",
+        "{} {} left, in the mean {:.3} times as large as at the start.",
         grains(summary.growth.grains_end),
+        if summary.growth.grains_end == 1 { "is" } else { "are" },
         summary.growth.radius_ratio
     ));
     if summary.growth.largest_primaries > 1 {
@@ -115,6 +117,10 @@ fn hard(summary: &HardSummary) -> String {
 
 fn grains(count: u64) -> String {
     counted(count, "grain")
+}
+
+fn was(count: u64) -> &'static str {
+    if count == 1 { "was" } else { "were" }
 }
 
 fn counted(count: u64, what: &str) -> String {

@@ -68,7 +68,7 @@ fn a_run_of_hard_spheres_is_told_with_its_own_quantities() {
         ..HardSummary::default()
     };
     summary.energy.drift_relative = -2e-5;
-    let wanted = "9 grains moved for 2 s and met 100 times: 61 bounces, 1 merge and 8 breakages. 7 grains are left, in the mean \
+    let wanted = "9 grains moved for 2 s and collided 100 times: 61 bounces, 1 merge and 8 breakages. 7 grains are left, in the mean \
                   1.250 times as large as at the start. The largest holds 3 of the first grains, 37.5 % of the mass. Their \
                   mean temperature is 310 K (the hottest has 420 K). Energy is accounted for to 2.0e-5 of all there was.";
     assert_eq!(hard(&summary), wanted, "found on the left, due on the right");

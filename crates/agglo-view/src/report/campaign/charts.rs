@@ -4,6 +4,7 @@ use super::folder::Folder;
 use crate::chart::{Axis, Candidates, Chart, Curves, Drawn, Look, Series, Spread};
 use agglo::folder::names::{EVALUATIONS, GENERATIONS, SUMMARY};
 use agglo::record::Sheet;
+use agglo::search::analysis::Moments;
 use agglo::search::optimizer::Method;
 use agglo::text::{column, readable};
 
@@ -242,32 +243,54 @@ fn parallel(folder: &Folder, searched: &Sheet) -> Option<Chart> {
     })
 }
 
-/// The best quarter of the candidates of parallel coordinates, but at least so many, in all pairs of the first parameters.
+/// The best quarter of the candidates of parallel coordinates, but at least so many, in all pairs of the parameters that they
+/// narrow most.
 fn pairs(folder: &Folder, parallel: &Chart) -> Option<Chart> {
     let Drawn::Parallel(all) = &parallel.drawn else { return None };
     let ranked = all.ranked();
     let good = &ranked[..ranked.len().min((ranked.len() / 4).max(FEWEST_GOOD))];
-    let shown = folder.parameters().len().min(MOST_PAIRED);
     if good.is_empty() {
         return None;
     }
+    let parameters = folder.parameters().len();
+    let shown = narrowed(all, good, parameters);
+    let which = if shown.len() < parameters {
+        format!("the {} of {parameters} parameters that they narrow most", shown.len())
+    } else {
+        "parameters".to_owned()
+    };
+    let values = |row: &[f64]| shown.iter().map(|&axis| row[axis]).collect();
     Some(Chart {
         id: "pairs".to_owned(),
         title: "The good region".to_owned(),
         caption: format!(
-            "The best {} of {} candidates that keep the limits, in pairs of parameters; bright ones are better. From \
+            "The best {} of {} candidates that keep the limits, in pairs of {which}; bright ones are better. From \
              {EVALUATIONS}.",
             good.len(),
             ranked.len()
         ),
-        words: (0..shown).map(|axis| range_in_words(all, good, axis)).collect(),
+        words: shown.iter().map(|&axis| range_in_words(all, good, axis)).collect(),
         drawn: Drawn::Pairs(Candidates {
-            axes: all.axes[..shown].to_vec(),
-            rows: good.iter().map(|(row, _)| row[..shown].to_vec()).collect(),
+            axes: shown.iter().map(|&axis| all.axes[axis].clone()).collect(),
+            rows: good.iter().map(|(row, _)| values(row)).collect(),
             shades: good.iter().map(|(_, shade)| *shade).collect(),
             ..all.clone()
         }),
     })
+}
+
+/// The parameters, at most so many that names stay readable, over whose range of all candidates the good ones scatter least.
+fn narrowed(all: &Candidates, good: &[(&Vec<f64>, f64)], parameters: usize) -> Vec<usize> {
+    let scatter = |axis: usize| {
+        let [good, all]: [Vec<f64>; 2] =
+            [good.iter().map(|(row, _)| row[axis]).collect(), all.rows.iter().map(|row| row[axis]).collect()];
+        Moments::of(&good).standard_deviation / Moments::of(&all).standard_deviation
+    };
+    let mut axes: Vec<usize> = (0..parameters).collect();
+    axes.sort_by(|&a, &b| scatter(a).total_cmp(&scatter(b)));
+    axes.truncate(MOST_PAIRED);
+    axes.sort_unstable();
+    axes
 }
 
 /// "v_m_s from 20 to 31".

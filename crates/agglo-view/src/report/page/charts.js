@@ -31,6 +31,7 @@ class Chart {
       paper_bgcolor: "transparent", plot_bgcolor: "transparent",
       font: { color: tone("--text"), family: "system-ui, sans-serif", size: 13 },
       margin: { l: 60, r: 16, t: 12, b: 48 }, hovermode: "closest", showlegend: false, legend: { orientation: "h", y: -0.25 },
+      modebar: { bgcolor: "rgba(0, 0, 0, 0)", color: tone("--soft"), activecolor: tone("--text") },
       hoverlabel: { bgcolor: tone("--card"), font: { color: tone("--text") } },
     };
     const config = { responsive: true, displaylogo: false, modeBarButtonsToRemove: ["lasso2d", "select2d"] };
@@ -46,7 +47,7 @@ function axis({ name, unit, is_log: isLog, labels }, tone, values = []) {
   if (labels.length > 0) return { ...base, tickvals: labels.map((_, place) => place), ticktext: labels };
   return {
     ...base, type: isLog ? "log" : "linear", exponentformat: unit ? "SI" : "power",
-    minexponent: unit ? 2 : 4, ticksuffix: unit,
+    minexponent: unit ? 2 : 4, ticksuffix: unit, ...(unit && { tickformat: ".6~s" }),
     hoverformat: unit ? ".4~s" : ".5~g", ...(isLog && decades(values, unit)),
   };
 }
@@ -164,8 +165,8 @@ function goodness({ shades, shade, is_large_good: isLargeGood }) {
 }
 
 function drawParallel(chart, tone) {
-  const dimensions = chart.axes.map(({ name, labels }, at) => ({
-    label: name, values: chart.rows.map((row) => row[at]), tickformat: ".4~g",
+  const dimensions = chart.axes.map(({ name, unit, labels }, at) => ({
+    label: name, values: chart.rows.map((row) => row[at]), tickformat: unit ? ".4~s" : ".4~g",
     ...(labels.length > 0 && { tickvals: labels.map((_, place) => place), ticktext: labels }),
   }));
   const traces = [{
