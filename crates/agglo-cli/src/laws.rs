@@ -41,16 +41,16 @@ fn plain() -> String {
         }
         let words = [page.name, page.scope().word(), energy(page), &equations(page)];
         lines.push(row(words, page.title()));
-        lines.push(format!("  {:<18}{}", "", source(page)));
+        lines.push(format!("  {:<20}{}", "", source(page)));
         if !page.words.is_empty() {
-            lines.push(format!("  {:<18}with {}", "", page.words.join(", ")));
+            lines.push(format!("  {:<20}with {}", "", page.words.join(", ")));
         }
     }
     lines.join("\n")
 }
 
 fn row([word, scope, energy, equations]: [&str; 4], what: &str) -> String {
-    format!("  {word:<18}{scope:<8}{energy:<8}{equations:<30}{what}")
+    format!("  {word:<20}{scope:<8}{energy:<8}{equations:<30}{what}")
 }
 
 fn as_json(page: &Page) -> serde_json::Value {

@@ -61,6 +61,8 @@ fn every_law_is_listed_and_every_listed_word_is_explained() {
             assert!(said(&["explain", word]).starts_with(&format!("{} (", page.name)), "{word}");
         }
     }
+    // Lines of an example that only the compiler needs are not for readers.
+    assert_lacks!(said(&["list-laws", "--pages"]), "extern crate");
     let both = agglo(&["list-laws", "--markdown", "--json"]);
     assert_eq!(both.status.code(), Some(2));
 }

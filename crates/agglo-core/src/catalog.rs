@@ -4,34 +4,38 @@
 use crate::acoustics::RayForce;
 use crate::contact::{Bonds, Custom, Damping, Friction, Normal};
 use crate::fields::near_field::NearFieldLaw;
-use crate::fields::{self, Drag, Gravity, Lorentz, Magnetic, NearField};
+use crate::fields::{Fields, NearField};
 use crate::impact::{Cooling, Fragmentation, HeatBalance, Restitution, Tangential};
 use crate::law::Entry;
 use crate::pages::{OF_SINGLE_FILES, Page};
 
-/// The families.
+/// Laws by families.
 const FAMILIES: &[&[Entry]] = &[
     Normal::LAWS,
     &[Custom::ENTRY],
     Damping::LAWS,
     Friction::LAWS,
     Bonds::LAWS,
+    Fields::LAWS,
     NearFieldLaw::LAWS,
-    &[Gravity::ENTRY, Drag::ENTRY, Lorentz::ENTRY, Magnetic::ENTRY, fields::Custom::ENTRY],
     Restitution::LAWS,
-    &[Tangential::ENTRY, HeatBalance::ENTRY, Fragmentation::ENTRY, Cooling::ENTRY],
+    &[Tangential::ENTRY, Fragmentation::ENTRY, HeatBalance::ENTRY, Cooling::ENTRY],
     RayForce::LAWS,
 ];
 
-/// Pages of the families, and of what else has one.
+/// Their pages, and those of what else has one.
 const PAGES: &[&[Page]] = &[
     Normal::PAGES,
+    &[Custom::PAGE],
     Damping::PAGES,
     Friction::PAGES,
     Bonds::PAGES,
+    Fields::PAGES,
     &[NearField::PAGE],
     NearFieldLaw::PAGES,
     Restitution::PAGES,
+    &[Tangential::PAGE, Fragmentation::PAGE, HeatBalance::PAGE, Cooling::PAGE],
+    RayForce::PAGES,
     OF_SINGLE_FILES,
 ];
 

@@ -105,7 +105,7 @@ fn soft_grains_go_on_with_bonds_and_names() {
     );
 
     ended(next.run(&copied, &[]).output().unwrap(), 0);
-    for column in ["kinetic_J", "spin_J", "elastic_J", "bonds_J"] {
+    for column in ["kinetic_J", "rotational_J", "elastic_J", "bonds_J"] {
         let [before, after] = [(first, true), (run.as_path(), false)]
             .map(|(run, is_last)| entry(run, "series/energy.csv", is_last, column));
         // Sums are made in another order.

@@ -58,7 +58,7 @@ fn the_channels_of_energy_add_up_to_the_drift() {
         let sum = |keys: &[&str]| keys.iter().map(|key| number(energy, key)).sum::<f64>();
         let stores = sum(&[
             "kinetic_J",
-            "spin_J",
+            "rotational_J",
             "elastic_J",
             "tangential_spring_J",
             "bonds_J",

@@ -5,7 +5,7 @@ mod flight;
 mod follow;
 pub mod fresnel;
 mod medium;
-mod ray_force;
+pub mod ray_force;
 mod tracer;
 mod wavelength;
 

@@ -28,6 +28,10 @@
 //! `larger_radius` [m], `effective_mass` [kg], and of the materials `effective_modulus` E* of Hertz' law and the mean
 //! `contact_stiffness` [Pa].
 //!
+//! # Critical step
+//! ω² and Γ of the formula's slopes (CU2) at overlaps up to that which `limits.strain` allows; looked at every 100 steps, and every
+//! step where the formula has the speed.
+//!
 //! # Valid when
 //! The formula has a value at all overlaps that are reached; some are tried before a run. The integral is good to 1e-12 where the
 //! formula is smooth, also with half powers at touching. Where the force jumps as grains begin to touch, energy is kept only as
@@ -36,7 +40,6 @@
 //!
 //! # Compared with others
 //! LAMMPS has tables and, by `pair_style lepton`, formulas of the distance; energies of dissipative formulas are not booked there.
-//! Slopes for the automatic step are those of the formula itself, at overlaps up to that which `limits.strain` allows.
 //!
 //! # In a scenario
 //! ```toml

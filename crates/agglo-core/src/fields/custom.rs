@@ -24,6 +24,9 @@
 //!
 //! Names in the formulas, all in SI units: `x`, `y`, `z`, `vx`, `vy`, `vz`, `t`, `radius`, `mass`, `charge`.
 //!
+//! # Critical step
+//! ω² and Γ of the formulas' slopes (CU4) where grains are; looked at every 100 steps.
+//!
 //! # Valid when
 //! The formulas have values where grains are; where they have none, the run stops. The force does not turn grains. A part that
 //! depends on the velocity is not solved for, as drag is: the automatic step has to resolve its decay.

@@ -23,6 +23,10 @@
 //! | C_a      | `added_mass`        | -     | 1/2 for a sphere in an ideal fluid                  |
 //! | w        | `angular_velocity`              | rad/s | angular velocity of the grain                       |
 //!
+//! # Critical step
+//! Γ = a sixth of 6 π η R φ/m (1.687 times that for `schiller_naumann`) plus the gradient of the flow, or a sixth
+//! of 15 η/(ρ R²) of rotation; looked at every 100 steps.
+//!
 //! # Valid when
 //! Stokes: Re ≪ 1 (2 % off at Re = 0.1, 15 % at 1). Schiller and Naumann: Re up to 1000, within 5 %; the torque is
 //! that of slow rotation with both. The flow hardly changes over a grain. Grains do not feel one another's wakes, nor
@@ -124,6 +128,8 @@ impl DragLaw {
 lone_law!(Drag at "fields", drag);
 
 impl Law for Drag {
+    const WORDS: &'static [&'static str] = &["stokes", "schiller_naumann"];
+
     fn faults(&self, faults: &mut Faults, context: &Context<'_>) {
         faults.zero_or_more("added_mass", self.added_mass);
         if context.medium.viscosity.si() == 0.0 {

@@ -16,6 +16,9 @@
 //! | E      | `electric_field`        | V/m  | applied electric field               |
 //! | B      | `magnetic_flux_density` | T    | applied magnetic flux density        |
 //!
+//! # Critical step
+//! ω² = q times the gradient of E, over m, and Γ = q B/m; looked at every 100 steps.
+//!
 //! # Valid when
 //! Fields are applied from outside and speeds far below that of light; the fields of moving grains are left
 //! out (that of resting ones is `coulomb` of the near field). The magnetic part does no work.

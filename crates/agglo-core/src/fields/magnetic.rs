@@ -15,6 +15,9 @@
 //! | B      | `magnetic_flux_density` | T    | applied flux density                                 |
 //! | h      | `difference`            | m    | half the width of the central difference             |
 //!
+//! # Critical step
+//! ω² = gradient of the force over m; looked at every 100 steps.
+//!
 //! # Valid when
 //! Grains do not magnetize one another. The difference is exact, up to round-off, where B is linear in space
 //! (a uniform gradient): B·B is then quadratic. Otherwise its error is h²/6 times the third derivative.

@@ -13,23 +13,23 @@ pub mod near_field;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use custom::{Custom, FieldFormula, OfGrain};
+pub use custom::{FieldFormula, OfGrain};
 pub use drag::{Drag, DragLaw, Validity, rotational_drag};
 pub use expression::{Expression, FieldVector, evaluate};
 pub use flow::{Flow, FlowAt, FlowField};
-pub use gravity::Gravity;
 pub use law::{Channel, FieldLaw, Grain, Part};
-pub use lorentz::Lorentz;
-pub use magnetic::Magnetic;
 pub use near_field::NearField;
 
-use crate::law::Chosen;
+use crate::law::{Chosen, Entry};
 use crate::math::{Pace, Vec3};
+use crate::pages::Page;
 
 /// Makes the table of fields from the list of forces on single grains, and all by which the rest of the program knows
-/// them: `word: Law, "what it is";`.
+/// them: `word: Law, page word, "what it is";`. The law is `word::Law`, and its page is at the head of that file.
 macro_rules! fields {
-    ($($word:ident: $Law:ident, $says:tt;)+) => {
+    ($($word:ident: $Law:ident, page $page:ident, $says:tt;)+) => {
+        $(pub use $word::$Law;)+
+
         /// The fields of a scenario; each is off if left out.
         #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
         #[serde(deny_unknown_fields)]
@@ -47,9 +47,15 @@ macro_rules! fields {
             pub near_field: Option<NearField>,
         }
 
-        $(lone_law!($Law at "fields", $word);)+
+        $(lone_law!($Law at "fields", $word, page $page);)+
 
         impl Fields {
+            /// All laws of the table, but for those of the near field.
+            pub const LAWS: &'static [Entry] = &[$($Law::ENTRY,)+ Drag::ENTRY];
+
+            /// Their pages.
+            pub const PAGES: &'static [Page] = &[$($Law::PAGE,)+ Drag::PAGE];
+
             /// Paths of the forces on single grains, in their order.
             pub const SINGLE: &'static [&'static str] = &[$(concat!("fields.", stringify!($word))),+];
 
@@ -119,8 +125,8 @@ macro_rules! fields {
 }
 
 fields! {
-    gravity: Gravity, "Weight, with buoyancy if wanted.";
-    lorentz: Lorentz, "Electric and magnetic force on charges.";
-    magnetic: Magnetic, "Magnetic force on magnetizable grains.";
-    custom: Custom, "A force as formulas of place, velocity and time.";
+    gravity: Gravity, page gravity, "Weight, with buoyancy if wanted.";
+    lorentz: Lorentz, page lorentz, "Electric and magnetic force on charges.";
+    magnetic: Magnetic, page magnetic, "Magnetic force on magnetizable grains.";
+    custom: Custom, page custom_field, "A force as formulas of place, velocity and time.";
 }

@@ -77,6 +77,8 @@ pub struct Fragmentation {
 lone_law!(Fragmentation at "impact", fragmentation);
 
 impl Law for Fragmentation {
+    const WORDS: &'static [&'static str] = &["center_of_mass", "power_law"];
+
     const READS: &'static [Property] = &[SURFACE_ENERGY];
 
     fn faults(&self, faults: &mut Faults, _: &Context<'_>) {

@@ -61,6 +61,8 @@ pub struct Tangential {
 lone_law!(Tangential at "impact", tangential);
 
 impl Law for Tangential {
+    const WORDS: &'static [&'static str] = &["no_slip"];
+
     fn faults(&self, faults: &mut Faults, _: &Context<'_>) {
         faults.zero_or_more("friction", self.friction);
     }

@@ -22,6 +22,8 @@ macro_rules! family {
             $($Law:ident in $file:ident: $says:tt;)+
         }
     ) => {
+        $(pub use $file::$Law;)+
+
         $(#[$meta])*
         #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
         #[serde(rename_all = "snake_case")]
@@ -62,20 +64,30 @@ macro_rules! family {
     };
 }
 
-/// Says where a law stands that is the only one of its table.
+/// Says where a law stands that is the only one of its table; its word is the name of its file, and of its page if no other is given.
 macro_rules! lone_law {
     ($Law:ident at $table:literal, $word:ident) => {
-        lone_law!(@ $Law, concat!($table, ".", stringify!($word)));
+        lone_law!($Law at $table, $word, page $word);
     };
-    (@ $Law:ident, $key:expr) => {
+    ($Law:ident at $table:literal, $word:ident, page $page:ident) => {
         impl $Law {
+            const KEY: &'static str = concat!($table, ".", stringify!($word));
+
             /// The law as it is listed among all.
             pub const ENTRY: $crate::law::Entry =
-                $crate::law::Entry { key: $key, reads: <Self as $crate::law::Law>::READS };
+                $crate::law::Entry { key: Self::KEY, reads: <Self as $crate::law::Law>::READS };
+
+            /// Its page.
+            pub const PAGE: $crate::pages::Page = $crate::pages::Page::new(
+                stringify!($page),
+                $table,
+                <Self as $crate::law::Law>::WORDS,
+                include_str!(concat!(stringify!($word), ".rs")),
+            );
 
             /// The law that is chosen.
             pub fn chosen(&self) -> $crate::law::Chosen<'_> {
-                $crate::law::Chosen::new($key, self)
+                $crate::law::Chosen::new(Self::KEY, self)
             }
         }
     };

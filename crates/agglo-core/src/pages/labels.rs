@@ -125,7 +125,8 @@ mod tests {
     fn labels_are_those_of_the_pages() {
         assert_eq!(labels("hertz"), ["[A] 70"]);
         assert_eq!(labels("restitution"), ["A5"]);
-        assert_eq!(labels("ray_force"), ["[A] 7", "A13", "[A] 18"]);
+        assert_eq!(labels("impulse"), ["[A] 7", "[A] 18"]);
+        assert_eq!(labels("radiation_pressure"), ["A13", "[A] 18"]);
         assert_eq!(labels("fresnel"), ["[A] 2-3, 52-62", "[A] 4", "A12"]);
         assert_eq!(labels("cooling"), ["[B] 6.19-6.20", "B9", "[B] 6.21"]);
         assert_eq!(labels("fragmentation"), ["[B] 5.1-5.3", "B7"]);

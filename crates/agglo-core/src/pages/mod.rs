@@ -31,22 +31,12 @@ macro_rules! pages {
 }
 
 pages! {
-    "custom" "contact" "custom" [];
-    "lorentz" "fields" "lorentz" [];
-    "magnetic" "fields" "magnetic" [];
-    "custom_field" "fields" "custom" [];
-    "gravity" "fields" "gravity" [];
-    "drag" "fields" "drag" ["stokes" "schiller_naumann"];
     "contact_area" "impact" "contact_area" [];
     "contact_time" "impact" "contact_time" [];
     "softening" "impact" "softening" [];
-    "tangential" "impact" "tangential" ["no_slip"];
     "sticking" "impact" "sticking" ["merge" "never"];
-    "fragmentation" "impact" "fragmentation" ["center_of_mass" "power_law"];
-    "heat" "impact" "heat" [];
     "work" "impact" "work" [];
     "reaction_heat" "impact" "reaction_heat" [];
-    "cooling" "impact" "cooling" [];
     "self_gravity" "impact" "self_gravity" [];
     "beams" "acoustics" "beam" [];
     "fresnel" "acoustics" "fresnel" [];
@@ -55,7 +45,6 @@ pages! {
     "verlet" "engine/soft/step" "verlet" [];
     "event_driven" "engine/hard/drive" "event_driven" [];
     "time_stepped" "engine/hard/drive" "time_stepped" [];
-    "ray_force" "acoustics/ray_force" "mod" ["impulse" "published_step" "radiation_pressure"];
 }
 
 impl Page {

@@ -32,11 +32,16 @@ fn chapter(page: &Page) -> String {
     for (heading, text) in page.sections() {
         match heading.as_str() {
             "" => parts.push(text),
-            // A block without a language is Rust, for the compiler as for the reader.
-            "Example" => parts.push(format!("**In Rust**\n\n{}", text.replacen("```\n", "```rust\n", 1))),
+            "Example" => parts.push(format!("**In Rust**\n\n{}", as_read(&text))),
             _ => parts.push(format!("**{heading}**\n\n{text}")),
         }
     }
     parts.extend(keys_table(page).map(|table| format!("**Keys**\n\n{table}")));
     parts.join("\n\n")
+}
+
+/// An example as a reader sees it: a block without a language is Rust, and lines that begin with `# ` are for the compiler alone.
+fn as_read(example: &str) -> String {
+    let seen: Vec<&str> = example.lines().filter(|line| !line.starts_with("# ")).collect();
+    seen.join("\n").replacen("```\n", "```rust\n", 1)
 }

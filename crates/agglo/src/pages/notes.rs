@@ -1,11 +1,11 @@
 //! What to say of words that stand for something else than one would think, or for nothing yet.
 
 /// Words, and what is said of them.
-pub(super) const NOTES: [(&[&str], &str); 5] = [
+pub(super) const NOTES: [(&[&str], &str); 6] = [
     (
         &["rolling", "rolling_friction", "rolling_resistance", "torsion"],
         "There is no law of rolling resistance: friction (`regularized`, `mindlin`) acts on sliding, and leaves rolling free.\n\
-         What resists rolling is the bending of bonds (`agglo explain beam`), and the medium, which brakes angular_velocity\n\
+         What resists rolling is the bending of bonds (`agglo explain beam`), and the medium, which brakes rotation\n\
          (`agglo explain drag`).",
     ),
     (
@@ -21,6 +21,11 @@ pub(super) const NOTES: [(&[&str], &str); 5] = [
         "There is no law of adhesion in a contact. Grains attract each other at a distance by `van_der_waals`, in contact by\n\
          `strain_bond`, and are held together by `beam`: `agglo explain van_der_waals`, and so on. Hard spheres that stick\n\
          merge (`agglo explain sticking`).",
+    ),
+    (
+        &["ray_force", "ray_forces"],
+        "How a ray pushes what it hits is `radiation_pressure`, its own momentum; `impulse`, the force of the 2016 paper for the\n\
+         duration of the pulse; or `published_step`, that for one step as printed: `agglo explain radiation_pressure`, and so on.",
     ),
     (
         &["wall", "walls"],

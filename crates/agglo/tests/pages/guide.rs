@@ -37,6 +37,7 @@ fn made(file: File, text: &str) -> String {
             ["tables"] => tables(file),
             ["keys", first, ..] => keys(file, first, &own),
             ["equations", ..] => equations(&order[1..]),
+            ["steps"] => steps(),
             _ => panic!("nothing is known that is made by {order:?}"),
         };
         let (_, rest) = part.split_once(END).unwrap_or_else(|| panic!("{order:?} has no {END}"));
@@ -110,6 +111,15 @@ fn equations(of: &[&str]) -> String {
         }
     }
     table(&["word", "equation", "label"], &rows)
+}
+
+/// What each law gives for the step that `verlet` works out.
+fn steps() -> String {
+    let row = |page: &Page| {
+        let words = page.section("Critical step")?.replace('\n', " ").replace('|', "\\|");
+        Some(vec![format!("`{}`", page.name), words])
+    };
+    table(&["law", "ω² and Γ"], &all().filter_map(row).collect::<Vec<_>>())
 }
 
 /// Holds a page to what is made now, or writes it.

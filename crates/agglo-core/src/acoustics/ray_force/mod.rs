@@ -1,83 +1,18 @@
-//! How a ray pushes the grain that it hits.
-//!
-//! # Equation
-//! ```text
-//! impulse, published_step:  F = √(I (1 - ℛ) ρ_t c_t a_r) along the refracted ray                [A] 7
-//! radiation_pressure:       F = (I/c_i)(d_in - ℛ d_out)                                        A13
-//! ```
-//!
-//! In a solid with a `shear_sound_speed` two waves enter: the first law adds up the same for each, with its own part of the
-//! power, its own impedance (ρ_t c_t or ρ_t c_s) and its own direction. So F²/(impedance a_r) summed over the two is
-//! the power that enters, as in the paper. The second law does not care what enters.
-//!
-//! The force acts at the point of impact: its torque about the grain's center is (r_contact - r_i) x F ([A] 18).
-//!
-//! # Source
-//! T. I. Zohdi, Comput. Mech. 57, 465 (2016), section 3.1, remark 2; the momentum balance of a ray for the second.
-//!
-//! # Symbols
-//! | symbol       | name in code             | unit   | meaning                                |
-//! |--------------|--------------------------|--------|----------------------------------------|
-//! | I            | `Hit::power_in`          | W      | power of the ray that arrives          |
-//! | ℛ            | `Hit::reflectance`       | 1      | part of it that is reflected           |
-//! | ρ_t c_t      | `Impedance::sound`       | Pa s/m | impedance of the grain                 |
-//! | ρ_t c_s      | `Impedance::shear`       | Pa s/m | the same of its shear waves            |
-//! | a_r          | `Hit::ray_area`          | m²     | area of the ray in its beam            |
-//! | c_i          | `Medium::sound_speed`    | m/s    | speed of sound in the medium           |
-//! | d_in, d_out  | `Hit::direction_in/_out` | 1      | unit vectors before and after          |
-//! | ξ            | `step_fraction`          | 1      | of [`PublishedStep`]                   |
-//!
-//! # Valid when
-//! Rays hold (wavelength much smaller than the grain); nothing that enters the grain comes out.
-//!
-//! # Compared with others
-//! In the paper a hit presses for the one time step in which the ray lands, so its impulse shrinks with the step
-//! and the answer does not converge. [`Impulse`] presses for the duration of the pulse: an impulse F τ, whatever
-//! the step. [`PublishedStep`] presses for one step of ξ R/c_i, the step that the paper advises. The paper calls
-//! I an energy [J], but only a power gives a force: sqrt(W · kg/(m² s) · m²) = sqrt(kg² m²/s⁴) = N.
-//!
-//! [A] 7 equates the power that enters with F²/(ρ_t c_t a_r), force times velocity of the wave in the grain: it is
-//! the pressure amplitude of the wave, which changes its sign twice per period in a real wave, so it is not a
-//! mean push, and the ray's own momentum (I/c) does not account for it. [`RadiationPressure`] is that mean push: what
-//! the ray loses in momentum the grain gains. At normal incidence it is smaller by the factor
-//! v_t (1 + ℛ)/(c_i (1 - ℛ)), with v_t = F/(ρ_t c_t a_r) the velocity of the wave in the grain.
-//!
-//! # In a scenario
-//! ```toml
-//! [acoustics.force.radiation_pressure]
-//! duration = "1 us"
-//! ```
-//!
-//! # Example
-//! ```
-//! # extern crate agglo_core as agglo;
-//! use agglo::acoustics::{Hit, Impedance, Impulse, Medium, RayForce};
-//! use agglo::{math::Vec3, units::Quantity};
-//! let law = RayForce::Impulse(Impulse { duration: Quantity(1e-6) });
-//! let down = -Vec3::AXES[2];
-//! let hit = Hit { power_in: 100.0, reflectance: 0.75, ray_area: 1e-4, refracted: down, ..Hit::default() };
-//! let ceramic = Impedance { sound: 27e6, shear: 0.0 };
-//! let force = law.force(&hit, ceramic, &Medium::default());
-//! let by_hand = (100.0 * 0.25 * 27e6 * 1e-4_f64).sqrt(); // 260 N
-//! assert!((force - down * by_hand).norm() < 1e-12);
-//! ```
+//! How a ray pushes the grain that it hits, at the point of impact.
 
 mod impulse;
 mod law;
 mod published_step;
 mod radiation_pressure;
 
-pub use impulse::Impulse;
 pub use law::{Impedance, RayLaw};
-pub use published_step::PublishedStep;
-pub use radiation_pressure::RadiationPressure;
 
 use super::{Hit, Medium};
 use crate::math::Vec3;
 
 family! {
     /// The closed set of ray-force laws.
-    pub enum RayForce at "acoustics.force", each by each_ray_force ($) {
+    pub enum RayForce at "acoustics.force", pages in "acoustics/ray_force", each by each_ray_force ($) {
         Impulse in impulse: "[A] 7 for the duration of the pulse: the impulse of a hit does not depend on the step.";
         PublishedStep in published_step: "[A] 7 for the one step in which the ray lands; does not converge.";
         RadiationPressure in radiation_pressure: "Momentum balance of the ray, for the duration of the pulse.";
@@ -196,7 +131,7 @@ mod tests {
         }
     }
 
-    /// F_rad/F = v_t (1 + R)/(c_i (1 - R)) at normal incidence, as the module's page says.
+    /// F_rad/F = v_t (1 + R)/(c_i (1 - R)) at normal incidence, as the page of `radiation_pressure` says.
     #[test]
     fn the_two_laws_differ_by_the_wave_s_velocity() {
         let (hit, medium) = (hit(1.0), Medium::default());

@@ -1,4 +1,38 @@
-//! The force of [A] 7 for one step, as printed; the page of [`super`] has the equation.
+//! A hit presses with the force of the wave that enters, for one step, as printed; does not converge.
+//!
+//! # Equation
+//! ```text
+//! F = √(I (1 - ℛ) ρ_t c_t a_r) along the refracted ray, for the step in which the ray lands     [A] 7
+//! Δt = ξ R/c_i
+//! ```
+//! The force of `impulse`, of each wave that enters.
+//!
+//! # Source
+//! T. I. Zohdi, Comput. Mech. 57, 465 (2016), section 3.1, remark 2, with the step that the paper advises.
+//!
+//! # Symbols
+//! | symbol  | name in code          | unit   | meaning                                                     |
+//! |---------|-----------------------|--------|-------------------------------------------------------------|
+//! | I       | `Hit::power_in`       | W      | power of the ray that arrives                               |
+//! | ℛ       | `Hit::reflectance`    | 1      | part of it that is reflected                                |
+//! | ρ_t c_t | `Impedance::sound`    | Pa s/m | impedance of the grain                                      |
+//! | a_r     | `Hit::ray_area`       | m²     | area of the ray in its beam                                 |
+//! | ξ       | `step_fraction`       | 1      | part of a mean radius that a ray travels in one step        |
+//! | R       | `radius`              | m      | mean radius of the grains                                   |
+//! | c_i     | `Medium::sound_speed` | m/s    | speed of sound in the medium                                |
+//!
+//! # Valid when
+//! Never as physics: half the step is half the impulse. It is here to run the paper's sample problem as printed, with the
+//! step that the paper advises.
+//!
+//! # Compared with others
+//! `impulse` has the same force and presses for the duration of the pulse, whatever the step.
+//!
+//! # In a scenario
+//! ```toml
+//! [acoustics.force.published_step]
+//! step_fraction = 0.1
+//! ```
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -31,6 +31,10 @@
 //! | σ, τ   | `tensile_strength`, `shear_strength` | Pa | of the cement                               |
 //! | ζ      | `damping_ratio`   | -    | part of critical damping in each mode                        |
 //!
+//! # Critical step
+//! ω² of all bonds of a grain, in the stiffest of the four modes, and Γ of its dashpots; looked at every 100 steps,
+//! and when bonds are made.
+//!
 //! # Valid when
 //! Strains and relative rotations are small (the cement is brittle). The chain of many bonds bends like a beam
 //! of the same disc.

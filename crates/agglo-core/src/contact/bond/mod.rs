@@ -3,8 +3,7 @@
 mod beam;
 mod strain_bond;
 
-pub use beam::{Beam, BeamLoad, BeamPair, BeamState, Break};
-pub use strain_bond::StrainBond;
+pub use beam::{BeamLoad, BeamPair, BeamState, Break};
 
 family! {
     /// The closed set of bond laws.

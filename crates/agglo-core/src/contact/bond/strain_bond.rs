@@ -20,6 +20,9 @@
 //! | A      | `geometry.area()`         | m²   | disc in which the spheres cut each other           |
 //! | τ      |                        | -    | direction of j's slip relative to i                |
 //!
+//! # Critical step
+//! ω² = 4 (7/2) K A/m* across the contact, at the overlap of the moment; looked at every step.
+//!
 //! # Valid when
 //! To reproduce the paper only. The bond acts while grains overlap, so it cannot resist tension; with
 //! K_nb < K and p_b = p, as in the paper's example, contact and bond together always repel and nothing holds

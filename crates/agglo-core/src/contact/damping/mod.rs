@@ -5,8 +5,7 @@ mod restitution;
 mod viscous_area;
 
 pub use law::DampingLaw;
-pub use restitution::{Restitution, damping_ratio};
-pub use viscous_area::ViscousArea;
+pub use restitution::damping_ratio;
 
 use super::{ContactGeometry, Elastic, PairConstants};
 use crate::math::{Pace, Real};

@@ -22,6 +22,9 @@
 //! | m*       | `effective_mass`            | kg    | m_i m_j / (m_i + m_j)                          |
 //! | c        | `coefficient`               | N s/m | dashpot                                        |
 //!
+//! # Critical step
+//! Γ = c/m* at the largest overlap that the limits allow; looked at every 100 steps.
+//!
 //! # Valid when
 //! e does not depend on speed. e = 0 is critical damping: grains do not rebound, nor do they part by
 //! themselves. With `strain_power` the elastic force is a power of δ for δ ≪ R only; e follows to that order.

@@ -15,6 +15,9 @@
 //! | A      | `geometry.area()`| m²     | disc in which the spheres cut each other   |
 //! | v_n    |               | m/s    | velocity along the normal from i to j      |
 //!
+//! # Critical step
+//! Γ = c A/m* at the overlap of the moment; looked at every step.
+//!
 //! # Valid when
 //! c is fitted. It is a viscous loss c A v_n² [W]; the restitution it gives depends on size and speed.
 //!

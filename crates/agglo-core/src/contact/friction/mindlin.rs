@@ -26,6 +26,9 @@
 //! | μ, μ_d  | `static_friction`, `dynamic_friction` | - | limit of sticking; force while slipping     |
 //! | F_n     | `normal_force`             | N     | repulsion with its dashpot; 0 where it pulls       |
 //!
+//! # Critical step
+//! ω² = (7/2) κ k/m* and Γ = (7/2) c_t/m*; along and across a contact the larger counts; looked at every 100 steps.
+//!
 //! # Valid when
 //! Partial slip inside the contact is left out (Mindlin and Deresiewicz). After a contact has begun to slip,
 //! μ_d is its limit until it sticks again. μ_d above μ is read as μ.

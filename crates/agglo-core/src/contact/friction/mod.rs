@@ -6,8 +6,6 @@ mod regularized;
 mod spring;
 
 pub use law::{FrictionLaw, Sliding};
-pub use mindlin::Mindlin;
-pub use regularized::Regularized;
 pub use spring::{Memory, TangentialSpring};
 
 use super::{ContactGeometry, Elastic, PairConstants};

@@ -20,6 +20,9 @@
 //! | μ_d    | `dynamic_friction` | -    | force while slipping, over the normal one  |
 //! | F_n    | `normal_force`     | N    | elastic normal force of the contact        |
 //!
+//! # Critical step
+//! ω² = 4 (7/2) K A/m* at the overlap of the moment; looked at every step.
+//!
 //! # Valid when
 //! Never in the limit of small steps: the stick force carries Δt, so halving the step halves it and sticking
 //! turns into free slip. It is here to reproduce the paper; use `mindlin` otherwise.

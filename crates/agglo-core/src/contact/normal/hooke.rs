@@ -14,6 +14,9 @@
 //! | k      | `stiffness`  | N/m  | spring constant of every contact     |
 //! | δ      | `overlap`    | m    | R_i + R_j - distance, > 0 in contact |
 //!
+//! # Critical step
+//! ω² = k/m* of each grain with the smallest and the largest; looked at every 100 steps.
+//!
 //! # Valid when
 //! k is chosen so that δ ≪ R; contact lasts π √(m*/k) without damping, whatever the speed.
 //!

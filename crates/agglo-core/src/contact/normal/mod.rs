@@ -5,10 +5,7 @@ mod hooke;
 mod law;
 pub(in crate::contact) mod strain_power;
 
-pub use hertz::Hertz;
-pub use hooke::Hooke;
 pub use law::NormalLaw;
-pub use strain_power::StrainPower;
 
 use super::{ContactGeometry, PairConstants};
 use crate::math::{Pace, Real};

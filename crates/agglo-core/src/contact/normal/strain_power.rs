@@ -16,6 +16,10 @@
 //! | ℰ      | `geometry.strain()`  | -    | overlap over the sum of the radii                          |
 //! | A      | `geometry.area()`    | m²   | disc in which the spheres cut each other                   |
 //!
+//! # Critical step
+//! ω² = k/m* at the largest overlap that the limits allow, of each grain with the smallest and the largest; looked
+//! at every 100 steps.
+//!
 //! # Valid when
 //! The contact is a model of a soft coating or of crushed asperities; K is fitted, not a material's modulus.
 //! Nothing in the law itself limits the strain. For unequal spheres the force falls again once the smaller

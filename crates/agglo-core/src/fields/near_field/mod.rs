@@ -20,6 +20,10 @@
 //! |        | `cutoff`     | m    | beyond it a pair is left out; all pairs if not given |
 //! |        | `truncation` | -    | largest part of the force that may be left out       |
 //!
+//! # Critical step
+//! ω² = gradient of the force over m*, at the smallest gap of `van_der_waals` or where contact ends the approach,
+//! looked at every 100 steps; without contact where grains are, looked at every step.
+//!
 //! # Valid when
 //! Pairs add up. What the cut-off leaves out is measured at the start, on up to 400 grains; it may grow as grains spread or
 //! clump.
@@ -45,11 +49,9 @@ mod van_der_waals;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use coulomb::Coulomb;
 pub use law::NearLaw;
-pub use power_pair::{PowerPair, Scaling};
+pub use power_pair::Scaling;
 pub use source::Source;
-pub use van_der_waals::VanDerWaals;
 
 use crate::law::{Chosen, Context, Faults, Law, Needs};
 use crate::math::Pace;

@@ -4,8 +4,6 @@ pub mod constant;
 pub mod hardness;
 mod law;
 
-pub use constant::Constant;
-pub use hardness::Hardness;
 pub use law::{Rebound, RestitutionLaw};
 
 family! {

@@ -152,10 +152,7 @@ impl HardSummary {
         let part = self.energy.unexplained();
         let is_alarming = part > Limits::default().drift_warning;
         is_alarming.then(|| {
-            (
-                "unexplained energy",
-                format!("{part:.3e} of all energy: these quantities are not to be believed"),
-            )
+            ("unexplained energy", format!("{part:.3e} of all energy: these numbers are not to be believed"))
         })
     }
 
