@@ -76,6 +76,15 @@ prepare_browser() {
     [[ -x $CHROMIUM ]] || install_debian chromium
 }
 
+# The package for Python, as the tests build everything else, so that nothing is built twice.
+install_package() {
+    local wheels=target/wheels-of-tests
+    rm -rf "$wheels"
+    RUSTFLAGS=$(python3 -c 'import tomllib; print(*tomllib.load(open(".cargo/config.toml", "rb"))["build"]["rustflags"])') \
+        run "$venv/bin/maturin" build --quiet --profile dev --out "$wheels" --interpreter "$venv/bin/python"
+    "$venv/bin/python" -m pip install --quiet --disable-pip-version-check --no-deps --force-reinstall "$wheels"/*.whl
+}
+
 # What makes movies; without it the test of movies would only see that it is missing.
 prepare_ffmpeg() {
     command -v ffmpeg >/dev/null || install_debian ffmpeg
@@ -132,7 +141,9 @@ run cargo test --locked --workspace --doc
 check_features
 # Fuzzers are not run here; their targets compile.
 run cargo check --locked --manifest-path fuzz/Cargo.toml --no-default-features --bins --examples --target-dir target/fuzz
+install_package
 run "$venv/bin/python" -m pytest -q tests/python
+run "$venv/bin/python" -m mypy --strict crates/agglo-py/python/agglo
 run "$venv/bin/python" -m pytest -q tests/browser
 
 run docs/book/build.sh

@@ -205,7 +205,7 @@ def test_a_click_shows_the_figures_of_the_grain_that_is_there(page, folder):
 
     close("speed", math.hypot(*grains["velocity_m_s"][3 * nearest : 3 * nearest + 3]))
     close("radius", grains["radius_m"][nearest])
-    close("absorbed power", grains["absorbed_power_w"][nearest])
+    close("absorbed power", grains["absorbed_power_W"][nearest])
     assert int(figures["cluster"]) == grains["cluster"][nearest]
     assert before.differs_from(page.picture()) > 1e-4, "the grain is not marked"
     page.tab.mouse.click(box["x"] + 4, box["y"] + 4)

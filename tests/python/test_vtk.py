@@ -51,7 +51,7 @@ def test_grains_stand_in_the_order_of_their_names(folder, frame, time):
     assert np.array_equal(field(data, "velocity_m_s"), np.tile([0.0, 0.0, 1.0], (5, 1)))
     assert np.array_equal(field(data, "material"), np.arange(5) % 2)
     assert np.array_equal(field(data, "cluster"), [0, 0, 1, 1, 2])
-    assert np.array_equal(field(data, "temperature_k"), np.full(5, 300.0))
+    assert np.array_equal(field(data, "temperature_K"), np.full(5, 300.0))
     assert data.GetArray("position_m") is None
     assert grains.GetNumberOfVerts() == 5
     assert field(grains.GetFieldData(), "TimeValue")[0] == time
@@ -82,7 +82,7 @@ def test_rays_have_direction_and_power(folder):
     rays = read(folder / "frames/rays-00000.vtp")
     assert rays.GetNumberOfPoints() == 2
     assert np.array_equal(field(rays.GetPointData(), "direction"), [[0.0, 0.0, 1.0], [0.6, 0.0, 0.8]])
-    assert np.array_equal(field(rays.GetPointData(), "power_w"), [1.5, 0.75])
+    assert np.array_equal(field(rays.GetPointData(), "power_W"), [1.5, 0.75])
 
 
 def test_the_list_leads_to_every_frame(folder):

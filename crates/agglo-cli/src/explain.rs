@@ -26,9 +26,9 @@ fn list() -> Result<(), Failure> {
             group = page.group;
             lines.push(group.to_owned());
         }
-        lines.push(format!("  {:<18}{}", page.name, page.title()));
+        lines.push(format!("  {:<20}{}", page.name, page.title()));
         if !page.words.is_empty() {
-            lines.push(format!("  {:<18}with {}", "", page.words.join(", ")));
+            lines.push(format!("  {:<20}with {}", "", page.words.join(", ")));
         }
     }
     print(&lines.join("\n"))

@@ -47,7 +47,7 @@ fn every_file_is_there() {
             assert!(files[name].len() > 50, "nothing in {name}");
         }
         let frame = String::from_utf8_lossy(&files["frames/grains_000001.vtp"]).into_owned();
-        for field in ["\"id\"", "\"primaries\"", "\"temperature_k\"", "\"velocity_m_s\"", "\"radius_m\""] {
+        for field in ["\"id\"", "\"primaries\"", "\"temperature_K\"", "\"velocity_m_s\"", "\"radius_m\""] {
             assert!(frame.contains(field), "no {field} in a frame");
         }
     }

@@ -45,14 +45,14 @@ impl Quantity {
     /// All of them, the most telling first.
     pub const ALL: [Self; 12] = [
         Quantity { has_outliers: true, ..values("speed", "Speed", "m/s", "velocity_m_s", Map::Viridis) },
-        values("temperature", "Temperature", "K", "temperature_k", Map::Inferno),
+        values("temperature", "Temperature", "K", "temperature_K", Map::Inferno),
         Quantity {
             coloring: Coloring::Clusters,
             ..values("cluster", "Cluster", "", "cluster", Map::Viridis)
         },
         Quantity {
             has_outliers: true,
-            ..values("absorbed_power", "Absorbed power", "W", "absorbed_power_w", Map::Inferno)
+            ..values("absorbed_power", "Absorbed power", "W", "absorbed_power_W", Map::Inferno)
         },
         values("size", "Radius", "m", "radius_m", Map::Cividis),
         values("id", "Grain", "", "id", Map::Viridis),
@@ -62,7 +62,7 @@ impl Quantity {
         },
         values("primaries", "Primaries", "", "primaries", Map::Viridis),
         Quantity { has_outliers: true, ..values("mass", "Mass", "kg", "mass_kg", Map::Cividis) },
-        values("charge", "Charge", "C", "charge_c", Map::Viridis),
+        values("charge", "Charge", "C", "charge_C", Map::Viridis),
         Quantity {
             has_outliers: true,
             ..values("angular_velocity", "Angular velocity", "rad/s", "angular_velocity_rad_s", Map::Viridis)

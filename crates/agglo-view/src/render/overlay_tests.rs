@@ -24,7 +24,7 @@ fn marks_stand_at_their_values() {
     for (k, (place, _)) in found.iter().enumerate() {
         assert!((place - 0.25 * k as f64).abs() < 1e-9, "{place}");
     }
-    assert_eq!(marks("temperature_k", [300.0, 12_000.0]).0, "Temperature (K)");
+    assert_eq!(marks("temperature_K", [300.0, 12_000.0]).0, "Temperature (K)");
     assert_eq!(marks("velocity_m_s", [0.0, 14.0]).0, "Speed (m/s)");
     assert_eq!(marks("id", [0.0, 1999.0]).0, "Grain");
 }

@@ -40,7 +40,7 @@ pub use summary::Summary;
 
 use crate::engine::Start;
 use crate::folder::RunFolder;
-use crate::packing::{PackingError, StartError};
+use crate::packing::{PackingError, PlaceWatch, StartError};
 use crate::record::{RecordError, columns, door};
 use crate::scenario::Scenario;
 use crate::units::Time;
@@ -124,6 +124,25 @@ pub fn run(
         let go = if scenario.is_hard() { sit::<Hard> } else { sit::<Soft> };
         go(&scenario, start, &folder, began, observer)
     })
+}
+
+/// The grains of a scenario before its clock starts: placed, or taken out of the run that it names. `base` is the folder that its
+/// paths are relative to; `watch` may stop it.
+///
+/// ```
+/// use agglo::engine::soft::Simulation;
+/// # let text = agglo::scenario::template("acoustic").unwrap().text;
+/// # let small = ["grains.0.placement.random.count=20"];
+/// # let scenario = agglo::scenario::Scenario::with_overrides(text, &small).unwrap();
+/// let start = agglo::run::start(&scenario, "".as_ref(), &mut || std::ops::ControlFlow::Continue(()))?;
+/// assert_eq!(Simulation::start(&scenario, start)?.system.grains.len(), 20);
+/// # Ok::<(), agglo::Error>(())
+/// ```
+///
+/// # Errors
+/// [`StartError`] where they cannot be placed or taken.
+pub fn start(scenario: &Scenario, base: &Path, watch: &mut PlaceWatch<'_>) -> Result<Start, StartError> {
+    Origin::of(scenario, base, watch).map(|origin| origin.start)
 }
 
 /// A path that holds wherever the scenario lies.

@@ -90,7 +90,7 @@ impl Block {
 
     fn rays(&mut self, rays: &Frame, arrays: &mut BTreeMap<&'static str, Array>) {
         let (Some(FieldValues::Vectors(ways)), Some(powers)) =
-            (rays.field("direction"), numbers(rays, "power_w"))
+            (rays.field("direction"), numbers(rays, "power_W"))
         else {
             return;
         };

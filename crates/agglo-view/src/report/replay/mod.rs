@@ -115,7 +115,7 @@ fn pack(scenes: &[Scene], mut notes: Vec<String>) -> Replay {
                 .to_owned(),
         );
     }
-    let powers = rays.iter().filter_map(|rays| block::numbers(rays, "power_w"));
+    let powers = rays.iter().filter_map(|rays| block::numbers(rays, "power_W"));
     let plan = Plan {
         times: scenes.iter().map(|scene| readable(scene.grains.time, "s")).collect(),
         frames,

@@ -92,7 +92,7 @@ fn fault(frame: &Frame) -> Option<String> {
                 is_real(value)
                     && match name.as_str() {
                         "radius_m" | "mass_kg" => *value > 0.0,
-                        "temperature_k" => *value >= 0.0,
+                        "temperature_K" => *value >= 0.0,
                         _ => true,
                     }
             }),

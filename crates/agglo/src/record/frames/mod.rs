@@ -26,7 +26,7 @@ pub fn name_with_unit(name: &str, unit: &str) -> String {
             '²' => Some('2'),
             '³' => Some('3'),
             '^' => None,
-            letter if letter.is_alphanumeric() => Some(letter.to_ascii_lowercase()),
+            letter if letter.is_alphanumeric() => Some(letter),
             _ => Some('_'),
         })
         .collect();
@@ -125,7 +125,7 @@ pub fn write_rays(
 ) -> Result<Mark, RecordError> {
     let point_fields = vec![
         Field::new("direction", ColumnValues::Vectors(directions)),
-        Field::new("power_w", ColumnValues::Scalars(powers)),
+        Field::new("power_W", ColumnValues::Scalars(powers)),
     ];
     let (cells, cell_fields) = (Cells::Vertices, Vec::new());
     PolyData { time, points: positions, order: None, point_fields, cells, cell_fields }.write(path)
@@ -172,7 +172,7 @@ mod tests {
 
     #[test]
     fn units_become_part_of_the_name() {
-        let cases = [("m/s", "v_m_s"), ("", "v"), ("Pa", "v_pa"), ("rad/s", "v_rad_s"), ("J/m²", "v_j_m2")];
+        let cases = [("m/s", "v_m_s"), ("", "v"), ("Pa", "v_Pa"), ("rad/s", "v_rad_s"), ("J/m²", "v_J_m2")];
         for (unit, name) in cases {
             assert_eq!(name_with_unit("v", unit), name);
         }

@@ -376,7 +376,7 @@ fn fields_of_hard_spheres_stand_under_their_names() {
         ("velocity_m_s", FieldValues::Vectors(VELOCITIES.to_vec())),
         ("radius_m", scalars(&|id| RADII[id])),
         ("mass_kg", scalars(&|id| MASSES[id])),
-        ("temperature_k", scalars(&|id| TEMPERATURES[id])),
+        ("temperature_K", scalars(&|id| TEMPERATURES[id])),
     ];
     for (name, due) in &wanted {
         assert_eq!(

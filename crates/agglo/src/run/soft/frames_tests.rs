@@ -56,11 +56,11 @@ fn fields_of_grains_stand_under_their_names() {
         ("radius_m", scalars(|id| RADII[id])),
         ("mass_kg", scalars(|id| MASSES[id])),
         ("material", scalars(|id| if id == 2 { 1.0 } else { 0.0 })),
-        ("temperature_k", scalars(|id| 300.0 + id as f64)),
-        ("charge_c", scalars(charge)),
+        ("temperature_K", scalars(|id| 300.0 + id as f64)),
+        ("charge_C", scalars(charge)),
         ("polarity", scalars(|id| if id % 3 == 0 { -1.0 } else { 1.0 })),
-        ("contact_stiffness_pa", scalars(|id| 1e5 + 10.0 * id as f64)),
-        ("absorbed_power_w", scalars(|id| 50.0 + 0.5 * id as f64)),
+        ("contact_stiffness_Pa", scalars(|id| 1e5 + 10.0 * id as f64)),
+        ("absorbed_power_W", scalars(|id| 50.0 + 0.5 * id as f64)),
         ("cluster", scalars(|id| f64::from(LABELS[id]))),
     ];
     assert_fields("grains", &frame, &wanted);
@@ -95,7 +95,7 @@ fn fields_of_rays_stand_under_their_names() {
     assert_eq!(frame.points, places, "rays: points [m]: found on the left, due on the right");
     let wanted = [
         ("direction", RAYS.iter().map(|ray| ray.2.to_vec()).collect()),
-        ("power_w", RAYS.iter().map(|ray| vec![ray.4]).collect()),
+        ("power_W", RAYS.iter().map(|ray| vec![ray.4]).collect()),
     ];
     assert_fields("rays", &frame, &wanted);
 }

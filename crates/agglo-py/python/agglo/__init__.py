@@ -1,0 +1,56 @@
+"""How particulate agglomerates grow, break up and disperse.
+
+A scenario says what there is and what happens; it is run into a folder, or stepped one by one:
+
+>>> import agglo
+>>> scenario = agglo.Scenario.template("acoustic", {"grains.0.placement.random.count": 60, "time.end": "0.1 ms"})
+>>> simulation = agglo.Simulation(scenario)
+>>> simulation.run_until(50e-6)
+>>> simulation.grains()["position_m"].shape
+(60, 3)
+
+Quantities are in SI units, and names of arrays end with theirs. Arrays are copies in the order of the grains' ids.
+"""
+
+from agglo._agglo import (
+    VERSION as __version__,
+    Scenario,
+    Simulation,
+    cite,
+    collide,
+    explain,
+    laws,
+    pack,
+    set_threads,
+    templates,
+)
+from agglo._errors import AggloError, InputError, RunError, ScenarioError
+from agglo._results import Run, Table, read
+from agglo._verbs import Plan, check, report, resume, run, schema, snapshots
+
+__all__ = [
+    "AggloError",
+    "InputError",
+    "Plan",
+    "Run",
+    "RunError",
+    "Scenario",
+    "ScenarioError",
+    "Simulation",
+    "Table",
+    "__version__",
+    "check",
+    "cite",
+    "collide",
+    "explain",
+    "laws",
+    "pack",
+    "read",
+    "report",
+    "resume",
+    "run",
+    "schema",
+    "set_threads",
+    "snapshots",
+    "templates",
+]

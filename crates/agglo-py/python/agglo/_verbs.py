@@ -1,0 +1,112 @@
+"""What the terminal can do as well: check, run, resume, report."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from agglo import _agglo
+from agglo._agglo import Scenario, Simulation
+from agglo._errors import InputError
+from agglo._results import Run
+from agglo._types import Columns, Folder, Progress
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What a scenario would ask of this machine; None where that is not known."""
+
+    grains: int
+    rays_per_pulse: int
+    pulses: int
+    impacts: float
+    steps: float | None
+    memory_B: float
+    disk_B: float | None
+    wall_s: float | None
+    quantities: Mapping[str, str]
+    notes: tuple[str, ...]
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
+
+
+def check(scenario: Scenario) -> Plan:
+    """What a run of the scenario would be: how many steps, how long, how much memory and disk, and what to keep in mind.
+
+    Raises:
+        InputError: The grains cannot be placed.
+    """
+    found = _agglo.check(scenario)
+    found["quantities"] = dict(found["quantities"])
+    found["notes"] = tuple(found["notes"])
+    return Plan(**found)
+
+
+def run(
+    scenario: Scenario, folder: Folder | None = None, *, progress: Callable[[Progress], object] | None = None
+) -> Run | dict[str, Any]:
+    """Runs a scenario into a folder, and gives what stands there. Without a folder nothing is written, and only the summary given.
+
+    Args:
+        scenario: What to run.
+        folder: Where its files go; it must be empty, or not be there.
+        progress: Called about ten times a second with the time, the steps and the warnings that are new; what it raises
+            stops the run, which has a checkpoint then.
+
+    Raises:
+        InputError: The folder is in use, or the grains cannot be placed.
+        RunError: A step failed, or a file could not be written.
+        KeyboardInterrupt: At Ctrl-C; `resume` goes on from there.
+    """
+    if folder is None:
+        return dict(json.loads(_agglo.run_quietly(scenario)))
+    _agglo.run(scenario, Path(folder), progress)
+    return Run(Path(folder))
+
+
+def resume(
+    folder: Folder, *, until: str | None = None, progress: Callable[[Progress], object] | None = None
+) -> Run:
+    """Goes on with the run in a folder from its newest whole checkpoint, to another end such as "40 s" where one is given.
+
+    Raises:
+        InputError: There is no such run, or it has come to that time already.
+        RunError: A step failed, or a file could not be written.
+    """
+    _agglo.resume(Path(folder), until, progress)
+    return Run(Path(folder))
+
+
+def report(folder: Folder) -> Path:
+    """Writes report.html into the folder of a run, search or study, and gives its path.
+
+    Raises:
+        InputError: There is nothing to show.
+    """
+    return Path(_agglo.report(Path(folder))[0])
+
+
+def schema() -> dict[str, Any]:
+    """The JSON schema of scenarios."""
+    return dict(json.loads(_agglo.schema()))
+
+
+def snapshots(simulation: Simulation, every_s: float) -> Iterator[tuple[float, Columns]]:
+    """The grains now and every so often [s] until the end: times [s] and columns.
+
+    Raises:
+        InputError: `every_s` is not above 0.
+    """
+    if not every_s > 0.0:
+        raise InputError(f"every_s is {every_s}; a time above 0 is wanted")
+    start, turn = simulation.time_s, 0
+    yield start, simulation.grains()
+    while not simulation.is_finished:
+        turn += 1
+        simulation.run_until(start + turn * every_s)
+        yield simulation.time_s, simulation.grains()

@@ -1,0 +1,148 @@
+//! A force that a function of Python gives.
+
+use std::cell::Cell;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use agglo::engine::soft::{Hook, LoadViews, Scene};
+use agglo::math::{Pace, Vec3};
+use numpy::PyReadonlyArray2;
+use pyo3::prelude::*;
+
+use crate::arrays;
+use crate::error::{InputError, RunError};
+
+thread_local! {
+    /// Whether this thread asks a force, for which the simulation is held.
+    static ASKS: Cell<bool> = const { Cell::new(false) };
+}
+
+/// A force that asks the simulation that asks it would wait for itself.
+pub(crate) fn refuse_within_a_force() -> PyResult<()> {
+    if ASKS.get() {
+        let message = "a force cannot ask the simulation while it is asked itself; all that it needs is among its arguments, \
+                       and columns that do not change can be taken before";
+        return Err(RunError::new_err(message));
+    }
+    Ok(())
+}
+
+/// What a function of Python raised while a step was made; the step has no force of it.
+#[derive(Clone, Default)]
+pub(crate) struct Fallen(Arc<Mutex<Option<PyErr>>>);
+
+impl Fallen {
+    /// Whether something was raised.
+    pub(crate) fn is_there(&self) -> bool {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).is_some()
+    }
+
+    /// Raises it, once.
+    pub(crate) fn raise(&self, _: Python<'_>) -> PyResult<()> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).take().map_or(Ok(()), Err)
+    }
+
+    pub(crate) fn keep(&self, error: PyErr) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+    }
+}
+
+/// A function of time [s], positions [n, 3] [m], velocities [n, 3] [m/s] and angular velocities [n, 3] [rad/s], all in the order of
+/// ids, that gives forces [n, 3] [N], or forces and torques about the centers [n, 3] [N m].
+pub(crate) struct Callback {
+    function: Py<PyAny>,
+    /// ω² [1/s²] and Γ [1/s], where they are given.
+    pace: Option<(f64, f64)>,
+    fallen: Fallen,
+    places: Mutex<Places>,
+}
+
+/// Where grains are in memory, in the order of their ids. They change places seldom.
+#[derive(Default)]
+struct Places {
+    ids: Vec<u32>,
+    order: Vec<u32>,
+}
+
+impl Places {
+    fn of(&mut self, ids: &[u32]) -> &[u32] {
+        if self.ids != ids {
+            ids.clone_into(&mut self.ids);
+            self.order = (0..ids.len() as u32).collect();
+            self.order.sort_by_key(|&at| ids[at as usize]);
+        }
+        &self.order
+    }
+}
+
+impl Callback {
+    pub(crate) fn new(function: Py<PyAny>, pace: Option<(f64, f64)>, fallen: Fallen) -> Self {
+        Self { function, pace, fallen, places: Mutex::default() }
+    }
+
+    fn ask(&self, py: Python<'_>, now: &Scene<'_>, loads: &mut LoadViews<'_>) -> PyResult<()> {
+        let mut places = self.places.lock().unwrap_or_else(PoisonError::into_inner);
+        let order = places.of(&now.grains.id);
+        let column =
+            |values: &[Vec3]| arrays::vectors(py, order.iter().map(|&at| values[at as usize].to_array()));
+        let arguments = (
+            now.time,
+            column(now.motion.position)?,
+            column(now.motion.velocity)?,
+            column(now.motion.angular_velocity)?,
+        );
+        ASKS.set(true);
+        let given = self.function.bind(py).call1(arguments);
+        ASKS.set(false);
+        let given = given?;
+        if let Ok((force, torque)) = given.extract::<(PyReadonlyArray2<'_, f64>, PyReadonlyArray2<'_, f64>)>()
+        {
+            put(&force, order, loads.force, "forces")?;
+            return put(&torque, order, loads.torque, "torques");
+        }
+        let force = given.extract::<PyReadonlyArray2<'_, f64>>().map_err(|_| {
+            InputError::new_err(
+                "a force gives an array [n, 3] of float64, or one of forces and one of torques; this one gave something else",
+            )
+        })?;
+        put(&force, order, loads.force, "forces")
+    }
+}
+
+/// Puts an array in the order of ids to where the grains are.
+fn put(given: &PyReadonlyArray2<'_, f64>, order: &[u32], loads: &mut [Vec3], what: &str) -> PyResult<()> {
+    let given = given.as_array();
+    if given.shape() != [order.len(), 3] {
+        let message = format!("{what} have the shape {:?}; [{}, 3] is wanted", given.shape(), order.len());
+        return Err(InputError::new_err(message));
+    }
+    // Rows follow one another in memory but for arrays that were turned or cut.
+    let given = given.as_standard_layout();
+    let (rows, _) = given.as_slice().unwrap_or_default().as_chunks::<3>();
+    for (row, &at) in rows.iter().zip(order) {
+        loads[at as usize] = Vec3::from(*row);
+    }
+    match rows.iter().position(|row| !row.iter().all(|value| value.is_finite())) {
+        Some(at) => Err(InputError::new_err(format!("{what} are not finite in row {at}"))),
+        None => Ok(()),
+    }
+}
+
+impl Hook for Callback {
+    fn name(&self) -> &'static str {
+        "a function of Python"
+    }
+
+    fn load(&self, now: &Scene<'_>, loads: &mut LoadViews<'_>) {
+        Python::attach(|py| {
+            if let Err(error) = self.ask(py, now, loads) {
+                loads.force.fill(Vec3::ZERO);
+                loads.torque.fill(Vec3::ZERO);
+                self.fallen.keep(error);
+            }
+        });
+    }
+
+    fn pace(&self, _: &Scene<'_>) -> Option<Pace> {
+        self.pace.map(|(square, rate)| Pace { square, rate })
+    }
+}

@@ -1,0 +1,36 @@
+//! What the package `agglo` for Python is made of: scenarios, simulations, runs. No physics, and no copy of a check: all of it is
+//! the library's.
+//!
+//! Arrays go to Python as copies, in SI units that their names tell. Work that takes time leaves the interpreter to others, and
+//! ends at Ctrl-C (`work`).
+
+mod arrays;
+mod error;
+mod hook;
+mod pages;
+mod pieces;
+mod runs;
+mod scenario;
+mod simulation;
+mod work;
+
+use pyo3::prelude::*;
+
+#[pymodule]
+mod _agglo {
+    #[pymodule_export]
+    use super::pages::{cite, explain, laws, schema, templates};
+    #[pymodule_export]
+    use super::pieces::{collide, pack};
+    #[pymodule_export]
+    use super::runs::{act_on, check, frames, read_frame, report, resume, run, run_quietly};
+    #[pymodule_export]
+    use super::scenario::Scenario;
+    #[pymodule_export]
+    use super::simulation::Simulation;
+    #[pymodule_export]
+    use super::work::set_threads;
+
+    #[pymodule_export]
+    const VERSION: &str = env!("CARGO_PKG_VERSION");
+}

@@ -1,0 +1,130 @@
+//! Scenarios.
+
+use std::path::{Path, PathBuf};
+
+use agglo::scenario::{Scenario as Read, template};
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+use serde_json::Value as Json;
+
+use crate::error::{InputError, raised};
+
+/// A checked scenario. It does not change: `replace` makes another one.
+#[pyclass(module = "agglo", frozen, eq, from_py_object)]
+#[derive(Clone, PartialEq)]
+pub(crate) struct Scenario {
+    pub read: Read,
+    /// The folder that its files are relative to.
+    pub base: PathBuf,
+}
+
+/// A function that turns values of Python into values of a scenario.
+fn helper<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+    py.import("agglo._settings")?.getattr(name)
+}
+
+/// Settings as `key.path=value`.
+fn lines(py: Python<'_>, settings: Option<Bound<'_, PyAny>>) -> PyResult<Vec<String>> {
+    settings.map_or_else(|| Ok(Vec::new()), |settings| helper(py, "lines")?.call1((settings,))?.extract())
+}
+
+#[pymethods]
+impl Scenario {
+    /// Reads a text in TOML. `settings` are other values of its keys, as a dict or a list of `key.path=value`; `base` is the folder that
+    /// its files are relative to.
+    #[new]
+    #[pyo3(signature = (text, settings=None, base=PathBuf::new()))]
+    fn new(py: Python<'_>, text: &str, settings: Option<Bound<'_, PyAny>>, base: PathBuf) -> PyResult<Self> {
+        let settings = lines(py, settings)?;
+        // As Python writes no path.
+        let base = if base == Path::new(".") { PathBuf::new() } else { base };
+        let read = Read::from_source(text, &base, &settings).map_err(|faults| raised(py, faults))?;
+        Ok(Self { read, base })
+    }
+
+    /// Reads a file.
+    #[staticmethod]
+    #[pyo3(signature = (path, settings=None))]
+    fn from_file(py: Python<'_>, path: PathBuf, settings: Option<Bound<'_, PyAny>>) -> PyResult<Self> {
+        let settings = lines(py, settings)?;
+        let read = Read::load_with_overrides(&path, &settings).map_err(|error| raised(py, error))?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let base = std::path::absolute(folder.join("."))?;
+        Ok(Self { read, base })
+    }
+
+    /// Takes the tables of a scenario as dicts. Quantities are text with units, or quantities of pint.
+    #[staticmethod]
+    #[pyo3(signature = (tables, base=PathBuf::new()))]
+    fn from_dict(py: Python<'_>, tables: &Bound<'_, PyAny>, base: PathBuf) -> PyResult<Self> {
+        let json: String = helper(py, "tables")?.call1((tables,))?.extract()?;
+        let bad =
+            |error: &dyn std::fmt::Display| InputError::new_err(format!("no tables of a scenario: {error}"));
+        let tables: Json = serde_json::from_str(&json).map_err(|error| bad(&error))?;
+        let text = toml::to_string(&tables).map_err(|error| bad(&error))?;
+        Self::new(py, &text, None, base)
+    }
+
+    /// The shipped scenario of this name.
+    #[staticmethod]
+    #[pyo3(signature = (name, settings=None))]
+    fn template(py: Python<'_>, name: &str, settings: Option<Bound<'_, PyAny>>) -> PyResult<Self> {
+        let found = template(name).ok_or_else(|| {
+            let known: Vec<&str> = agglo::scenario::scenario_templates().map(|known| known.name).collect();
+            InputError::new_err(format!("there is no template \"{name}\"; there are {}", known.join(", ")))
+        })?;
+        Self::new(py, found.text, settings, PathBuf::new())
+    }
+
+    /// The same with other values of keys, as a dict or a list of `key.path=value`.
+    fn replace(&self, py: Python<'_>, settings: Bound<'_, PyAny>) -> PyResult<Self> {
+        Self::new(py, &self.to_toml(py)?, Some(settings), self.base.clone())
+    }
+
+    /// The scenario as TOML, with every default written out.
+    fn to_toml(&self, py: Python<'_>) -> PyResult<String> {
+        self.read.to_toml().map_err(|faults| raised(py, faults))
+    }
+
+    /// The scenario as dicts, with every default written out.
+    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let text =
+            serde_json::to_string(&self.read).map_err(|error| InputError::new_err(error.to_string()))?;
+        py.import("json")?.call_method1("loads", (text,))
+    }
+
+    /// What it is about.
+    #[getter]
+    fn title(&self) -> &str {
+        &self.read.title
+    }
+
+    /// Whether its grains are hard spheres.
+    #[getter]
+    fn is_hard(&self) -> bool {
+        self.read.is_hard()
+    }
+
+    /// Simulated time at the end [s].
+    #[getter]
+    fn end_s(&self) -> f64 {
+        self.read.time.end.si()
+    }
+
+    /// The folder that its files are relative to.
+    #[getter]
+    fn base(&self) -> PathBuf {
+        self.base.clone()
+    }
+
+    fn __repr__(&self) -> String {
+        let kind = if self.read.is_hard() { "hard" } else { "soft" };
+        format!("<agglo.Scenario {:?}, {kind} spheres, {} s>", self.read.title, self.read.time.end.si())
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let (py, own) = (slf.py(), slf.get());
+        let arguments = (own.to_toml(py)?, py.None(), own.base.clone());
+        Ok((slf.get_type().into_any(), arguments.into_pyobject(py)?))
+    }
+}

@@ -1,0 +1,344 @@
+//! Simulations, step by step.
+
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use agglo::Error;
+use agglo::engine::{Measures, SimError, Simulation as Engine, hard, soft};
+use agglo::ledger::Balance;
+use agglo::math::Vec3;
+use numpy::{PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::sync::MutexExt;
+use pyo3::types::{PyBytes, PyDict, PyList};
+
+use crate::arrays;
+use crate::error::{InputError, raised};
+use crate::hook::{Callback, Fallen, refuse_within_a_force};
+use crate::scenario::Scenario;
+use crate::work::{briefly, interruptible};
+
+/// Either engine.
+enum Kind {
+    Soft(Box<soft::Simulation>),
+    Hard(Box<hard::Simulation>),
+}
+
+/// Does the same with whichever engine there is.
+macro_rules! each {
+    ($kind:expr, $simulation:ident => $call:expr) => {
+        match $kind {
+            Kind::Soft($simulation) => $call,
+            Kind::Hard($simulation) => $call,
+        }
+    };
+}
+
+/// A simulation at some moment of its time.
+#[pyclass(module = "agglo", frozen)]
+pub(crate) struct Simulation {
+    scenario: Scenario,
+    kind: Mutex<Kind>,
+    fallen: Fallen,
+}
+
+impl Simulation {
+    fn of(scenario: Scenario, kind: Kind) -> Self {
+        Self { scenario, kind: Mutex::new(kind), fallen: Fallen::default() }
+    }
+
+    /// The engine; another thread of Python that steps it is waited for without the interpreter's lock.
+    fn lock<'a>(&'a self, py: Python<'_>) -> PyResult<MutexGuard<'a, Kind>> {
+        refuse_within_a_force()?;
+        Ok(self.kind.lock_py_attached(py).unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// Goes on until `done` says so, or to the end; ends at Ctrl-C after the step at hand.
+    fn go(&self, py: Python<'_>, until: f64, done: impl Fn(&Kind) -> bool + Send + Sync) -> PyResult<()> {
+        refuse_within_a_force()?;
+        let fallen = &self.fallen;
+        let outcome = interruptible(py, |stop: &AtomicBool| {
+            let mut kind = self.kind.lock().unwrap_or_else(PoisonError::into_inner);
+            while !done(&kind) && !stop.load(Ordering::Relaxed) && !fallen.is_there() {
+                each!(&mut *kind, simulation => Engine::advance(simulation.as_mut(), until))?;
+            }
+            Ok::<(), SimError>(())
+        })?;
+        self.fallen.raise(py)?;
+        outcome.map_err(|error| raised(py, error))
+    }
+}
+
+#[pymethods]
+impl Simulation {
+    /// Places the grains of a scenario, or takes them out of the run that it names.
+    #[new]
+    fn new(py: Python<'_>, scenario: &Scenario) -> PyResult<Self> {
+        let given = scenario.clone();
+        let made = interruptible(py, |stop| {
+            let mut watch = || {
+                if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            };
+            let start = agglo::run::start(&given.read, &given.base, &mut watch)?;
+            Ok::<Kind, Error>(if given.read.is_hard() {
+                Kind::Hard(Box::new(hard::Simulation::start(&given.read, start)?))
+            } else {
+                Kind::Soft(Box::new(soft::Simulation::start(&given.read, start)?))
+            })
+        })?;
+        Ok(Self::of(scenario.clone(), made.map_err(|error| raised(py, error))?))
+    }
+
+    /// Goes on from what `save` gave under the same scenario, with the same bits.
+    #[staticmethod]
+    fn restore(py: Python<'_>, scenario: &Scenario, state: &[u8]) -> PyResult<Self> {
+        let read = &scenario.read;
+        let broken = |error| InputError::new_err(format!("this is no state of a simulation: {error}"));
+        let kind = if read.is_hard() {
+            let state = postcard::from_bytes(state).map_err(broken)?;
+            hard::Simulation::resume(read, state).map(|simulation| Kind::Hard(Box::new(simulation)))
+        } else {
+            let state = postcard::from_bytes(state).map_err(broken)?;
+            soft::Simulation::resume(read, state).map(|simulation| Kind::Soft(Box::new(simulation)))
+        };
+        Ok(Self::of(scenario.clone(), kind.map_err(|error| raised(py, error))?))
+    }
+
+    /// All that is needed to go on with the same bits: see `restore`.
+    fn save<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let kind = self.lock(py)?;
+        let bytes = each!(&*kind, simulation => postcard::to_stdvec(&simulation.save()));
+        let bytes = bytes.map_err(|error| InputError::new_err(error.to_string()))?;
+        Ok(PyBytes::new(py, &bytes))
+    }
+
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyAny>, (Scenario, Bound<'py, PyBytes>))> {
+        let (py, own) = (slf.py(), slf.get());
+        Ok((slf.get_type().getattr("restore")?, (own.scenario.clone(), own.save(py)?)))
+    }
+
+    /// What it follows from.
+    #[getter]
+    fn scenario(&self) -> Scenario {
+        self.scenario.clone()
+    }
+
+    /// Simulated time [s].
+    #[getter]
+    fn time_s(&self, py: Python<'_>) -> PyResult<f64> {
+        Ok(each!(&*self.lock(py)?, simulation => Engine::time(simulation.as_ref())))
+    }
+
+    /// Simulated time at the end [s].
+    #[getter]
+    fn end_s(&self, py: Python<'_>) -> PyResult<f64> {
+        Ok(each!(&*self.lock(py)?, simulation => Engine::end(simulation.as_ref())))
+    }
+
+    /// Steps so far, or events.
+    #[getter]
+    fn steps(&self, py: Python<'_>) -> PyResult<u64> {
+        Ok(each!(&*self.lock(py)?, simulation => Engine::steps(simulation.as_ref())))
+    }
+
+    /// Whether the end is reached.
+    #[getter]
+    fn is_finished(&self, py: Python<'_>) -> PyResult<bool> {
+        Ok(each!(&*self.lock(py)?, simulation => Engine::is_finished(simulation.as_ref())))
+    }
+
+    /// Goes on for a little while: one step, or some thousand events of hard spheres.
+    fn step(&self, py: Python<'_>) -> PyResult<()> {
+        refuse_within_a_force()?;
+        let outcome = briefly(py, || {
+            let mut kind = self.kind.lock().unwrap_or_else(PoisonError::into_inner);
+            each!(&mut *kind, simulation => {
+                let end = Engine::end(simulation.as_ref());
+                if Engine::is_finished(simulation.as_ref()) { Ok(()) } else { Engine::advance(simulation.as_mut(), end) }
+            })
+        })?;
+        self.fallen.raise(py)?;
+        outcome.map_err(|error| raised(py, error))
+    }
+
+    /// Goes on until a time [s], or to the end if that is sooner. Where time goes in steps, the last one may lead past it.
+    fn run_until(&self, py: Python<'_>, time_s: f64) -> PyResult<()> {
+        if time_s.is_nan() {
+            return Err(InputError::new_err("time_s is not a number"));
+        }
+        self.go(py, time_s, move |kind| {
+            each!(kind, simulation => {
+                Engine::is_finished(simulation.as_ref()) || Engine::time(simulation.as_ref()) >= time_s
+            })
+        })
+    }
+
+    /// Columns of the grains by their names with units, as copies in the order of their ids.
+    fn grains<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        match &*self.lock(py)? {
+            Kind::Soft(simulation) => arrays::columns(py, &simulation.system.grains),
+            Kind::Hard(simulation) => {
+                let snapshot = simulation.snapshot();
+                let columns = arrays::columns(py, &snapshot.grains)?;
+                columns.set_item("primaries", arrays::integers(py, snapshot.primaries))?;
+                Ok(columns)
+            }
+        }
+    }
+
+    /// What the grains come to together.
+    fn measures<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let Measures { grains, mass, momentum, kinetic_energy, unexplained } =
+            each!(&*self.lock(py)?, simulation => Engine::measures(simulation.as_ref()));
+        let table = PyDict::new(py);
+        table.set_item("grains", grains)?;
+        table.set_item("mass_kg", mass)?;
+        table.set_item("momentum_kg_m_s", arrays::scalars(py, momentum.to_array().to_vec()))?;
+        table.set_item("kinetic_energy_J", kinetic_energy)?;
+        table.set_item("unexplained", unexplained)?;
+        Ok(table)
+    }
+
+    /// The ledger: stored energies, what came in and what was lost, by the names of the tables.
+    fn balance<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let balance: Balance = each!(&*self.lock(py)?, simulation => simulation.balance());
+        let table = PyDict::new(py);
+        for entry in balance.entries.all() {
+            table.set_item(entry.name, (entry.of)(&balance))?;
+        }
+        Ok(table)
+    }
+
+    /// Warnings so far, and how often each came up.
+    fn warnings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let table = PyDict::new(py);
+        let kind = self.lock(py)?;
+        let warnings = match &*kind {
+            Kind::Soft(simulation) => &simulation.warnings,
+            Kind::Hard(simulation) => &simulation.system().state.warnings,
+        };
+        for (text, count) in warnings.counts() {
+            table.set_item(text, count)?;
+        }
+        Ok(table)
+    }
+
+    /// Bonds [n, 2] of soft spheres: the ids of the grains that each holds together.
+    fn bonds<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let kind = self.lock(py)?;
+        let simulation = soft_alone(&kind, "bonds")?;
+        let ids: Vec<u32> = simulation.system.network.bonds().iter().flat_map(|bond| bond.ids).collect();
+        let count = ids.len() / 2;
+        arrays::integers(py, ids).call_method1("reshape", ((count, 2),))
+    }
+
+    /// Pulses of sound so far: rays, reflections, powers.
+    fn pulses<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        let kind = self.lock(py)?;
+        let list = PyList::empty(py);
+        for pulse in soft_alone(&kind, "pulses")?.pulses.flight().pulses() {
+            let one = PyDict::new(py);
+            one.set_item("beam", pulse.beam)?;
+            one.set_item("number", pulse.number)?;
+            one.set_item("start_s", pulse.start_s)?;
+            one.set_item("rays", pulse.rays)?;
+            one.set_item("in_flight", pulse.in_flight)?;
+            one.set_item("reflections", pulse.reflections)?;
+            one.set_item("segments", pulse.segments)?;
+            one.set_item("power_in_W", pulse.power_in)?;
+            one.set_item("power_absorbed_W", pulse.power_absorbed)?;
+            one.set_item("power_escaped_W", pulse.power_escaped)?;
+            list.append(one)?;
+        }
+        Ok(list)
+    }
+
+    /// Gives soft spheres impulses [N s] at their centers, at once: ids [n], impulses [n, 3]. The ledger has their work.
+    #[expect(non_snake_case, reason = "units keep their letters")]
+    fn kick(
+        &self,
+        py: Python<'_>,
+        ids: PyReadonlyArray1<'_, u32>,
+        impulses_N_s: PyReadonlyArray2<'_, f64>,
+    ) -> PyResult<()> {
+        let (ids, impulses) = (ids.as_array(), impulses_N_s.as_array());
+        if impulses.shape() != [ids.len(), 3] {
+            let message =
+                format!("impulses have the shape {:?}; [{}, 3] is wanted", impulses.shape(), ids.len());
+            return Err(InputError::new_err(message));
+        }
+        if !impulses.iter().all(|value| value.is_finite()) {
+            return Err(InputError::new_err("impulses are not all finite"));
+        }
+        let mut kind = self.lock(py)?;
+        let Kind::Soft(simulation) = &mut *kind else { return Err(for_soft("kick")) };
+        let mut places = std::collections::BTreeMap::new();
+        places.extend(simulation.system.grains.id.iter().enumerate().map(|(at, id)| (*id, at)));
+        let unknown = ids.iter().find(|id| !places.contains_key(id));
+        if let Some(id) = unknown {
+            return Err(InputError::new_err(format!("there is no grain {id}")));
+        }
+        for (id, impulse) in ids.iter().zip(impulses.rows()) {
+            simulation.kick(places[id], Vec3::new(impulse[0], impulse[1], impulse[2]));
+        }
+        Ok(())
+    }
+
+    /// Lets a force of one's own act on soft spheres from now on.
+    #[pyo3(signature = (force, stiffness_over_mass=None, damping_over_mass=None))]
+    fn attach(
+        &self,
+        py: Python<'_>,
+        force: Bound<'_, PyAny>,
+        stiffness_over_mass: Option<f64>,
+        damping_over_mass: Option<f64>,
+    ) -> PyResult<()> {
+        if !force.is_callable() {
+            return Err(PyTypeError::new_err("the force must be callable"));
+        }
+        let pace = match (stiffness_over_mass, damping_over_mass) {
+            (None, None) => None,
+            (square, rate) => Some((square.unwrap_or(0.0), rate.unwrap_or(0.0))),
+        };
+        if pace.is_some_and(|(square, rate)| !(square >= 0.0 && rate >= 0.0 && (square + rate).is_finite())) {
+            let message = "stiffness_over_mass and damping_over_mass must be finite and not below 0";
+            return Err(InputError::new_err(message));
+        }
+        let callback = Callback::new(force.unbind(), pace, self.fallen.clone());
+        {
+            let kind = self.lock(py)?;
+            soft_alone(&kind, "attach")?;
+        }
+        // It is asked at once, on a thread of the pool.
+        briefly(py, || {
+            let mut kind = self.kind.lock().unwrap_or_else(PoisonError::into_inner);
+            if let Kind::Soft(simulation) = &mut *kind {
+                simulation.attach(Box::new(callback));
+            }
+        })?;
+        self.fallen.raise(py)
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let (time, end, steps) = (self.time_s(py)?, self.end_s(py)?, self.steps(py)?);
+        Ok(format!(
+            "<agglo.Simulation {:?}, t = {time} s of {end} s, {steps} steps>",
+            self.scenario.read.title
+        ))
+    }
+}
+
+fn for_soft(what: &str) -> PyErr {
+    InputError::new_err(format!("{what} is for soft spheres; this simulation is one of hard spheres"))
+}
+
+fn soft_alone<'a>(kind: &'a Kind, what: &str) -> PyResult<&'a soft::Simulation> {
+    match kind {
+        Kind::Soft(simulation) => Ok(simulation),
+        Kind::Hard(_) => Err(for_soft(what)),
+    }
+}
