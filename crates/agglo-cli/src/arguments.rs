@@ -7,7 +7,9 @@ use clap::{Args, Parser, Subcommand};
 /// Simulates how particulate agglomerates grow, break up and disperse, and searches for the best conditions.
 #[derive(Debug, Parser)]
 #[command(name = "agglo", version, about, arg_required_else_help = true)]
-#[command(after_help = "Exit codes: 0 done, 1 a run failed or was interrupted, 2 bad input")]
+#[command(
+    after_help = "Exit codes: 0 done, 1 a run failed or was interrupted, 2 bad input, 3 stopped at the given wall time"
+)]
 pub(crate) struct Arguments {
     #[command(subcommand)]
     pub verb: Verb,
@@ -88,9 +90,9 @@ impl Verb {
     /// The number of threads that is asked for.
     pub(crate) fn threads(&self) -> Option<u32> {
         match self {
-            Self::Run(options) => options.common.threads,
-            Self::Search(options) | Self::Study(options) => options.threads,
-            Self::Resume(options) => options.threads,
+            Self::Run(options) => options.common.session.threads,
+            Self::Search(options) | Self::Study(options) => options.session.threads,
+            Self::Resume(options) => options.session.threads,
             Self::Render(options) => options.threads,
             _ => None,
         }
@@ -105,9 +107,19 @@ pub(crate) struct ResumeOptions {
     /// Go on to another end, such as "40 s", with a run that was stopped or has finished
     #[arg(long, value_name = "TIME")]
     pub until: Option<String>,
+    #[command(flatten)]
+    pub session: SessionOptions,
+}
+
+/// How a run, search or study is carried on.
+#[derive(Args, Debug)]
+pub(crate) struct SessionOptions {
     /// Number of threads; all processors if left out
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=4096))]
     pub threads: Option<u32>,
+    /// Stop after so long on the clock, such as "2 h" or "90 s", with all that is needed to resume; the exit code is then 3
+    #[arg(long, value_name = "DURATION", allow_hyphen_values = true)]
+    pub wall_time: Option<String>,
     /// Write no report.html at the end
     #[arg(long)]
     pub no_report: bool,
@@ -154,12 +166,8 @@ pub(crate) struct CommonOptions {
     /// Replace a value of the file, such as time.end="1 s"; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub settings: Vec<String>,
-    /// Number of threads; all processors if left out
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=4096))]
-    pub threads: Option<u32>,
-    /// Write no report.html at the end
-    #[arg(long)]
-    pub no_report: bool,
+    #[command(flatten)]
+    pub session: SessionOptions,
     /// Seed of all random numbers instead of the file's
     #[arg(long)]
     pub seed: Option<u64>,

@@ -1,13 +1,14 @@
 //! The program `agglo`: arguments, progress, messages and exit codes. All physics is in the library. Others start it as well,
 //! such as the package for Python.
 //!
-//! Exit codes: 0 done, 1 a run failed or was interrupted, 2 bad input.
+//! Exit codes: 0 done, 1 a run failed or was interrupted, 2 bad input, 3 stopped at the given wall time.
 
 #[cfg(test)]
 #[macro_use]
 extern crate agglo_testing;
 
 mod arguments;
+mod brake;
 mod explain;
 mod laws;
 mod manuals;

@@ -1,29 +1,31 @@
 //! The verbs `run` and `resume`.
 
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use agglo::engine::SimError;
+use agglo::folder::RunFolder;
 use agglo::run::{Ending, Observer, Progress, RunError, Summary};
 use agglo::text::readable;
 use agglo::units::{Quantity, Time, parse_quantity};
 
-use crate::arguments::{CommonOptions, ResumeOptions, RunOptions};
+use crate::arguments::{CommonOptions, ResumeOptions, RunOptions, SessionOptions};
+use crate::brake::{Brake, Reason, WallTime};
 use crate::progress::Display;
-use crate::signals::{Ear, Late};
 use crate::{Failure, print, progress, read, report, tell};
 
 /// Runs a scenario into a folder.
 pub(crate) fn run(run_options: &RunOptions) -> Result<(), Failure> {
     let options = &run_options.common;
+    let wall = WallTime::of(options.session.wall_time.as_deref())?;
     let source = read::Source::read(&options.scenario)?;
     source.refuse_other_kind(read::Kind::Scenario)?;
     let scenario = source.scenario(&starting_from(settings(options), run_options.from.as_deref())?)?;
     let folder = options.output.clone().unwrap_or_else(|| default_folder(&options.scenario));
     refuse_occupied(&folder)?;
     let beside = |stop| companion(run_options, &folder, stop);
-    go(&folder, beside, !options.no_report, |observer| {
+    go(&folder, wall, &options.session, beside, |observer| {
         agglo::run::run(&scenario, &source.base, &folder, observer)
     })
 }
@@ -44,22 +46,19 @@ fn companion(_: &RunOptions, _: &Path, _: Arc<AtomicBool>) -> Option<Box<dyn Com
 /// Goes on with the run in a folder.
 pub(crate) fn resume(options: &ResumeOptions) -> Result<(), Failure> {
     let folder = options.folder.as_path();
+    let wall = WallTime::of(options.session.wall_time.as_deref())?;
     read::folder(folder)?;
     if let Some(until) = &options.until {
         let end = parse_quantity(until, Time::DIMENSION)
             .map_err(|error| Failure::bad_input(format!("error: --until: {error}")))?;
-        return go(
-            folder,
-            |_| None,
-            !options.no_report,
-            |observer| agglo::run::resume_until(folder, Quantity(end), observer),
-        );
+        let work = |observer: &mut Observer<'_>| agglo::run::resume_until(folder, Quantity(end), observer);
+        return go(folder, wall, &options.session, |_| None, work);
     }
     if let Some(summary) = agglo::run::finished(folder) {
         let shown = folder.display();
         return print(&format!("{}\nthe run in {shown} has finished already", table(&summary)));
     }
-    go(folder, |_| None, !options.no_report, |observer| agglo::run::resume(folder, observer))
+    go(folder, wall, &options.session, |_| None, |observer| agglo::run::resume(folder, observer))
 }
 
 /// The settings of the command line, the seed among them.
@@ -125,23 +124,24 @@ pub(crate) trait Companion: Send {
     fn close(self: Box<Self>) -> std::io::Result<()>;
 }
 
-/// Runs with a display, stops at Ctrl-C, writes the report of what finished, and says how it ended.
+/// Runs with a display, stops at Ctrl-C or when the wall time is up, writes the report of what finished, and says how it ended.
 fn go(
     folder: &Path,
+    wall: WallTime,
+    options: &SessionOptions,
     beside: impl FnOnce(Arc<AtomicBool>) -> Option<Box<dyn Companion>>,
-    reports: bool,
     work: impl FnOnce(&mut Observer<'_>) -> Result<Ending, RunError>,
 ) -> Result<(), Failure> {
-    let ear = Ear::open(Some(folder), Late::GoesOn)?;
+    let mut brake = Brake::open(folder, wall)?;
     let mut display = Display::new();
-    let mut companion = beside(ear.flag());
+    let mut companion = beside(brake.flag());
     let outcome = work(&mut |progress| {
         if companion.as_mut().is_some_and(|companion| companion.tell(progress)) {
             display.note(progress);
         } else {
             display.show(progress);
         }
-        if ear.is_asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        brake.look()
     });
     let closed = companion.map_or(Ok(()), Companion::close);
     let (wall, closing) = display.finish();
@@ -151,19 +151,38 @@ fn go(
     }
     match outcome {
         Ok(Ending::Finished(summary)) => {
-            let page = if reports { report::at_the_end(folder, &ear) } else { String::new() };
+            let page =
+                if options.no_report { String::new() } else { report::at_the_end(folder, brake.ear()) };
             // Of the whole run, also where this was only the end of it.
             let warnings = progress::count(summary.warnings().len());
             print(&format!("{}\nin {shown} ({wall}, {warnings}){page}", table(&summary)))
         }
         Ok(Ending::Interrupted(time)) => {
-            let time = readable(time, "s");
+            let (time, reason) = (readable(time, "s"), brake.reason());
+            let why = reason.words();
             let message =
-                format!("stopped at t = {time} ({closing}); `agglo resume {shown}` goes on from there");
-            Err(Failure::failed(message))
+                format!("stopped at t = {time}{why} ({closing}); `agglo resume {shown}` goes on from there");
+            Err(Failure::with_code(message, reason.exit_code()))
         }
-        Err(error) => Err(Failure::with_code(format!("error: {error}\n({closing})"), error.exit_code())),
+        Err(error) => Err(failure(&error, &brake.reason(), folder, &closing)),
     }
+}
+
+/// Why a run ended early. One whose time was up before its clock started or went on may have nothing to go on from.
+fn failure(error: &RunError, reason: &Reason, folder: &Path, closing: &str) -> Failure {
+    let is_stopped = matches!(error, RunError::StoppedBefore(_) | RunError::Start(SimError::StoppedAtRest));
+    let why = reason.words();
+    if !is_stopped || *reason == Reason::Signal {
+        return Failure::with_code(format!("error: {error}\n({closing})"), error.exit_code());
+    }
+    if RunFolder::at(folder).has_checkpoint() {
+        let advice = format!("`agglo resume {}` goes on", folder.display());
+        return Failure::with_code(format!("{error}{why} ({closing}); {advice}"), reason.exit_code());
+    }
+    Failure::with_code(
+        format!("error: {error}{why} ({closing})\nhelp: give it more, and run again"),
+        error.exit_code(),
+    )
 }
 
 /// The closing table.

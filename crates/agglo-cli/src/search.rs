@@ -1,6 +1,5 @@
 //! The verbs `search` and `study`, and what `resume` and `check` do with their files.
 
-use std::ops::ControlFlow;
 use std::path::Path;
 
 use agglo::folder::names::CAMPAIGN;
@@ -9,22 +8,24 @@ use agglo::search::campaign::{self, CampaignEnding, CampaignError, CampaignObser
 use agglo::search::{Axis, Campaign, CampaignForecast, Ensemble, Problem, Scale, Until};
 use agglo_view::pictures::campaign_pictures;
 
-use crate::arguments::{CommonOptions, ResumeOptions};
+use crate::arguments::{CommonOptions, ResumeOptions, SessionOptions};
+use crate::brake::{Brake, WallTime};
 use crate::progress::Display;
 use crate::read::{Kind, Source};
 use crate::run::{columns, default_folder, refuse_occupied, settings};
-use crate::signals::{Ear, Late};
+use crate::signals::Ear;
 use crate::{Failure, print, report};
 
 /// Conducts a search or study into a folder.
 pub(crate) fn conduct(options: &CommonOptions, kind: Kind) -> Result<(), Failure> {
+    let wall = WallTime::of(options.session.wall_time.as_deref())?;
     let source = Source::read(&options.scenario)?;
     source.refuse_other_kind(kind)?;
     let (campaign, base) = (source.campaign(&settings(options))?, source.base);
     let folder = options.output.clone().unwrap_or_else(|| default_folder(&options.scenario));
     refuse_occupied(&folder)?;
-    let threads = threads(options.threads);
-    go(&folder, !options.no_report, |observer| {
+    let threads = threads(options.session.threads);
+    go(&folder, wall, &options.session, |observer| {
         campaign::run(&campaign, &base, &folder, threads, Some(&campaign_pictures), observer)
     })
 }
@@ -32,6 +33,7 @@ pub(crate) fn conduct(options: &CommonOptions, kind: Kind) -> Result<(), Failure
 /// Goes on with the search or study in a folder.
 pub(crate) fn resume(options: &ResumeOptions) -> Result<(), Failure> {
     let folder = options.folder.as_path();
+    let wall = WallTime::of(options.session.wall_time.as_deref())?;
     if options.until.is_some() {
         let shown = folder.display();
         let help = format!("a budget of time, and how many candidates there are, stand in its {CAMPAIGN}");
@@ -42,8 +44,8 @@ pub(crate) fn resume(options: &ResumeOptions) -> Result<(), Failure> {
         let shown = folder.display();
         return print(&format!("{}\nwhat is in {shown} has finished already", columns(&summary.table())));
     }
-    let threads = threads(options.threads);
-    go(folder, !options.no_report, |observer| {
+    let threads = threads(options.session.threads);
+    go(folder, wall, &options.session, |observer| {
         campaign::resume(folder, threads, Some(&campaign_pictures), observer)
     })
 }
@@ -53,25 +55,34 @@ fn threads(wanted: Option<u32>) -> usize {
     wanted.map_or_else(all, |threads| threads as usize)
 }
 
-/// Conducts with a display, stops at Ctrl-C, writes the reports of what finished, and says how it ended.
+/// Conducts with a display, stops at Ctrl-C or when the wall time is up, writes the reports of what finished, and says how it
+/// ended.
 fn go(
     folder: &Path,
-    reports: bool,
+    wall: WallTime,
+    options: &SessionOptions,
     work: impl FnOnce(&mut CampaignObserver<'_>) -> Result<CampaignEnding, CampaignError>,
 ) -> Result<(), Failure> {
-    let ear = Ear::open(Some(folder), Late::GoesOn)?;
+    let mut brake = Brake::open(folder, wall)?;
     let mut display = Display::new();
     let outcome = work(&mut |progress| {
         display.show_campaign(progress);
-        if ear.is_asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        brake.look()
     });
     let (_, closing) = display.finish();
     let shown = folder.display();
     match outcome {
-        Ok(CampaignEnding::Finished(summary)) => print(&finished(&summary, folder, reports.then_some(&ear))),
-        Ok(CampaignEnding::Interrupted) => Err(Failure::failed(format!(
-            "stopped ({closing}); all simulations that ended are kept, `agglo resume {shown}` goes on from there"
-        ))),
+        Ok(CampaignEnding::Finished(summary)) => {
+            let reports = (!options.no_report).then(|| brake.ear());
+            print(&finished(&summary, folder, reports))
+        }
+        Ok(CampaignEnding::Interrupted) => {
+            let (reason, kept) = (brake.reason(), "all simulations that ended are kept");
+            let why = reason.words();
+            let message =
+                format!("stopped{why} ({closing}); {kept}, `agglo resume {shown}` goes on from there");
+            Err(Failure::with_code(message, reason.exit_code()))
+        }
         Err(error) => Err(Failure::with_code(format!("error: {error}\n({closing})"), error.exit_code())),
     }
 }

@@ -28,4 +28,5 @@ mod summary;
 mod trouble;
 mod until;
 mod verbs;
+mod wall_time;
 mod watching;

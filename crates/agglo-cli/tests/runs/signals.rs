@@ -8,11 +8,11 @@ use std::time::{Duration, Instant};
 use crate::common::{Bench, STAGGERED, command, complained, reference, signal};
 
 /// A second, and as much again for a machine that is busy with other tests, on top of a build that is not optimized.
-const SOON: Duration = Duration::from_secs(6);
+pub const SOON: Duration = Duration::from_secs(6);
 
 /// Grains that are placed at random, denser than there is room for: the search for it takes minutes. They are many, and their
 /// frames few: a disk that is nearly full has room for them.
-const PACKING: &str = r#"
+pub const PACKING: &str = r#"
 version = 1
 time.end = "1 s"
 output = { series = "1 s", frames = "1 s" }
@@ -30,7 +30,7 @@ placement.random = { solid_fraction = 0.5, region.box = { lower = ["0 m", "0 m",
 "#;
 
 /// Grains that come to rest for hours.
-const RESTING: &str = r#"
+pub const RESTING: &str = r#"
 version = 1
 time.end = "1 s"
 [engine.verlet]
@@ -61,7 +61,8 @@ fn answer(child: Child, name: &str, code: i32) -> String {
     complained(&output)
 }
 
-fn holds_nothing(folder: &Path) {
+/// Nothing but the scenario file is in a bench's folder.
+pub fn holds_nothing(folder: &Path) {
     let left: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert_eq!(left, ["scenario.toml"], "something is left");
 }

@@ -90,3 +90,23 @@ fn two_searches_at_once_lose_no_replicate() {
         assert_same(&bench.out(), &reference().out());
     }
 }
+
+/// The wall time of a session is not the file's budget: the search is the same, in as many sessions as it takes.
+#[test]
+fn a_search_whose_wall_time_is_up_goes_on_with_the_same_files() {
+    let bench = Bench::with(SEARCH);
+    let text = complained(&bench.ends("search", &["--wall-time", "1 us"], 3));
+    let advice = format!("`agglo resume {}` goes on from there", bench.out().display());
+    for words in ["stopped: the wall time of 1 us is up (", "all simulations that ended are kept", &advice] {
+        assert_contains!(&text, words);
+    }
+    assert_gone!(bench.out().join("summary.json"));
+    let again = bench.resume().args(["--wall-time", "1 us"]).output().unwrap();
+    assert_contains!(complained(&ended(again, 3)), &advice);
+    ended(bench.resume().args(["--wall-time", "2 h"]).output().unwrap(), 0);
+    assert_same(&bench.out(), &reference().out());
+    let other = Bench::with(SEARCH);
+    let text = complained(&other.ends("search", &["--wall-time", "-1 s"], 2));
+    assert_contains!(text, "error: --wall-time: found \"-1 s\"; more than 0 is wanted");
+    assert_gone!(other.out());
+}
