@@ -33,6 +33,9 @@ pub(crate) enum Verb {
         /// Start from the last state of the run in this folder, or from one of its checkpoints
         #[arg(long, value_name = "FOLDER")]
         from: Option<PathBuf>,
+        /// Tell programs: one JSON object on the standard output
+        #[arg(long)]
+        json: bool,
     },
     /// Print the page of a law or method, or a key with its unit and default; without a word the list of all pages
     Explain {
@@ -97,6 +100,17 @@ impl Verb {
             _ => None,
         }
     }
+
+    /// Whether programs are told, and not people.
+    pub(crate) fn is_json(&self) -> bool {
+        match self {
+            Self::Check { json, .. } => *json,
+            Self::Run(options) => options.common.session.json,
+            Self::Search(options) | Self::Study(options) => options.session.json,
+            Self::Resume(options) => options.session.json,
+            _ => false,
+        }
+    }
 }
 
 /// What to go on with.
@@ -123,6 +137,9 @@ pub(crate) struct SessionOptions {
     /// Write no report.html at the end
     #[arg(long)]
     pub no_report: bool,
+    /// Tell programs: one JSON object a line on the standard output, and nothing else there
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// What to run, and what to see meanwhile.
@@ -135,7 +152,7 @@ pub(crate) struct RunOptions {
     pub from: Option<PathBuf>,
     /// Show a dashboard in the terminal meanwhile, as `agglo watch` does
     #[cfg(feature = "watch")]
-    #[arg(long)]
+    #[arg(long, conflicts_with = "json")]
     pub watch: bool,
 }
 

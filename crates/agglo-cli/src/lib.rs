@@ -9,7 +9,10 @@ extern crate agglo_testing;
 
 mod arguments;
 mod brake;
+mod campaign_plan;
 mod explain;
+mod failure;
+mod json;
 mod laws;
 mod manuals;
 mod progress;
@@ -18,6 +21,7 @@ mod render;
 mod report;
 mod run;
 mod search;
+mod session;
 mod signals;
 #[cfg(feature = "watch")]
 mod watch;
@@ -33,38 +37,8 @@ use agglo::text::visible;
 use clap::Parser;
 
 use arguments::{Arguments, Verb};
+pub(crate) use failure::Failure;
 use read::{Kind, Source};
-
-/// Why the program ends early: the message for the user and the exit code.
-#[derive(Debug)]
-pub(crate) struct Failure {
-    message: String,
-    code: u8,
-    /// Whether it has colors of our own, and nothing else that acts on a terminal.
-    is_page: bool,
-}
-
-impl Failure {
-    /// Something that the user asked for cannot be done.
-    pub(crate) fn bad_input(message: impl Into<String>) -> Self {
-        Self::with_code(message, 2)
-    }
-
-    /// Something went wrong on the way.
-    pub(crate) fn failed(message: impl Into<String>) -> Self {
-        Self::with_code(message, 1)
-    }
-
-    /// An error of the library with its exit code.
-    pub(crate) fn with_code(message: impl Into<String>, code: u8) -> Self {
-        Self { message: message.into(), code, is_page: false }
-    }
-
-    /// Faults as [`agglo::scenario::Faults::render`] draws them.
-    pub(crate) fn page(page: String) -> Self {
-        Self { message: page, code: 2, is_page: true }
-    }
-}
 
 /// Does what the arguments of the program say, the first of which is its name; gives its exit code. It prints, hears
 /// signals and takes the threads of the whole process.
@@ -78,22 +52,21 @@ pub fn act_on(arguments: impl IntoIterator<Item = OsString>) -> u8 {
             return u8::try_from(told.exit_code()).unwrap_or(2);
         }
     };
+    let is_json = verb.is_json();
     let outcome = run::use_threads(verb.threads()).and_then(|()| act(verb));
-    match outcome {
-        Ok(()) => 0,
-        Err(failure) => {
-            // Nothing is left to do where even this message cannot be written.
-            let message = if failure.is_page { failure.message.into() } else { visible(&failure.message) };
-            let _ = writeln!(io::stderr(), "{message}");
-            failure.code
-        }
+    let Err(failure) = outcome else { return 0 };
+    if is_json {
+        json::tell(&failure);
+    } else {
+        failure.tell();
     }
+    failure.code
 }
 
 fn act(verb: Verb) -> Result<(), Failure> {
     match verb {
         Verb::New { template } => new(&template),
-        Verb::Check { scenario, settings, from } => check(&scenario, settings, from.as_deref()),
+        Verb::Check { scenario, settings, from, json } => check(&scenario, settings, from.as_deref(), json),
         Verb::Explain { word } => explain::explain(word.as_deref()),
         Verb::ListLaws(form) => laws::list(form),
         Verb::Completions { shell } => manuals::completions(shell),
@@ -138,16 +111,20 @@ fn new(name: &str) -> Result<(), Failure> {
     Err(Failure::bad_input(format!("error: there is no template \"{name}\"{advice}\n{known}")))
 }
 
-fn check(file: &Path, settings: Vec<String>, from: Option<&Path>) -> Result<(), Failure> {
+fn check(file: &Path, settings: Vec<String>, from: Option<&Path>, is_json: bool) -> Result<(), Failure> {
     let source = Source::read(file)?;
     if source.kind() != Kind::Scenario {
         if from.is_some() {
             source.refuse_other_kind(Kind::Scenario)?;
         }
-        return search::check(&source, &settings);
+        return campaign_plan::check(&source, &settings, is_json);
     }
     let scenario = source.scenario(&run::starting_from(settings, from)?)?;
     let plan = Plan::new(&scenario, &source.base)
         .map_err(|error| Failure::bad_input(format!("error: {}: {error}", source.shown)))?;
+    if is_json {
+        let (file, kind, run) = (source.shown.as_str(), "scenario", Some(json::of_plan(&plan)));
+        return json::Line::Plan { file, kind, run, campaign: None }.print();
+    }
     print(&format!("{} is valid\n{plan}", source.shown))
 }

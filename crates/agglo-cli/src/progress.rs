@@ -1,7 +1,7 @@
-//! What a run, search or study shows while it goes on: a bar on a terminal, a line every ten seconds elsewhere.
+//! What people are told of a session: a bar on a terminal, a line every ten seconds elsewhere, a table at the end.
 
-use std::collections::BTreeSet;
 use std::io::{self, IsTerminal, Write};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use agglo::run::Progress;
@@ -10,24 +10,22 @@ use agglo::text::{readable, visible};
 use agglo_view::render::AnimationProgress;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use crate::failure::Failure;
+use crate::print;
+use crate::session::{End, Listener, News, Outcome};
+
 const BETWEEN_LINES: Duration = Duration::from_secs(10);
-/// The bar counts ten-thousandths of the simulated time.
+/// The bar counts ten-thousandths of what is to be done.
 const PARTS: f64 = 10_000.0;
 const TEMPLATE: &str = "{bar:16} {percent:>3} %  {msg}";
 
-/// Shows progress and counts warnings.
+/// Shows progress to people.
 pub(crate) struct Display {
     bar: ProgressBar,
     on_terminal: bool,
-    started: Instant,
-    /// Nothing before the first report: a resumed run does not begin at zero.
-    pace: Option<Pace>,
     last_line: Instant,
     /// When the first picture was begun.
     drawing: Option<Instant>,
-    warnings: usize,
-    shown: BTreeSet<String>,
-    held: Vec<String>,
 }
 
 impl Display {
@@ -39,69 +37,13 @@ impl Display {
         if let Ok(style) = ProgressStyle::with_template(TEMPLATE) {
             bar.set_style(style);
         }
-        let now = Instant::now();
-        Self {
-            bar,
-            on_terminal,
-            started: now,
-            pace: None,
-            last_line: now,
-            drawing: None,
-            warnings: 0,
-            shown: BTreeSet::new(),
-            held: Vec::new(),
-        }
-    }
-
-    /// Takes note of a report that something else shows; its warnings are shown later.
-    pub(crate) fn note(&mut self, progress: &Progress) {
-        for warning in &progress.warnings {
-            self.warnings += 1;
-            if self.shown.insert(warning.clone()) {
-                self.held.push(format!("warning: {warning}"));
-            }
-        }
-    }
-
-    /// Shows a report; warnings go above the bar, each wording once.
-    pub(crate) fn show(&mut self, progress: &Progress) {
-        self.note(progress);
-        self.release();
-        let wall = self.started.elapsed().as_secs_f64();
-        let pace = self.pace.get_or_insert_with(|| Pace::from(progress, wall));
-        pace.note(progress, wall);
-        let state = state(progress, pace);
-        if self.on_terminal {
-            self.bar.set_position((PARTS * part(progress)) as u64);
-            self.bar.set_message(visible(&state).into_owned());
-        } else if self.last_line.elapsed() >= BETWEEN_LINES {
-            self.last_line = Instant::now();
-            self.line(&format!("{:>3.0} %  {state}", 100.0 * part(progress)));
-        }
-    }
-
-    /// Shows how far a search or study is.
-    pub(crate) fn show_campaign(&mut self, progress: &CampaignProgress) {
-        for warning in &progress.warnings {
-            self.warnings += 1;
-            self.line(&format!("warning: {warning}"));
-        }
-        let state = campaign_state(progress);
-        let part = progress.evaluations_at_most.map(|most| progress.evaluations as f64 / most.max(1) as f64);
-        if self.on_terminal {
-            self.bar.set_position((PARTS * part.unwrap_or(0.0).min(1.0)) as u64);
-            self.bar.set_message(visible(&state).into_owned());
-        } else if self.last_line.elapsed() >= BETWEEN_LINES {
-            self.last_line = Instant::now();
-            let part = part.map(|part| format!("{:>3.0} %  ", 100.0 * part)).unwrap_or_default();
-            self.line(&format!("{part}{state}"));
-        }
+        Self { bar, on_terminal, last_line: Instant::now(), drawing: None }
     }
 
     /// Shows how far pictures are.
     pub(crate) fn show_animation(&mut self, progress: AnimationProgress) {
         let (done, all, state) = match progress {
-            AnimationProgress::Without(what) => return self.line(&format!("warning: {what}")),
+            AnimationProgress::Without(what) => return self.warning(&what),
             AnimationProgress::Looking(done, all) => {
                 (done, all, format!("{done} of {all} frames looked through"))
             }
@@ -111,13 +53,18 @@ impl Display {
                 (done, all, format!("{done} of {all} pictures, {} left", left.unwrap_or("?".to_owned())))
             }
         };
-        let part = done as f64 / all.max(1) as f64;
+        self.show(Some(done as f64 / all.max(1) as f64), &state);
+    }
+
+    /// Shows what part is done, if that is known, and the words for it.
+    fn show(&mut self, part: Option<f64>, state: &str) {
         if self.on_terminal {
-            self.bar.set_position((PARTS * part) as u64);
-            self.bar.set_message(visible(&state).into_owned());
+            self.bar.set_position((PARTS * part.unwrap_or(0.0).min(1.0)) as u64);
+            self.bar.set_message(visible(state).into_owned());
         } else if self.last_line.elapsed() >= BETWEEN_LINES {
             self.last_line = Instant::now();
-            self.line(&format!("{:>3.0} %  {state}", 100.0 * part));
+            let part = part.map(|part| format!("{:>3.0} %  ", 100.0 * part)).unwrap_or_default();
+            self.line(&format!("{part}{state}"));
         }
     }
 
@@ -130,28 +77,63 @@ impl Display {
             let _ = writeln!(io::stderr(), "{text}");
         }
     }
+}
 
-    /// Takes the bar away and says how long it took.
-    pub(crate) fn wall(self) -> String {
-        self.bar.finish_and_clear();
-        clock(self.started.elapsed().as_secs_f64())
-    }
+impl Listener for Display {
+    fn started(&mut self, _: &'static str, _: &Path) {}
 
-    /// Shows the warnings that were held back.
-    fn release(&mut self) {
-        for line in std::mem::take(&mut self.held) {
-            self.line(&line);
+    fn progress(&mut self, news: News<'_>, _: f64) {
+        match news {
+            News::Run(progress, pace) => self.show(Some(part(progress)), &state(progress, pace)),
+            News::Campaign(progress) => {
+                let most = progress.evaluations_at_most;
+                let part = most.map(|most| progress.evaluations as f64 / most.max(1) as f64);
+                self.show(part, &campaign_state(progress));
+            }
         }
     }
 
-    /// Takes the bar away and says how long it took; then the same with how many warnings there were meanwhile.
-    pub(crate) fn finish(mut self) -> (String, String) {
-        self.release();
-        self.bar.finish_and_clear();
-        let wall = clock(self.started.elapsed().as_secs_f64());
-        let both = format!("{wall}, {}", count(self.warnings));
-        (wall, both)
+    fn warning(&mut self, words: &str) {
+        self.line(&format!("warning: {words}"));
     }
+
+    fn rest(&mut self) {
+        self.bar.finish_and_clear();
+    }
+
+    fn finished(&mut self, end: &End<'_>) -> Result<(), Failure> {
+        print(&format!("{}\n{}", columns(&end.outcome.table()), closing(end)))
+    }
+}
+
+/// What stands below the closing table: where all is, how long it took, what shows it.
+fn closing(end: &End<'_>) -> String {
+    let shown = end.folder.display();
+    let page = end.page.words(end.folder);
+    match (end.outcome, end.wall_s) {
+        (Outcome::Run(summary), Some(wall_s)) => {
+            // Of the whole run, also where this was only the end of it.
+            let warnings = count(summary.warnings().len());
+            format!("in {shown} ({}, {warnings}){page}", clock(wall_s))
+        }
+        (Outcome::Campaign(_), Some(_)) => {
+            let best = end
+                .best
+                .as_ref()
+                .map(|(run, page)| format!("\nthe best one's run in {}{}", run.display(), page.words(run)));
+            format!("in {shown}{page}{}", best.unwrap_or_default())
+        }
+        (Outcome::Run(_), None) => format!("the run in {shown} has finished already"),
+        (Outcome::Campaign(_), None) => format!("what is in {shown} has finished already"),
+    }
+}
+
+/// Rows in two columns.
+pub(crate) fn columns(rows: &[(String, String)]) -> String {
+    let width = rows.iter().map(|(label, _)| label.chars().count()).max().unwrap_or(0);
+    let lines: Vec<String> =
+        rows.iter().map(|(label, value)| format!("  {label:<width$}  {value}")).collect();
+    lines.join("\n")
 }
 
 /// "no warnings", "1 warning", "2 warnings".
@@ -205,12 +187,12 @@ impl Pace {
     }
 
     /// Steps in a second.
-    fn steps(&self) -> f64 {
+    pub(crate) fn steps(&self) -> f64 {
         Self::per_second(self.sums[2], self.sums[0])
     }
 
     /// Wall time left [s], if that can be said.
-    fn left(&self, progress: &Progress) -> Option<f64> {
+    pub(crate) fn left(&self, progress: &Progress) -> Option<f64> {
         let speed = Self::per_second(self.sums[1], self.sums[0]);
         (speed > 0.0).then(|| (progress.end - progress.time).max(0.0) / speed)
     }
@@ -255,7 +237,7 @@ fn time_of(time: f64, end: f64) -> String {
 }
 
 /// Minutes and seconds, or hours, minutes and seconds.
-fn clock(seconds: f64) -> String {
+pub(crate) fn clock(seconds: f64) -> String {
     let whole = seconds.round() as u64;
     let (hours, minutes, seconds) = (whole / 3600, whole / 60 % 60, whole % 60);
     if hours > 0 { format!("{hours}:{minutes:02}:{seconds:02}") } else { format!("{minutes}:{seconds:02}") }

@@ -113,16 +113,16 @@ impl Source {
 
     /// Checks a search or study with its settings.
     pub(crate) fn campaign(&self, settings: &[String]) -> Result<Campaign, Failure> {
-        Campaign::from_source(&self.text, &self.base, settings).map_err(|faults| self.refusal(&faults))
+        Campaign::from_source(&self.text, &self.base, settings).map_err(|faults| self.refusal(faults))
     }
 
     /// Checks a scenario with its settings.
     pub(crate) fn scenario(&self, settings: &[String]) -> Result<Scenario, Failure> {
-        Scenario::from_source(&self.text, &self.base, settings).map_err(|faults| self.refusal(&faults))
+        Scenario::from_source(&self.text, &self.base, settings).map_err(|faults| self.refusal(faults))
     }
 
-    fn refusal(&self, faults: &Faults) -> Failure {
-        Failure::page(faults.render(&self.text, &self.shown, wants_color()))
+    fn refusal(&self, faults: Faults) -> Failure {
+        Failure::page(faults.render(&self.text, &self.shown, wants_color()), &self.shown, faults)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::ops::{ControlFlow, RangeInclusive};
 use std::path::PathBuf;
+use std::time::Instant;
 
 use agglo::math::Vec3;
 use agglo_view::plot::Map;
@@ -10,7 +11,8 @@ use agglo_view::render::{
 };
 use clap::{Args, ValueEnum};
 
-use crate::progress::Display;
+use crate::progress::{Display, clock};
+use crate::session::Listener;
 use crate::signals::{Ear, Late};
 use crate::{Failure, print};
 
@@ -123,13 +125,14 @@ pub(crate) fn render(options: &RenderOptions) -> Result<(), Failure> {
     let is_movie = output.is_movie();
     let shots = Shots { frames: options.frames.clone(), every: options.every as usize, rate: options.fps };
     let ear = Ear::open(None, Late::Ends("stopped in the middle of a picture; those before it are kept"))?;
-    let mut display = Display::new();
+    let (began, mut display) = (Instant::now(), Display::new());
     let wanted = Animation { output, shots, options: options.options() };
     let ending = animate(folder, wanted, &mut |progress| {
         display.show_animation(progress);
         if ear.is_asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
-    let wall = display.wall();
+    display.rest();
+    let wall = clock(began.elapsed().as_secs_f64());
     match ending.map_err(refused)? {
         AnimationEnding::Finished(1) => print(&format!("1 picture in {path} ({wall})")),
         AnimationEnding::Finished(count) => print(&format!("{count} pictures in {path} ({wall})")),

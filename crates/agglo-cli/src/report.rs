@@ -1,6 +1,6 @@
 //! The verbs `report` and `cite`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use agglo::folder::RunFolder;
 use agglo::folder::names::REPORT;
@@ -8,25 +8,47 @@ use agglo::scenario::Scenario;
 use agglo_view::report::{self, ReportError};
 
 use crate::signals::Ear;
-use crate::{Failure, print, tell};
+use crate::{Failure, print};
 
-/// Writes the page of what has just finished and says so; a page that cannot be written is a warning, since all
-/// results are there.
+/// What became of the page of what has finished.
+pub(crate) enum Page {
+    /// Nobody wants one.
+    Unwanted,
+    /// It is there.
+    Written(PathBuf),
+    /// It was left out, since an end was asked for.
+    LeftOut,
+    /// It cannot be written; all results are there.
+    Failed(String),
+}
+
+impl Page {
+    /// What is put behind the name of the folder that it is of.
+    pub(crate) fn words(&self, folder: &Path) -> String {
+        match self {
+            Self::Unwanted | Self::Failed(_) => String::new(),
+            Self::Written(_) => format!("; {REPORT} shows it"),
+            Self::LeftOut => format!("; stopped before its page: {}", advice(folder)),
+        }
+    }
+}
+
+fn advice(folder: &Path) -> String {
+    format!("`agglo report {}` writes {REPORT}", folder.display())
+}
+
+/// Writes the page of what has just finished.
 ///
 /// Nothing else is left to be saved: a signal ends the program at once, and one that came before leaves the page out.
-pub(crate) fn at_the_end(folder: &Path, ear: &Ear) -> String {
-    let shown = folder.display();
-    let advice = format!("`agglo report {shown}` writes {REPORT}");
+pub(crate) fn at_the_end(folder: &Path, ear: &Ear) -> Page {
     if ear.is_asked() {
-        return format!("; stopped before its page: {advice}");
+        return Page::LeftOut;
     }
+    let (shown, advice) = (folder.display(), advice(folder));
     ear.ends_at_once(format!("stopped while the page was written; all results are in {shown}, and {advice}"));
     match report::write(folder) {
-        Ok(_) => format!("; {REPORT} shows it"),
-        Err(error) => {
-            tell(&format!("warning: there is no report: {error}"));
-            String::new()
-        }
+        Ok((page, _)) => Page::Written(page),
+        Err(error) => Page::Failed(error.to_string()),
     }
 }
 

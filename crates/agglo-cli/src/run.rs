@@ -5,15 +5,14 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use agglo::engine::SimError;
-use agglo::folder::RunFolder;
-use agglo::run::{Ending, Observer, Progress, RunError, Summary};
+use agglo::run::{Ending, Observer, Progress, RunError};
 use agglo::text::readable;
 use agglo::units::{Quantity, Time, parse_quantity};
 
-use crate::arguments::{CommonOptions, ResumeOptions, RunOptions, SessionOptions};
-use crate::brake::{Brake, Reason, WallTime};
-use crate::progress::Display;
-use crate::{Failure, print, progress, read, report, tell};
+use crate::arguments::{CommonOptions, ResumeOptions, RunOptions};
+use crate::brake::WallTime;
+use crate::session::{self, Outcome, Session};
+use crate::{Failure, print, read, tell};
 
 /// Runs a scenario into a folder.
 pub(crate) fn run(run_options: &RunOptions) -> Result<(), Failure> {
@@ -25,9 +24,8 @@ pub(crate) fn run(run_options: &RunOptions) -> Result<(), Failure> {
     let folder = options.output.clone().unwrap_or_else(|| default_folder(&options.scenario));
     refuse_occupied(&folder)?;
     let beside = |stop| companion(run_options, &folder, stop);
-    go(&folder, wall, &options.session, beside, |observer| {
-        agglo::run::run(&scenario, &source.base, &folder, observer)
-    })
+    let session = Session::open("run", &folder, wall, &options.session)?;
+    go(session, beside, |observer| agglo::run::run(&scenario, &source.base, &folder, observer))
 }
 
 /// The dashboard, where it is wanted and there is a terminal for it.
@@ -48,17 +46,25 @@ pub(crate) fn resume(options: &ResumeOptions) -> Result<(), Failure> {
     let folder = options.folder.as_path();
     let wall = WallTime::of(options.session.wall_time.as_deref())?;
     read::folder(folder)?;
-    if let Some(until) = &options.until {
-        let end = parse_quantity(until, Time::DIMENSION)
-            .map_err(|error| Failure::bad_input(format!("error: --until: {error}")))?;
-        let work = |observer: &mut Observer<'_>| agglo::run::resume_until(folder, Quantity(end), observer);
-        return go(folder, wall, &options.session, |_| None, work);
+    let until = options.until.as_ref().map(|until| {
+        parse_quantity(until, Time::DIMENSION)
+            .map_err(|error| Failure::bad_input(format!("error: --until: {error}")))
+    });
+    let until = until.transpose()?.map(Quantity);
+    if until.is_none()
+        && let Some(summary) = agglo::run::finished(folder)
+    {
+        return session::has_finished(folder, &Outcome::Run(summary), &options.session);
     }
-    if let Some(summary) = agglo::run::finished(folder) {
-        let shown = folder.display();
-        return print(&format!("{}\nthe run in {shown} has finished already", table(&summary)));
-    }
-    go(folder, wall, &options.session, |_| None, |observer| agglo::run::resume(folder, observer))
+    let session = Session::open("resume", folder, wall, &options.session)?;
+    go(
+        session,
+        |_| None,
+        |observer| match until {
+            Some(until) => agglo::run::resume_until(folder, until, observer),
+            None => agglo::run::resume(folder, observer),
+        },
+    )
 }
 
 /// The settings of the command line, the seed among them.
@@ -124,76 +130,30 @@ pub(crate) trait Companion: Send {
     fn close(self: Box<Self>) -> std::io::Result<()>;
 }
 
-/// Runs with a display, stops at Ctrl-C or when the wall time is up, writes the report of what finished, and says how it ended.
+/// Runs while somebody is told, stops at Ctrl-C or when the wall time is up, and says how it ended.
 fn go(
-    folder: &Path,
-    wall: WallTime,
-    options: &SessionOptions,
+    mut session: Session,
     beside: impl FnOnce(Arc<AtomicBool>) -> Option<Box<dyn Companion>>,
     work: impl FnOnce(&mut Observer<'_>) -> Result<Ending, RunError>,
 ) -> Result<(), Failure> {
-    let mut brake = Brake::open(folder, wall)?;
-    let mut display = Display::new();
-    let mut companion = beside(brake.flag());
+    let mut companion = beside(session.flag());
     let outcome = work(&mut |progress| {
-        if companion.as_mut().is_some_and(|companion| companion.tell(progress)) {
-            display.note(progress);
-        } else {
-            display.show(progress);
-        }
-        brake.look()
+        let is_shown = companion.as_mut().is_some_and(|companion| companion.tell(progress));
+        session.run(progress, is_shown)
     });
     let closed = companion.map_or(Ok(()), Companion::close);
-    let (wall, closing) = display.finish();
-    let shown = folder.display();
+    session.rest();
     if let Err(error) = closed {
         print(&format!("the dashboard could not be shown: {error}"))?;
     }
     match outcome {
-        Ok(Ending::Finished(summary)) => {
-            let page =
-                if options.no_report { String::new() } else { report::at_the_end(folder, brake.ear()) };
-            // Of the whole run, also where this was only the end of it.
-            let warnings = progress::count(summary.warnings().len());
-            print(&format!("{}\nin {shown} ({wall}, {warnings}){page}", table(&summary)))
-        }
+        Ok(Ending::Finished(summary)) => session.finished(&Outcome::Run(summary)),
         Ok(Ending::Interrupted(time)) => {
-            let (time, reason) = (readable(time, "s"), brake.reason());
-            let why = reason.words();
-            let message =
-                format!("stopped at t = {time}{why} ({closing}); `agglo resume {shown}` goes on from there");
-            Err(Failure::with_code(message, reason.exit_code()))
+            Err(session.stopped(&format!("stopped at t = {}", readable(time, "s")), "", Some(time)))
         }
-        Err(error) => Err(failure(&error, &brake.reason(), folder, &closing)),
+        Err(error @ (RunError::StoppedBefore(_) | RunError::Start(SimError::StoppedAtRest))) => {
+            Err(session.stopped_before(&error.to_string()))
+        }
+        Err(error) => Err(session.failed(&error, error.exit_code())),
     }
-}
-
-/// Why a run ended early. One whose time was up before its clock started or went on may have nothing to go on from.
-fn failure(error: &RunError, reason: &Reason, folder: &Path, closing: &str) -> Failure {
-    let is_stopped = matches!(error, RunError::StoppedBefore(_) | RunError::Start(SimError::StoppedAtRest));
-    let why = reason.words();
-    if !is_stopped || *reason == Reason::Signal {
-        return Failure::with_code(format!("error: {error}\n({closing})"), error.exit_code());
-    }
-    if RunFolder::at(folder).has_checkpoint() {
-        let advice = format!("`agglo resume {}` goes on", folder.display());
-        return Failure::with_code(format!("{error}{why} ({closing}); {advice}"), reason.exit_code());
-    }
-    Failure::with_code(
-        format!("error: {error}{why} ({closing})\nhelp: give it more, and run again"),
-        error.exit_code(),
-    )
-}
-
-/// The closing table.
-pub(crate) fn table(summary: &Summary) -> String {
-    columns(&summary.table())
-}
-
-/// Rows in two columns.
-pub(crate) fn columns(rows: &[(String, String)]) -> String {
-    let width = rows.iter().map(|(label, _)| label.chars().count()).max().unwrap_or(0);
-    let lines: Vec<String> =
-        rows.iter().map(|(label, value)| format!("  {label:<width$}  {value}")).collect();
-    lines.join("\n")
 }

@@ -17,8 +17,8 @@ use ratatui::crossterm::event::{self, Event, KeyCode, KeyEvent, KeyEventKind, Ke
 use super::cells::Depth;
 use super::portrait::Portrait;
 use super::screen::{Screen, picture_area};
-use crate::progress::{Pace, part, state};
-use crate::run::{Companion, table};
+use crate::progress::{Pace, columns, part, state};
+use crate::run::Companion;
 use crate::{Failure, print};
 
 /// How often the folder is read.
@@ -57,7 +57,7 @@ pub(crate) fn watch(dir: &Path) -> Result<(), Failure> {
         if io::stdout().is_terminal() { sit_at_terminal(follower)? } else { write_lines(follower)? };
     let shown = dir.display();
     match finished {
-        Some(summary) => print(&format!("{}\nthe run in {shown} has finished", table(&summary))),
+        Some(summary) => print(&format!("{}\nthe run in {shown} has finished", columns(&summary.table()))),
         None => print(&format!("left; `agglo watch {shown}` looks on, the run is not touched")),
     }
 }

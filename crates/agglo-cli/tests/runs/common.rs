@@ -8,6 +8,7 @@ use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
 use agglo::engine::{hard, soft};
+use serde_json::Value as Json;
 
 /// Soft spheres with steps of adaptive length, some of them rejected.
 pub const STAGGERED: &str = include_str!("staggered.toml");
@@ -46,6 +47,32 @@ pub fn said(output: &Output) -> String {
 /// What the program wrote to its standard error.
 pub fn complained(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+/// The objects that a program wrote to its standard output: one a line, nothing else, each with its type first.
+pub fn objects(output: &Output) -> Vec<Json> {
+    let object = |line: &str| {
+        assert_starts!(line, "{\"type\":\"");
+        serde_json::from_str(line).unwrap_or_else(|error| panic!("{error}: {line}"))
+    };
+    said(output).lines().map(object).collect()
+}
+
+/// Holds an object to the keys that docs/json.md has in the section of this heading: all of them, and no other.
+pub fn assert_documented(object: &Json, heading: &str) {
+    let page = include_str!("../../../../docs/json.md");
+    let of_it = |section: &&str| {
+        section.lines().next().is_some_and(|line| line.trim_start_matches('#').trim() == heading)
+    };
+    let section = page.split("\n#").find(of_it).unwrap_or_else(|| panic!("docs/json.md has no {heading}"));
+    let cells =
+        section.lines().filter(|line| line.starts_with("| `")).filter_map(|line| line.split(" | ").next());
+    let mut wanted: Vec<&str> = cells.flat_map(|cell| cell.split('`').skip(1).step_by(2)).collect();
+    let mut found: Vec<&str> =
+        object.as_object().into_iter().flat_map(|keys| keys.keys().map(String::as_str)).collect();
+    wanted.sort_unstable();
+    found.sort_unstable();
+    assert_eq!(found, wanted, "keys of {heading}");
 }
 
 /// The output of a program that must have ended with this code.

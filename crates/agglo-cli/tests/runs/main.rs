@@ -17,6 +17,7 @@ mod foreign;
 mod from;
 mod hard;
 mod hostile;
+mod json;
 mod killed;
 mod moved;
 mod output;

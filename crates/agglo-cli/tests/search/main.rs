@@ -11,6 +11,7 @@ extern crate agglo_testing;
 mod common;
 
 mod bench;
+mod json;
 mod killed;
 mod trouble;
 mod verbs;
