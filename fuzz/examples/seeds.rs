@@ -9,10 +9,11 @@ use std::path::Path;
 use agglo_fuzz::BENCH;
 
 /// Targets, and where the files are that they begin with: parts of their paths.
-const OF_FOLDERS: [(&str, &[&str]); 6] = [
+const OF_FOLDERS: [(&str, &[&str]); 7] = [
     ("table", &["table/grains.csv"]),
     ("checkpoint", &["stopped/checkpoints/", "finished/checkpoints/", "grown/checkpoints/"]),
     ("journal", &["search/replicates.journal"]),
+    ("part", &["part/part.json"]),
     ("frame", &["finished/frames/"]),
     ("series", &["finished/series/"]),
     ("summary", &["finished/summary.json", "ended/summary.json", "ended/best/summary.json"]),

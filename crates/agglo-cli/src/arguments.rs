@@ -72,7 +72,9 @@ pub(crate) enum Verb {
     /// Search for the conditions that do something best, into a folder
     Search(CommonOptions),
     /// Study how an outcome depends on the conditions, into a folder
-    Study(CommonOptions),
+    Study(StudyOptions),
+    /// Put the parts of a study (study --part) together into one folder, as one process would have written it
+    Join(JoinOptions),
     /// Draw a run: a picture, numbered pictures or a movie
     Render(Box<crate::render::RenderOptions>),
     /// Write report.html into the folder of a run, search or study: replay, charts, quantities; opens offline
@@ -94,7 +96,9 @@ impl Verb {
     pub(crate) fn threads(&self) -> Option<u32> {
         match self {
             Self::Run(options) => options.common.session.threads,
-            Self::Search(options) | Self::Study(options) => options.session.threads,
+            Self::Search(options) => options.session.threads,
+            Self::Study(options) => options.common.session.threads,
+            Self::Join(options) => options.session.threads,
             Self::Resume(options) => options.session.threads,
             Self::Render(options) => options.threads,
             _ => None,
@@ -106,7 +110,9 @@ impl Verb {
         match self {
             Self::Check { json, .. } => *json,
             Self::Run(options) => options.common.session.json,
-            Self::Search(options) | Self::Study(options) => options.session.json,
+            Self::Search(options) => options.session.json,
+            Self::Study(options) => options.common.session.json,
+            Self::Join(options) => options.session.json,
             Self::Resume(options) => options.session.json,
             _ => false,
         }
@@ -154,6 +160,29 @@ pub(crate) struct RunOptions {
     #[cfg(feature = "watch")]
     #[arg(long, conflicts_with = "json")]
     pub watch: bool,
+}
+
+/// What to study.
+#[derive(Args, Debug)]
+pub(crate) struct StudyOptions {
+    #[command(flatten)]
+    pub common: CommonOptions,
+    /// Run one part of all evaluations, such as 3/16, into a folder of its own; `agglo join` makes the whole of all of them
+    #[arg(long, value_name = "NUMBER/PARTS", allow_hyphen_values = true)]
+    pub part: Option<String>,
+}
+
+/// What to put together.
+#[derive(Args, Debug)]
+pub(crate) struct JoinOptions {
+    /// The folders of all parts, in any order
+    #[arg(value_name = "FOLDER", required = true)]
+    pub parts: Vec<PathBuf>,
+    /// Folder of the whole study
+    #[arg(short, long = "output", value_name = "FOLDER")]
+    pub output: PathBuf,
+    #[command(flatten)]
+    pub session: SessionOptions,
 }
 
 /// How to print the list of laws.

@@ -75,8 +75,9 @@ fn act(verb: Verb) -> Result<(), Failure> {
         Verb::Report { folder } => report::report(&folder),
         Verb::Cite { folder } => report::cite(&folder),
         Verb::Run(options) => run::run(&options),
-        Verb::Search(options) => search::conduct(&options, Kind::Search),
-        Verb::Study(options) => search::conduct(&options, Kind::Study),
+        Verb::Search(options) => search::conduct(&options, Kind::Search, None),
+        Verb::Study(options) => search::study(&options),
+        Verb::Join(options) => search::join(&options),
         #[cfg(feature = "watch")]
         Verb::Watch { folder } => watch::watch(&folder),
         Verb::Render(options) => render::render(&options),

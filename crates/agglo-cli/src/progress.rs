@@ -116,6 +116,9 @@ fn closing(end: &End<'_>) -> String {
             let warnings = count(summary.warnings().len());
             format!("in {shown} ({}, {warnings}){page}", clock(wall_s))
         }
+        (Outcome::Campaign(_), Some(_)) if end.outcome.is_part() => {
+            format!("in {shown}; `agglo join` puts all parts together")
+        }
         (Outcome::Campaign(_), Some(_)) => {
             let best = end
                 .best

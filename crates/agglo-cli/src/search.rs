@@ -1,29 +1,62 @@
-//! The verbs `search` and `study`, and what `resume` does with their folders.
+//! The verbs `search`, `study` and `join`, and what `resume` does with their folders.
+
+use std::path::{Path, PathBuf};
 
 use agglo::folder::names::CAMPAIGN;
-use agglo::search::campaign::{self, CampaignEnding, CampaignError, CampaignObserver};
+use agglo::search::campaign::{self, CampaignEnding, CampaignError, CampaignObserver, Part};
 use agglo_view::pictures::campaign_pictures;
 
 use crate::Failure;
-use crate::arguments::{CommonOptions, ResumeOptions};
+use crate::arguments::{CommonOptions, JoinOptions, ResumeOptions, StudyOptions};
 use crate::brake::WallTime;
 use crate::failure::shown;
-use crate::read::{Kind, Source};
+use crate::read::{self, Kind, Source};
 use crate::run::{default_folder, refuse_occupied, settings};
 use crate::session::{self, Outcome, Session};
 
-/// Conducts a search or study into a folder.
-pub(crate) fn conduct(options: &CommonOptions, kind: Kind) -> Result<(), Failure> {
+/// Conducts a study, or a part of it, into a folder.
+pub(crate) fn study(options: &StudyOptions) -> Result<(), Failure> {
+    let part = options.part.as_deref().map(str::parse::<Part>).transpose();
+    let part = part.map_err(|error| Failure::bad_input(format!("error: --part: {error}")))?;
+    conduct(&options.common, Kind::Study, part)
+}
+
+/// Conducts a search or study, or a part of one, into a folder.
+pub(crate) fn conduct(options: &CommonOptions, kind: Kind, part: Option<Part>) -> Result<(), Failure> {
     let wall = WallTime::of(options.session.wall_time.as_deref())?;
     let source = Source::read(&options.scenario)?;
     source.refuse_other_kind(kind)?;
     let campaign = source.campaign(&settings(options))?;
-    let folder = options.output.clone().unwrap_or_else(|| default_folder(&options.scenario));
+    let folder = options.output.clone().unwrap_or_else(|| {
+        let whole = default_folder(&options.scenario);
+        part.map_or_else(|| whole.clone(), |part| of_part(&whole, part))
+    });
     refuse_occupied(&folder)?;
     let threads = threads(options.session.threads);
     let session = Session::open(kind.verb(), &folder, wall, &options.session)?;
-    go(session, &source.shown, |observer| {
-        campaign::run(&campaign, &source.base, &folder, threads, Some(&campaign_pictures), observer)
+    let base = &source.base;
+    go(session, &source.shown, |observer| match part {
+        Some(part) => campaign::run_part(&campaign, base, (&folder, part), threads, observer),
+        None => campaign::run(&campaign, base, &folder, threads, Some(&campaign_pictures), observer),
+    })
+}
+
+/// Where a part goes if no folder is named: beside the others.
+fn of_part(whole: &Path, part: Part) -> PathBuf {
+    let name = whole.file_name().unwrap_or_default().to_string_lossy();
+    whole.with_file_name(format!("{name}-{}-of-{}", part.number, part.of))
+}
+
+/// Puts the parts of a study together.
+pub(crate) fn join(options: &JoinOptions) -> Result<(), Failure> {
+    let wall = WallTime::of(options.session.wall_time.as_deref())?;
+    let folder = options.output.as_path();
+    options.parts.iter().try_for_each(|part| read::folder(part))?;
+    refuse_occupied(folder)?;
+    let threads = threads(options.session.threads);
+    let session = Session::open("join", folder, wall, &options.session)?;
+    go(session, &shown(folder), |observer| {
+        campaign::join(&options.parts, folder, threads, Some(&campaign_pictures), observer)
     })
 }
 

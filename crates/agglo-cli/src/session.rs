@@ -62,6 +62,11 @@ pub(crate) enum Outcome {
 }
 
 impl Outcome {
+    /// Whether it is a part of a study, and not the whole.
+    pub(crate) fn is_part(&self) -> bool {
+        matches!(self, Self::Campaign(summary) if summary.part.is_some())
+    }
+
     /// The closing table: what, how much.
     pub(crate) fn table(&self) -> Vec<(String, String)> {
         match self {
@@ -172,6 +177,8 @@ impl Session {
     /// It came to its end: writes the reports and tells of all.
     pub(crate) fn finished(mut self, outcome: &Outcome) -> Result<(), Failure> {
         let wall_s = Some(self.wall_s());
+        // A part is looked at in the whole.
+        self.is_to_report &= !outcome.is_part();
         let page = self.page(&self.folder.clone());
         let best = Some(self.folder.join("best"))
             .filter(|best| matches!(outcome, Outcome::Campaign(_)) && best.is_dir());

@@ -61,6 +61,7 @@ fn campaign(threads: usize, replicates: u32) {
         title: "bowl",
         seed: 1,
         is_study: false,
+        part: None,
         threads,
         parameters: (0..10).map(axis).collect(),
         objectives: vec![Goal { formula: "value".to_owned(), is_to_be_large: false }],

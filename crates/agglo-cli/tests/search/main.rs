@@ -13,5 +13,6 @@ mod common;
 mod bench;
 mod json;
 mod killed;
+mod parts;
 mod trouble;
 mod verbs;

@@ -154,6 +154,12 @@ fn journals_of_anybody() {
 }
 
 #[test]
+fn parts_of_anybody() {
+    let bench = Bench::new();
+    read_some("part", &bench, &of_files(&bench, &[("part/part", ".json")], true), 200);
+}
+
+#[test]
 fn frames_of_anybody() {
     let bench = Bench::new();
     let mutator = of_files(&bench, &[("finished/frames/", ".vtp"), ("finished/frames/", ".pvd")], true);

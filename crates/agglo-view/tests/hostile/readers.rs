@@ -98,7 +98,7 @@ fn gather(root: &Path, below: &Path, files: &mut Vec<(PathBuf, Vec<u8>)>) {
 }
 
 /// Every reader by the name of its target.
-pub const READERS: [(&str, Reader); 10] = [
+pub const READERS: [(&str, Reader); 11] = [
     ("scenario", scenario),
     ("setting", setting),
     ("plan", plan),
@@ -106,6 +106,7 @@ pub const READERS: [(&str, Reader); 10] = [
     ("table", table),
     ("checkpoint", checkpoint),
     ("journal", journal),
+    ("part", part),
     ("frame", frame),
     ("series", series),
     ("summary", summary),
@@ -259,6 +260,23 @@ pub fn journal(bench: &Bench, bytes: &[u8]) -> Verdict {
     let verdict = gone_on(&bench.with("search", name, bytes));
     let sealed = seeds::sealed_lines(bytes);
     if sealed == bytes { verdict } else { gone_on(&bench.with("search", name, &sealed)) }
+}
+
+/// Which part of a study a folder holds: the part goes on to its end. Whether it is put together with no other depends on
+/// whether it is the only one.
+pub fn part(bench: &Bench, bytes: &[u8]) -> Verdict {
+    let dir = bench.with("part", Path::new("part/part.json"), bytes);
+    // One that has finished would not look.
+    fs::remove_file(dir.join("summary.json")).expect("it was made");
+    gone_on(&dir)?;
+    let whole = bench.at("whole");
+    let _ = fs::remove_dir_all(&whole);
+    let mut goes_on = |_: &search::campaign::CampaignProgress| ControlFlow::Continue(());
+    match search::campaign::join(&[dir], &whole, 1, None, &mut goes_on) {
+        Ok(_) => assert!(search::campaign::finished(&whole).is_some(), "the summary of a study can be read"),
+        Err(error) => assert!(refused(&error.to_string()).is_err(), "a refusal"),
+    }
+    Ok(())
 }
 
 fn gone_on(dir: &Path) -> Verdict {

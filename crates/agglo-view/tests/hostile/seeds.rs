@@ -39,7 +39,7 @@ const FEW: [&str; 4] = [
 ];
 
 /// Makes the folders `stopped`, `finished` and `grown` of runs, `begun` and `begun-hard` of scenarios that start from a
-/// state, `search` and `ended` of searches, and `table`.
+/// state, `search` and `ended` of searches, `part` of a study's, and `table`.
 pub fn make(place: &Path) {
     let scenario = Scenario::with_overrides(valid(), &SMALL).unwrap_or_else(|faults| panic!("{faults}"));
     fs::create_dir_all(place.join("table")).expect("a folder");
@@ -81,6 +81,14 @@ pub fn make(place: &Path) {
     };
     ended(&place.join("ended"), u64::MAX);
     ended(&place.join("search"), 3);
+
+    let (before, _) = SEARCH.split_once("[method.random]").expect("it is there");
+    let study = Campaign::from_toml(&format!("{before}[plan.morris]\ntrajectories = 2\nlevels = 2\n"));
+    let study = study.unwrap_or_else(|faults| panic!("{faults}"));
+    let goes_on = |_: &campaign::CampaignProgress| ControlFlow::Continue(());
+    let part = campaign::Part { number: 1, of: 2 };
+    campaign::run_part(&study, Path::new(""), (&place.join("part"), part), 1, &mut { goes_on })
+        .expect("it runs");
 }
 
 /// A checkpoint with the length of its payload and its checksum put right.

@@ -29,7 +29,7 @@ impl CampaignFolder {
     pub fn create(dir: &Path) -> Result<Self, FolderError> {
         let (_, lock) = Lock::take_new(dir)?;
         let folder = Self { lock: Some(Arc::new(lock)), ..Self::at(dir) };
-        let taken = [folder.campaign(), folder.scenario(), folder.summary(), folder.journal()];
+        let taken = [folder.campaign(), folder.scenario(), folder.summary(), folder.journal(), folder.part()];
         if taken.iter().any(|path| path.exists()) {
             return Err(FolderError::InUse { dir: dir.to_owned() });
         }
@@ -44,6 +44,22 @@ impl CampaignFolder {
         atomic::write(&self.scenario(), scenario.as_bytes())?;
         // The last one: a folder with it can be resumed.
         Ok(atomic::write(&self.campaign(), campaign.as_bytes())?)
+    }
+
+    /// Takes the tables of another campaign's folder as they are.
+    ///
+    /// # Errors
+    /// [`RecordError::File`].
+    pub(crate) fn take_tables_of(&self, other: &Self) -> Result<(), RecordError> {
+        let [from, to] = [&other.root, &self.root].map(|root| root.join(names::TABLES));
+        let Ok(entries) = std::fs::read_dir(&from) else { return Ok(()) };
+        std::fs::create_dir_all(&to).map_err(RecordError::file("make the folder", &to))?;
+        for path in entries.flatten().map(|entry| entry.path()) {
+            let bytes =
+                files::read(&path, door::MOST_OF_A_TABLE).map_err(RecordError::file("read", &path))?;
+            atomic::write(&to.join(path.file_name().unwrap_or_default()), &bytes)?;
+        }
+        Ok(())
     }
 
     /// Begins to take tables of placements into the folder.
@@ -129,6 +145,10 @@ impl CampaignFolder {
     /// Starts that ended, while the campaign goes on.
     pub fn journal(&self) -> PathBuf {
         self.root.join(names::JOURNAL)
+    }
+    /// Which part of a study it holds, where it holds one.
+    pub fn part(&self) -> PathBuf {
+        self.root.join(names::PART)
     }
     /// The run of the best candidate.
     pub fn best(&self) -> PathBuf {

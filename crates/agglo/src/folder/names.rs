@@ -24,6 +24,8 @@ pub const CHECKPOINTS: &str = "checkpoints";
 pub const BEST_RUN: &str = "best";
 /// Replicates that ended, while a campaign goes on.
 pub const JOURNAL: &str = "replicates.journal";
+/// Which part of a study a folder holds, where it holds one.
+pub const PART: &str = "part.json";
 /// Pictures of a campaign.
 pub const PICTURES: &str = "pictures";
 

@@ -190,6 +190,12 @@ impl Archive {
         self.evaluations.push(evaluation);
     }
 
+    /// The evaluation of this number, if it is here: a part of a study has some of them.
+    pub fn numbered(&self, number: u64) -> Option<&Evaluation> {
+        let at = self.evaluations.binary_search_by_key(&number, |evaluation| evaluation.number).ok()?;
+        Some(&self.evaluations[at])
+    }
+
     /// The best of search and polish.
     pub fn best(&self) -> Option<&Evaluation> {
         self.best.map(|best| &self.evaluations[best])

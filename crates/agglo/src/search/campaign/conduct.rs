@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
-use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -22,7 +21,7 @@ use crate::search::pool::{self, Finished, Halt, Outcome, Pool, Seeds, Task};
 use crate::search::{Candidate, Ensemble, Fitness, Model};
 
 /// Candidates that are evaluated at once at most: what is prepared for them is kept until all are done.
-const AT_ONCE: usize = 512;
+pub(super) const AT_ONCE: usize = 512;
 /// A campaign of which so many candidates fail before one succeeds is given up.
 const HOPELESS_FROM: u64 = 20;
 
@@ -76,6 +75,7 @@ pub fn conduct<M: Model>(
     let notebook = |finished: &Finished<'_>| journal.note(finished, wall_s());
     let pool = Pool::new(model, &notebook);
     let known = past.replicates.keys().next_back().map_or(0, |(evaluation, _)| *evaluation);
+    let known = known.saturating_sub(course.first());
     let mut observer = |progress: &super::CampaignProgress| observer(progress);
     let sign = course.objectives.first().map(|goal| if goal.is_to_be_large { -1.0 } else { 1.0 });
     let most = course.planned.iter().map(|(_, candidates)| candidates).sum::<u64>();
@@ -115,7 +115,7 @@ impl<M: Model> Drop for Home<'_, '_, M> {
 pub(super) struct Conductor<'a, M: Model> {
     model: &'a M,
     pool: &'a Pool<'a, M>,
-    folder: &'a CampaignFolder,
+    pub(super) folder: &'a CampaignFolder,
     ensemble: Ensemble,
     fresh: Ensemble,
     /// Of the search, of the replicates that choose the best, and of those that it is reported by.
@@ -123,10 +123,10 @@ pub(super) struct Conductor<'a, M: Model> {
     past: Past,
     clock: Clock<'a>,
     /// Evaluations of the search by the bits of their values.
-    evaluated: BTreeMap<Vec<u64>, usize>,
+    evaluated: BTreeMap<Vec<u64>, u64>,
     pub(super) records: Records,
     pub(super) archive: Archive,
-    generations: u64,
+    pub(super) generations: u64,
     first_failure: String,
     watch: Watch<'a>,
     flushed: Instant,
@@ -177,7 +177,10 @@ impl<'a, M: Model> Conductor<'a, M> {
 
     /// Search, polish, confirmation, closing, summary.
     fn all(mut self, course: Course<'_>, wall_s: &dyn Fn() -> f64) -> Result<CampaignSummary, Stop> {
-        let ended = self.stages(course, wall_s);
+        let ended = match course.part.clone() {
+            Some(part) => self.part(course, &part, wall_s),
+            None => self.stages(course, wall_s),
+        };
         // What is known so far is worth reading, however it ended.
         let flushed = self.records.flush();
         let summary = ended?;
@@ -209,6 +212,18 @@ impl<'a, M: Model> Conductor<'a, M> {
         if (course.closing)(&results, &mut || watch.tell(&self.archive, &now()))?.is_break() {
             return Err(Stop::Asked);
         }
+        self.write_summary(&mut summary, wall_s)?;
+        let journal = self.folder.journal();
+        std::fs::remove_file(&journal).map_err(RecordError::file("remove", &journal))?;
+        Ok(summary)
+    }
+
+    /// Writes the summary: from now on the campaign has finished.
+    pub(super) fn write_summary(
+        &self,
+        summary: &mut CampaignSummary,
+        wall_s: &dyn Fn() -> f64,
+    ) -> Result<(), Stop> {
         summary.wall_s = wall_s();
         self.folder.hold_on()?;
         let text = summary.to_json();
@@ -217,9 +232,7 @@ impl<'a, M: Model> Conductor<'a, M> {
             let (path, reason) = (self.folder.summary(), format!("a quantity is not finite: {error}"));
             return Err(Stop::from(RecordError::Encode { path, reason }));
         }
-        atomic::write(&self.folder.summary(), text.as_bytes())?;
-        remove(&self.folder.journal())?;
-        Ok(summary)
+        Ok(atomic::write(&self.folder.summary(), text.as_bytes())?)
     }
 
     /// Evaluates what the optimizer asks until it asks no more; returns what it recommends.
@@ -255,7 +268,8 @@ impl<'a, M: Model> Conductor<'a, M> {
                 break;
             }
             let rest = candidates.split_off(count);
-            self.batch(stage, std::mem::replace(&mut candidates, rest))?;
+            let now = std::mem::replace(&mut candidates, rest);
+            self.batch(stage, (self.archive.evaluations.len() as u64..).zip(now).collect())?;
         }
         let count = self.archive.evaluations.len() - first;
         if count > 0 {
@@ -265,15 +279,13 @@ impl<'a, M: Model> Conductor<'a, M> {
         Ok(self.archive.evaluations[first..].iter().map(|one| one.fitness.clone()).collect())
     }
 
-    fn batch(&mut self, stage: Stage, candidates: Vec<Candidate>) -> Result<(), Stop> {
-        let first = self.archive.evaluations.len();
+    /// Evaluates candidates with their numbers, which rise, and writes them down.
+    pub(super) fn batch(&mut self, stage: Stage, candidates: Vec<(u64, Candidate)>) -> Result<(), Stop> {
         let seeds = Arc::clone(&self.seeds[family(stage)]);
-        let ways: Vec<Way> = (first..)
-            .zip(&candidates)
-            .map(|(number, candidate)| self.way(number, stage, candidate))
-            .collect();
-        let tasks = (first as u64..).zip(&candidates).zip(&ways).filter(|(_, way)| **way == Way::Run);
-        let tasks = tasks.map(|((number, candidate), _)| self.task(number, candidate, &seeds)).collect();
+        let ways: Vec<Way> =
+            candidates.iter().map(|(number, candidate)| self.way(*number, stage, candidate)).collect();
+        let tasks = candidates.iter().zip(&ways).filter(|(_, way)| **way == Way::Run);
+        let tasks = tasks.map(|((number, candidate), _)| self.task(*number, candidate, &seeds)).collect();
         let ensemble = if stage.is_search() { &self.ensemble } else { &self.fresh };
         let (watch, archive, generations) = (&mut self.watch, &self.archive, self.generations);
         let look_up = |pool: &Pool<'_, M>| {
@@ -281,7 +293,7 @@ impl<'a, M: Model> Conductor<'a, M> {
             watch.tell(archive, &Now { stage, generations, decided, replicates })
         };
         let mut ended = self.pool.evaluate(tasks, ensemble, &seeds, look_up)?.into_iter();
-        for ((number, candidate), way) in (first as u64..).zip(candidates).zip(ways) {
+        for ((number, candidate), way) in candidates.into_iter().zip(ways) {
             match way {
                 Way::Repeat(earlier) => self.repeat(number, stage, candidate, earlier, &seeds)?,
                 Way::Run => self.take_down(number, stage, candidate, ended.next(), &seeds)?,
@@ -297,7 +309,7 @@ impl<'a, M: Model> Conductor<'a, M> {
     }
 
     /// What is done with a candidate that gets this number.
-    fn way(&mut self, number: usize, stage: Stage, candidate: &Candidate) -> Way {
+    pub(super) fn way(&mut self, number: u64, stage: Stage, candidate: &Candidate) -> Way {
         if candidate.violation != 0.0 {
             return Way::Excluded;
         }
@@ -320,11 +332,15 @@ impl<'a, M: Model> Conductor<'a, M> {
         number: u64,
         stage: Stage,
         candidate: Candidate,
-        earlier: usize,
+        earlier: u64,
         seeds: &Seeds,
     ) -> Result<(), RecordError> {
-        let (generation, repeats) = (self.generations, Some(earlier as u64));
-        let known = self.archive.evaluations[earlier].clone();
+        let (generation, repeats) = (self.generations, Some(earlier));
+        let Some(known) = self.archive.numbered(earlier).cloned() else {
+            // It is in another part of the study. They are put together with what both have come to.
+            self.archive.repeats += 1;
+            return Ok(());
+        };
         if known.status == Status::Failed {
             let reason = format!("its values are those of evaluation {earlier}, which failed");
             self.records.failure(number, 0, seeds(number, 0), &reason)?;
@@ -443,20 +459,12 @@ impl<'a, M: Model> Conductor<'a, M> {
         self.seeds[family(evaluation.stage)](evaluation.number, 0)
     }
 
-    pub(super) fn folder(&self) -> &Path {
-        self.folder.root()
-    }
-
     pub(super) fn columns(&self) -> &[String] {
         self.model.columns()
     }
 
     pub(super) fn candidate(&self, point: &[f64]) -> Candidate {
         self.model.candidate(point)
-    }
-
-    pub(super) fn generations(&self) -> u64 {
-        self.generations
     }
 
     pub(super) fn is_out_of_time(&self) -> bool {
@@ -466,13 +474,13 @@ impl<'a, M: Model> Conductor<'a, M> {
 
 /// What is done with a candidate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Way {
+pub(super) enum Way {
     /// It is run.
     Run,
     /// It misses a constraint between parameters.
     Excluded,
     /// Its values are those of the evaluation with this number.
-    Repeat(usize),
+    Repeat(u64),
 }
 
 /// Which of the seeds a stage has.
@@ -482,8 +490,4 @@ fn family(stage: Stage) -> usize {
         Stage::Confirm => 1,
         Stage::Final => 2,
     }
-}
-
-fn remove(path: &Path) -> Result<(), RecordError> {
-    std::fs::remove_file(path).map_err(RecordError::file("remove", path))
 }

@@ -92,7 +92,7 @@ impl<M: Model> Conductor<'_, M> {
             search: chosen.search.map(evaluation),
             last: chosen.confirmed.map(|_| evaluation(chosen.at)),
         };
-        self.records.best(self.folder(), &ranked.iter().map(row).collect::<Vec<_>>())
+        self.records.best(self.folder.root(), &ranked.iter().map(row).collect::<Vec<_>>())
     }
 
     /// Numbers of the best evaluations, best first; of the front where there are several costs.
@@ -124,9 +124,10 @@ impl<M: Model> Conductor<'_, M> {
             seed: course.seed,
             objectives: course.objectives.clone(),
             is_study: course.is_study,
+            part: course.part.as_ref().map(|(part, _)| *part),
             best: best.filter(|_| !course.objectives.is_empty()).map(|best| self.best(course, best)),
             front: front.iter().map(point).collect(),
-            generations: self.generations(),
+            generations: self.generations,
             evaluations: self.archive.evaluations.len() as u64,
             stages: self.stages_spent(course),
             ended_early: self.ended_early(course),

@@ -1,9 +1,10 @@
 //! Everything of a campaign but its model, and what it came to.
 
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 
 use super::CampaignError;
 use super::archive::{Evaluation, Stage};
+use super::part::Part;
 use super::summary::{CampaignSummary, Goal, LimitKept};
 use crate::folder::CampaignFolder;
 use crate::search::optimizer::Optimizer;
@@ -29,6 +30,8 @@ pub struct Course<'a> {
     pub threads: usize,
     /// Whether its optimizer is a plan.
     pub is_study: bool,
+    /// The part of it that is evaluated, with the numbers of its evaluations; none for all.
+    pub part: Option<(Part, Range<u64>)>,
     /// The parameters, in the order of a candidate's values.
     pub parameters: Vec<Axis>,
     /// What is to be small or large.
@@ -53,6 +56,13 @@ pub struct Course<'a> {
     pub findings: &'a dyn Fn(&[Evaluation]) -> Vec<String>,
     /// What is done once all is evaluated.
     pub closing: &'a mut Closing<'a>,
+}
+
+impl Course<'_> {
+    /// Number of the first evaluation that is its own.
+    pub(super) fn first(&self) -> u64 {
+        self.part.as_ref().map_or(0, |(_, own)| own.start)
+    }
 }
 
 /// What a campaign came to, for its closing.

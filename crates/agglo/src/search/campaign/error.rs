@@ -58,6 +58,9 @@ pub enum CampaignError {
     /// The campaign or its base has faults.
     #[error("the campaign has faults:\n{0}")]
     Faulty(#[from] Faults),
+    /// Parts of a study that cannot be made or put together.
+    #[error("{0}")]
+    Parts(String),
     /// The machine cannot hold the simulations.
     #[error("{0}")]
     TooLarge(StartError),
@@ -71,7 +74,7 @@ impl CampaignError {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Folder(error) => error.exit_code(),
-            Self::Faulty(_) | Self::TooLarge(_) => 2,
+            Self::Faulty(_) | Self::Parts(_) | Self::TooLarge(_) => 2,
             Self::Record(_)
             | Self::CutShort { .. }
             | Self::Gone { .. }

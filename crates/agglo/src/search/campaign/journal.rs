@@ -66,33 +66,47 @@ pub struct Journal {
     open: Mutex<(File, String)>,
 }
 
+/// The first line of the journal of a campaign with this text.
+pub fn heading(campaign: &str) -> String {
+    format!("agglo {},{:08x}\n", env!("CARGO_PKG_VERSION"), crc32fast::hash(campaign.as_bytes()))
+}
+
+/// The whole lines of the journal at `path`, the heading included; nothing where there is none.
+///
+/// # Errors
+/// [`RecordError::File`]; or the reason why the journal does not belong to this campaign and program.
+pub fn lines(path: &Path, campaign: &str) -> Result<Result<Vec<u8>, String>, RecordError> {
+    let mut found = if path.symlink_metadata().is_ok() {
+        files::read(path, door::MOST_OF_A_TABLE).map_err(RecordError::file("read", path))?
+    } else {
+        Vec::new()
+    };
+    let whole = found.iter().rposition(|byte| *byte == b'\n').map_or(0, |last| last + 1);
+    found.truncate(whole);
+    let wanted = heading(campaign);
+    if whole == 0 || found.starts_with(wanted.as_bytes()) {
+        return Ok(Ok(found));
+    }
+    let text = String::from_utf8_lossy(&found);
+    let (other, wanted) = (cell(text.lines().next().unwrap_or_default()), wanted.trim_end());
+    Ok(Err(format!("its journal is of \"{other}\" (version, campaign), this is \"{wanted}\"")))
+}
+
 impl Journal {
     /// Goes on with the journal at `path`, or begins one; `campaign` is the text that its replicates belong to.
     ///
     /// # Errors
     /// [`RecordError::File`]; or the reason why the journal does not belong to this campaign and program.
     pub fn open(path: &Path, campaign: &str) -> Result<Result<(Self, Past), String>, RecordError> {
-        let heading =
-            format!("agglo {},{:08x}\n", env!("CARGO_PKG_VERSION"), crc32fast::hash(campaign.as_bytes()));
-        let found = if path.symlink_metadata().is_ok() {
-            files::read(path, door::MOST_OF_A_TABLE).map_err(RecordError::file("read", path))?
-        } else {
-            Vec::new()
+        let found = match lines(path, campaign)? {
+            Ok(found) => found,
+            Err(reason) => return Ok(Err(reason)),
         };
-        let whole = found.iter().rposition(|byte| *byte == b'\n').map_or(0, |last| last + 1);
-        let text = String::from_utf8_lossy(&found[..whole]);
-        if !(whole == 0 || text.starts_with(&heading)) {
-            let other = cell(text.lines().next().unwrap_or_default());
-            let wanted = heading.trim_end();
-            return Ok(Err(format!(
-                "its journal is of \"{other}\" (version, campaign), this is \"{wanted}\""
-            )));
-        }
         let mut past = Past::default();
-        for line in text.lines().skip(1) {
+        for line in String::from_utf8_lossy(&found).lines().skip(1) {
             past.take(line);
         }
-        let journal = Self::at(path, whole as u64, &heading)?;
+        let journal = Self::at(path, found.len() as u64, &heading(campaign))?;
         Ok(Ok((journal, past)))
     }
 

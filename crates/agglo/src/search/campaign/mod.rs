@@ -11,7 +11,9 @@ mod conduct;
 mod confirm;
 mod course;
 mod error;
+mod join;
 mod journal;
+mod part;
 mod pictures;
 mod progress;
 mod records;
@@ -27,10 +29,12 @@ pub(crate) use columns::is_taken;
 pub use conduct::conduct;
 pub use course::{Ask, Closing, Course, Polish, Results};
 pub use error::CampaignError;
+pub use join::join;
+pub use part::Part;
 pub use pictures::Draw;
 pub use progress::{CampaignObserver, CampaignProgress};
 pub use summary::{Best, CampaignSummary, FrontPoint, Goal, LimitKept, Named, Noise, Spent};
-pub use verbs::{planned, refuse_too_large, resume, run, way_of};
+pub use verbs::{planned, refuse_too_large, resume, run, run_part, way_of};
 
 use std::path::Path;
 

@@ -6,6 +6,7 @@ use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::Value as Json;
 
+use super::part::Part;
 use crate::record::json;
 use crate::text::{readable, with_error};
 
@@ -23,6 +24,9 @@ pub struct CampaignSummary {
     /// Whether it is a study, which tries what it is told to and looks for no best.
     #[serde(default)]
     pub is_study: bool,
+    /// Which part of a study it is; left out where it is the whole.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub part: Option<Part>,
     /// The best candidate; null where there is nothing to be small.
     pub best: Option<Best>,
     /// Candidates that no other beats in every cost, where there are several; empty with one.
@@ -192,6 +196,7 @@ impl CampaignSummary {
     /// The summary as rows of a table: what, how much.
     pub fn table(&self) -> Vec<(String, String)> {
         let mut rows = Vec::new();
+        rows.extend(self.part.map(|part| ("part".to_owned(), part.to_string())));
         if let Some(best) = &self.best {
             rows.push((self.best_is_called().to_owned(), self.best_row(best)));
             rows.extend(best.limits.iter().map(|limit| ("  limit".to_owned(), limit.in_words())));

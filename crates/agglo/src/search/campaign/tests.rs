@@ -76,6 +76,7 @@ pub(super) fn conducted_with(
         title: "bowl",
         seed: setup.seed,
         is_study: false,
+        part: None,
         threads,
         parameters: ["x", "y"].map(axis).to_vec(),
         objectives: vec![Goal { formula: "value".to_owned(), is_to_be_large: false }; goals],

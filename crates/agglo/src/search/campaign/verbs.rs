@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use super::archive::Stage;
 use super::conduct::conduct;
 use super::course::{Ask, Course, Polish, Results};
+use super::part::Part;
 use super::progress::CampaignObserver;
 use super::summary::Goal;
 use super::{CampaignEnding, CampaignError, Draw, pictures};
@@ -30,8 +31,39 @@ pub fn run(
     draw: Option<&Draw<'_>>,
     observer: &mut CampaignObserver<'_>,
 ) -> Result<CampaignEnding, CampaignError> {
+    let folder = begin(campaign, base, dir, threads, None)?;
+    go_on(&folder, threads, draw, observer)
+}
+
+/// Runs a part of a study into a folder of its own; the rest is as in [`run`]. [`join`](super::join) makes the whole of all
+/// parts.
+///
+/// # Errors
+/// As [`run`]; [`CampaignError::Parts`] where the study has not so many evaluations, or it is a search.
+pub fn run_part(
+    campaign: &Campaign,
+    base: &Path,
+    (dir, part): (&Path, Part),
+    threads: usize,
+    observer: &mut CampaignObserver<'_>,
+) -> Result<CampaignEnding, CampaignError> {
+    let folder = begin(campaign, base, dir, threads, Some(part))?;
+    go_on(&folder, threads, None, observer)
+}
+
+/// Puts all that a campaign, or a part of it, needs into its folder.
+fn begin(
+    campaign: &Campaign,
+    base: &Path,
+    dir: &Path,
+    threads: usize,
+    part: Option<Part>,
+) -> Result<CampaignFolder, CampaignError> {
     let problem = Problem::new(campaign, base)?;
     refuse_too_large(&problem, threads)?;
+    if let Some(part) = part {
+        own(part, campaign, &problem).map_err(CampaignError::Parts)?;
+    }
     let head = |what: &str| {
         format!("# {what} of agglo {}: every default is written out.\n", env!("CARGO_PKG_VERSION"))
     };
@@ -41,8 +73,19 @@ pub fn run(
     let (scenario, resolved) = with_tables(&folder, &problem, resolved)?;
     let scenario = head("Scenario that is varied by a search or study") + &scenario.to_toml()?;
     let campaign = head("Resolved search or study") + &resolved.to_toml()?;
+    if let Some(part) = part {
+        part.write(&folder)?;
+    }
     folder.put(&campaign, &scenario)?;
-    go_on(&folder, threads, draw, observer)
+    Ok(folder)
+}
+
+/// Numbers of the evaluations of a part.
+fn own(part: Part, campaign: &Campaign, problem: &Problem) -> Result<std::ops::Range<u64>, String> {
+    let Some(plan) = &campaign.plan else {
+        return Err("a search has no parts: what it tries depends on what it has found".to_owned());
+    };
+    part.range(plan.evaluations(&levels(problem)))
 }
 
 /// Refuses simulations that the memory cannot hold, so many at a time as there are threads.
@@ -102,23 +145,26 @@ pub fn resume(
 }
 
 /// Goes on with the campaign in a folder whose lock is held.
-fn go_on(
+pub(super) fn go_on(
     folder: &CampaignFolder,
     threads: usize,
     draw: Option<&Draw<'_>>,
     observer: &mut CampaignObserver<'_>,
 ) -> Result<CampaignEnding, CampaignError> {
     let dir = folder.root();
-    let read = |path: PathBuf| {
-        door::read_text(&path, door::MOST_OF_A_TEXT).map_err(RecordError::file("read", &path))
-    };
-    let text = read(folder.campaign())? + &read(folder.scenario())? + &folder.told_of_tables()?;
+    let text = text_of(folder)?;
     let unreadable = |error: LoadError| {
         let reason = format!("its {} cannot be read: {error}", names::CAMPAIGN);
         FolderError::NoCampaign { dir: dir.to_owned(), reason }
     };
     let campaign = Campaign::load(&folder.campaign()).map_err(unreadable)?;
     let problem = Problem::new(&campaign, dir)?;
+    let no_part = |reason| FolderError::NoCampaign { dir: dir.to_owned(), reason };
+    let part = match Part::read(folder)? {
+        Some(part) => Some((part, own(part, &campaign, &problem).map_err(no_part)?)),
+        None => None,
+    };
+    let of_part = part.as_ref().map(|(_, own)| vec![(Stage::Search, own.end - own.start)]);
     let is_search = campaign.plan.is_none();
     let polish = |point: &[f64]| -> Box<dyn Optimizer> {
         let simplex = campaign.polish.clone().unwrap_or_default();
@@ -129,12 +175,13 @@ fn go_on(
         title: &campaign.title,
         seed: campaign.seed,
         is_study: !is_search,
+        part,
         threads,
         parameters: problem.axes().to_vec(),
         objectives: problem.objectives().map(|(formula, large)| goal(formula, large)).collect(),
         ensemble: campaign.ensemble.clone(),
         optimizer: optimizer(&campaign, &problem),
-        planned: planned(&campaign, &problem),
+        planned: of_part.unwrap_or_else(|| planned(&campaign, &problem)),
         budget_s: campaign.budget.as_ref().map(|budget| budget.time.si()),
         polish: campaign.polish.as_ref().map(|_| &polish as &Polish<'_>),
         confirm: if is_search { campaign.confirm } else { Confirm { candidates: 0, replicates: 0 } },
@@ -148,6 +195,14 @@ fn go_on(
         },
     };
     conduct(&problem, course, (folder, &text), observer)
+}
+
+/// What the journal of the campaign in a folder belongs to.
+pub(super) fn text_of(folder: &CampaignFolder) -> Result<String, RecordError> {
+    let read = |path: PathBuf| {
+        door::read_text(&path, door::MOST_OF_A_TEXT).map_err(RecordError::file("read", &path))
+    };
+    Ok(read(folder.campaign())? + &read(folder.scenario())? + &folder.told_of_tables()?)
 }
 
 fn goal(formula: &str, is_to_be_large: bool) -> Goal {
