@@ -29,7 +29,7 @@ pub(crate) fn raised(py: Python<'_>, error: impl Into<Error>) -> PyErr {
 fn of_faults(py: Python<'_>, faults: &Faults, name: &str) -> PyErr {
     let made = || {
         let list = PyList::empty(py);
-        for fault in faults.iter() {
+        for fault in faults {
             let one = PyDict::new(py);
             one.set_item("key", &fault.key)?;
             one.set_item("message", &fault.message)?;

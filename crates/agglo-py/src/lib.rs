@@ -4,6 +4,8 @@
 //! Arrays go to Python as copies, in SI units that their names tell. Work that takes time leaves the interpreter to others, and
 //! ends at Ctrl-C (`work`).
 
+#![allow(clippy::needless_pass_by_value, reason = "arguments come from Python as values of their own")]
+
 mod arrays;
 mod error;
 mod hook;

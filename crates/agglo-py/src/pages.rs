@@ -42,5 +42,5 @@ pub(crate) fn schema() -> String {
 pub(crate) fn cite(py: Python<'_>, folder: PathBuf) -> PyResult<Vec<(&'static str, String, String)>> {
     let scenario = Scenario::load(&RunFolder::at(&folder).scenario()).map_err(|error| raised(py, error))?;
     let found = citations(&scenario);
-    Ok(found.into_iter().map(|one| (one.law, one.title.to_string(), one.source.to_string())).collect())
+    Ok(found.into_iter().map(|one| (one.law, one.title.to_owned(), one.source)).collect())
 }

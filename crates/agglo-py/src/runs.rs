@@ -161,7 +161,7 @@ pub(crate) fn frames(py: Python<'_>, folder: PathBuf, kind: &str) -> PyResult<Ve
 
 /// The columns of a frame: positions of its points and all fields, by their names with units.
 #[pyfunction]
-pub(crate) fn read_frame<'py>(py: Python<'py>, path: PathBuf) -> PyResult<Bound<'py, PyDict>> {
+pub(crate) fn read_frame(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyDict>> {
     let frame = Frame::read(&path).map_err(|error| raised(py, error))?;
     let table = PyDict::new(py);
     table.set_item("position_m", arrays::vectors(py, frame.points)?)?;

@@ -114,11 +114,10 @@ impl Simulation {
         Ok(PyBytes::new(py, &bytes))
     }
 
-    fn __reduce__<'py>(
-        slf: &Bound<'py, Self>,
-    ) -> PyResult<(Bound<'py, PyAny>, (Scenario, Bound<'py, PyBytes>))> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         let (py, own) = (slf.py(), slf.get());
-        Ok((slf.get_type().getattr("restore")?, (own.scenario.clone(), own.save(py)?)))
+        let arguments = (own.scenario.clone(), own.save(py)?);
+        Ok((slf.get_type().getattr("restore")?, arguments).into_pyobject(py)?.into_any())
     }
 
     /// What it follows from.

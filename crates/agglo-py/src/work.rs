@@ -18,8 +18,8 @@ const MOST_THREADS: usize = 4096;
 /// The pool of a process. A child that was forked has none of its parent's threads, and makes its own.
 struct Pool {
     process: u32,
-    threads: usize,
-    pool: Arc<ThreadPool>,
+    wanted: usize,
+    threads: Arc<ThreadPool>,
 }
 
 /// Locked only with the interpreter's lock held, under which Python forks as well: no child finds it locked.
@@ -31,17 +31,17 @@ pub(crate) fn pool(_: Python<'_>) -> PyResult<Arc<ThreadPool>> {
     let wanted = *WANTED.lock().unwrap_or_else(PoisonError::into_inner);
     let mut held = POOL.lock().unwrap_or_else(PoisonError::into_inner);
     let process = std::process::id();
-    if let Some(found) = held.as_ref().filter(|found| found.process == process && found.threads == wanted) {
-        return Ok(Arc::clone(&found.pool));
+    if let Some(found) = held.as_ref().filter(|found| found.process == process && found.wanted == wanted) {
+        return Ok(Arc::clone(&found.threads));
     }
     let made = ThreadPoolBuilder::new().num_threads(wanted).build();
     let made = made.map_err(|error| RunError::new_err(format!("cannot start {wanted} threads: {error}")))?;
     let pool = Arc::new(made);
     // A pool of the parent has no threads here that could end.
-    if let Some(old) = held.replace(Pool { process, threads: wanted, pool: Arc::clone(&pool) })
+    if let Some(old) = held.replace(Pool { process, wanted, threads: Arc::clone(&pool) })
         && old.process != process
     {
-        std::mem::forget(old.pool);
+        std::mem::forget(old.threads);
     }
     Ok(pool)
 }

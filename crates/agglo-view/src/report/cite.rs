@@ -117,9 +117,13 @@ fn collect(value: &Value, path: &mut Vec<String>, paths: &mut Vec<Vec<String>>) 
 fn names(path: &[String], page: &Page) -> bool {
     let Some((last, before)) = path.split_last() else { return false };
     let named = last == page.name || page.words.contains(&last.as_str());
-    // Bonds have a table of their own in a scenario, the engine's folders are not words of it, and a page may stand for
-    // its own folder.
-    let group = if page.group == "contact/bond" { "bonds" } else { page.group };
+    // Bonds have a table of their own in a scenario, forces of rays are in one of another name, the engine's folders are not words
+    // of it, and a page may stand for its own folder.
+    let group = match page.group {
+        "contact/bond" => "bonds",
+        "acoustics/ray_force" => "acoustics/force",
+        group => group,
+    };
     let mut group = group
         .split('/')
         .filter(|word| !matches!(*word, "soft" | "hard" | "drive" | "step") && *word != page.name);
@@ -157,7 +161,9 @@ mod tests {
         {
             assert!(consistent.contains(&law), "{law} is missing in {consistent:?}");
         }
-        for law in ["strain_power", "staggered", "hooke", "constant", "hardness", "gravity"] {
+        for law in
+            ["radiation_pressure", "strain_power", "staggered", "hooke", "constant", "hardness", "gravity"]
+        {
             assert!(!consistent.contains(&law), "{law} is in {consistent:?}");
         }
         let scenario = Scenario::from_toml(template("acoustic").unwrap().text).unwrap();
