@@ -179,13 +179,14 @@ impl Session {
         let wall_s = Some(self.wall_s());
         // A part is looked at in the whole.
         self.is_to_report &= !outcome.is_part();
-        let page = self.page(&self.folder.clone());
         let best = Some(self.folder.join("best"))
             .filter(|best| matches!(outcome, Outcome::Campaign(_)) && best.is_dir());
         let best = best.map(|best| {
             let page = self.page(&best);
             (best, page)
         });
+        // It links to the page of the best one's run, which must be there.
+        let page = self.page(&self.folder.clone());
         self.listener.finished(&End { outcome, folder: &self.folder, wall_s, page, best })
     }
 
