@@ -11,6 +11,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use agglo::folder::RunFolder;
+use agglo::folder::names::BEST_RUN;
 use agglo::run::{Progress, Summary};
 use agglo::search::campaign::{CampaignProgress, CampaignSummary};
 use serde_json::Value as Json;
@@ -179,7 +180,7 @@ impl Session {
         let wall_s = Some(self.wall_s());
         // A part is looked at in the whole.
         self.is_to_report &= !outcome.is_part();
-        let best = Some(self.folder.join("best"))
+        let best = Some(self.folder.join(BEST_RUN))
             .filter(|best| matches!(outcome, Outcome::Campaign(_)) && best.is_dir());
         let best = best.map(|best| {
             let page = self.page(&best);

@@ -12,13 +12,12 @@ use agglo::search::{Campaign, Plan};
 
 use crate::chart::{
     Axis, Bar, Bars, Candidates, Chart, Curves, Drawn, Histogram, Look, Place, Reference, Series, Spread,
+    good, narrowed,
 };
 use crate::plot::picture as svg_of;
 
 /// Most panels of a picture that has one for each measure.
 const PANELS: usize = 6;
-/// Most parameters of a picture of pairs: with more, names and marks run into each other.
-const PAIRED: usize = 6;
 /// Most histograms in a picture.
 const HISTOGRAMS: usize = 24;
 
@@ -201,8 +200,14 @@ fn parallel(evaluations: &Evaluations) -> Picture {
 /// The best quarter of the candidates, but at least 50, in all pairs of the parameters that it narrows most.
 fn pairs(evaluations: &Evaluations) -> Picture {
     let ranked = evaluations.ranked();
-    let good = &ranked[..ranked.len().min((ranked.len() / 4).max(50))];
-    let shown = narrowed(evaluations, good);
+    let good = good(&ranked);
+    // Scatter in the cube.
+    let scatter = |axis: usize| {
+        let places: Vec<f64> =
+            good.iter().filter_map(|&(row, _)| evaluations.rows[row].point.get(axis).copied()).collect();
+        Moments::of(&places).standard_deviation
+    };
+    let shown = narrowed(evaluations.parameters.len(), scatter);
     let which = if shown.len() < evaluations.parameters.len() {
         "the parameters narrowed most"
     } else {
@@ -224,20 +229,6 @@ fn pairs(evaluations: &Evaluations) -> Picture {
         is_large_good,
     };
     Picture::of(titled(evaluations, "the good region"), words, [Drawn::Pairs(candidates)])
-}
-
-/// The parameters, at most so many that names and marks stay readable, whose good values scatter least in the cube.
-fn narrowed(evaluations: &Evaluations, good: &[(usize, f64)]) -> Vec<usize> {
-    let spread = |axis: usize| {
-        let places: Vec<f64> =
-            good.iter().filter_map(|&(row, _)| evaluations.rows[row].point.get(axis).copied()).collect();
-        Moments::of(&places).standard_deviation
-    };
-    let mut axes: Vec<usize> = (0..evaluations.parameters.len()).collect();
-    axes.sort_by(|&a, &b| spread(a).total_cmp(&spread(b)));
-    axes.truncate(PAIRED);
-    axes.sort_unstable();
-    axes
 }
 
 fn front(evaluations: &Evaluations) -> Picture {

@@ -1,12 +1,14 @@
 //! Charts as data: what is drawn over which axes, said once. [`picture`](crate::plot::picture) makes an SVG file of charts, and a
 //! page draws them so that they can be pointed at.
 
+mod good_region;
 mod histogram;
 
 use agglo::text::readable;
 use serde::Serialize;
 
 pub use agglo::search::analysis::Axis;
+pub(crate) use good_region::{good, narrowed};
 pub use histogram::Histogram;
 
 /// A chart.

@@ -1,17 +1,13 @@
 //! Charts of searches, and those that searches and studies share.
 
 use super::folder::Folder;
-use crate::chart::{Axis, Candidates, Chart, Curves, Drawn, Look, Series, Spread};
+use crate::chart::{Axis, Candidates, Chart, Curves, Drawn, Look, Series, Spread, good, narrowed};
 use agglo::folder::names::{EVALUATIONS, GENERATIONS, SUMMARY};
 use agglo::record::Sheet;
 use agglo::search::analysis::Moments;
 use agglo::search::optimizer::Method;
 use agglo::text::{column, readable};
 
-/// How many candidates the good region has at least, where there are so many.
-const FEWEST_GOOD: usize = 50;
-/// Most parameters that are shown in pairs.
-const MOST_PAIRED: usize = 6;
 /// How many of the best make a mean, where the method does not say how many parents it has.
 const BEST: usize = 6;
 
@@ -248,12 +244,18 @@ fn parallel(folder: &Folder, searched: &Sheet) -> Option<Chart> {
 fn pairs(folder: &Folder, parallel: &Chart) -> Option<Chart> {
     let Drawn::Parallel(all) = &parallel.drawn else { return None };
     let ranked = all.ranked();
-    let good = &ranked[..ranked.len().min((ranked.len() / 4).max(FEWEST_GOOD))];
+    let good = good(&ranked);
     if good.is_empty() {
         return None;
     }
     let parameters = folder.parameters().len();
-    let shown = narrowed(all, good, parameters);
+    // Scatter over that of all candidates.
+    let scatter = |axis: usize| {
+        let [good, all]: [Vec<f64>; 2] =
+            [good.iter().map(|(row, _)| row[axis]).collect(), all.rows.iter().map(|row| row[axis]).collect()];
+        Moments::of(&good).standard_deviation / Moments::of(&all).standard_deviation
+    };
+    let shown = narrowed(parameters, scatter);
     let which = if shown.len() < parameters {
         format!("the {} of {parameters} parameters that they narrow most", shown.len())
     } else {
@@ -277,20 +279,6 @@ fn pairs(folder: &Folder, parallel: &Chart) -> Option<Chart> {
             ..all.clone()
         }),
     })
-}
-
-/// The parameters, at most so many that names stay readable, over whose range of all candidates the good ones scatter least.
-fn narrowed(all: &Candidates, good: &[(&Vec<f64>, f64)], parameters: usize) -> Vec<usize> {
-    let scatter = |axis: usize| {
-        let [good, all]: [Vec<f64>; 2] =
-            [good.iter().map(|(row, _)| row[axis]).collect(), all.rows.iter().map(|row| row[axis]).collect()];
-        Moments::of(&good).standard_deviation / Moments::of(&all).standard_deviation
-    };
-    let mut axes: Vec<usize> = (0..parameters).collect();
-    axes.sort_by(|&a, &b| scatter(a).total_cmp(&scatter(b)));
-    axes.truncate(MOST_PAIRED);
-    axes.sort_unstable();
-    axes
 }
 
 /// "v_m_s from 20 to 31".
