@@ -272,6 +272,23 @@ def test_others_work_while_it_runs_and_two_may_step_one():
     assert counted > 10 and simulation.is_finished
 
 
+def test_threads_that_step_one_never_wait_for_each_other_for_ever():
+    """Threads of the pool take up one another's work while they wait; none may come to wait for itself."""
+    simulation = agglo.Simulation(acoustic(time__end="1 s", grains__0__placement__random__count=300))
+
+    def steps():
+        for _ in range(200):
+            simulation.step()
+
+    threads = [threading.Thread(target=steps, daemon=True) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(60.0)
+    assert not any(thread.is_alive() for thread in threads), f"stuck after {simulation.steps} steps"
+    assert simulation.steps == 800
+
+
 def outcome(_):
     simulation = agglo.Simulation(acoustic())
     simulation.run_until(1.0)

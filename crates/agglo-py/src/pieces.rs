@@ -1,8 +1,5 @@
 //! Pieces for teaching and tests: placed grains, one collision.
 
-use std::ops::ControlFlow;
-use std::sync::atomic::Ordering;
-
 use agglo::impact::{Body, ImpactLaws};
 use agglo::math::Vec3;
 use pyo3::prelude::*;
@@ -16,12 +13,7 @@ use crate::work::interruptible;
 /// The grains of a scenario as they are before its clock starts: columns by their names with units, in the order of ids.
 #[pyfunction]
 pub(crate) fn pack<'py>(py: Python<'py>, scenario: &Scenario) -> PyResult<Bound<'py, PyDict>> {
-    let start = interruptible(py, |stop| {
-        let mut watch = || {
-            if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        };
-        agglo::run::start(&scenario.read, &scenario.base, &mut watch)
-    })?;
+    let start = interruptible(py, |stop| scenario.start(stop))?;
     arrays::columns(py, &start.map_err(|error| raised(py, error))?.grains)
 }
 

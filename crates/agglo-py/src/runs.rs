@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use agglo::Error;
 use agglo::folder::RunFolder;
@@ -19,7 +19,7 @@ use crate::arrays;
 use crate::error::{InputError, RunError as Failed, raised};
 use crate::hook::Fallen;
 use crate::scenario::Scenario;
-use crate::work::interruptible;
+use crate::work::{interruptible, unless};
 
 /// Does what the arguments of the program say; gives its exit code.
 #[pyfunction]
@@ -80,11 +80,7 @@ impl Watcher {
         let outcome = interruptible(py, |stop: &AtomicBool| {
             work(&mut |progress: &Progress| {
                 self.tell(progress);
-                if stop.load(Ordering::Relaxed) || self.fallen.is_there() {
-                    ControlFlow::Break(())
-                } else {
-                    ControlFlow::Continue(())
-                }
+                if self.fallen.is_there() { ControlFlow::Break(()) } else { unless(stop) }
             })
         })?;
         self.fallen.raise(py)?;

@@ -1,13 +1,17 @@
 //! Scenarios.
 
 use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
 
+use agglo::engine::Start;
+use agglo::packing::StartError;
 use agglo::scenario::{Scenario as Read, template};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use serde_json::Value as Json;
 
 use crate::error::{InputError, raised};
+use crate::work::unless;
 
 /// A checked scenario. It does not change: `replace` makes another one.
 #[pyclass(module = "agglo", frozen, eq, from_py_object)]
@@ -16,6 +20,13 @@ pub(crate) struct Scenario {
     pub read: Read,
     /// The folder that its files are relative to.
     pub base: PathBuf,
+}
+
+impl Scenario {
+    /// The grains before the clock starts, placed or taken out of the run that it names.
+    pub(crate) fn start(&self, stop: &AtomicBool) -> Result<Start, StartError> {
+        agglo::run::start(&self.read, &self.base, &mut || unless(stop))
+    }
 }
 
 /// A function that turns values of Python into values of a scenario.

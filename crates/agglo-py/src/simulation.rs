@@ -1,8 +1,8 @@
 //! Simulations, step by step.
 
-use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::atomic::Ordering;
+use std::sync::{Mutex, MutexGuard, TryLockError};
+use std::time::Duration;
 
 use agglo::Error;
 use agglo::engine::{Measures, SimError, Simulation as Engine, hard, soft};
@@ -11,7 +11,6 @@ use agglo::math::Vec3;
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::sync::MutexExt;
 use pyo3::types::{PyBytes, PyDict, PyList};
 
 use crate::arrays;
@@ -19,6 +18,9 @@ use crate::error::{InputError, raised};
 use crate::hook::{Callback, Fallen, refuse_within_a_force};
 use crate::scenario::Scenario;
 use crate::work::{briefly, interruptible};
+
+/// How soon it is looked again whether another thread is done with a simulation.
+const LOOK_AGAIN: Duration = Duration::from_millis(2);
 
 /// Either engine.
 enum Kind {
@@ -49,25 +51,22 @@ impl Simulation {
         Self { scenario, kind: Mutex::new(kind), fallen: Fallen::default() }
     }
 
-    /// The engine; another thread of Python that steps it is waited for without the interpreter's lock.
+    /// The engine; another thread of Python that steps it is waited for without the interpreter's lock, and until Ctrl-C.
+    ///
+    /// It is taken here and never on the pool, whose threads take up one another's work while they wait: one that steps would come
+    /// to wait for itself.
     fn lock<'a>(&'a self, py: Python<'_>) -> PyResult<MutexGuard<'a, Kind>> {
         refuse_within_a_force()?;
-        Ok(self.kind.lock_py_attached(py).unwrap_or_else(PoisonError::into_inner))
-    }
-
-    /// Goes on until `done` says so, or to the end; ends at Ctrl-C after the step at hand.
-    fn go(&self, py: Python<'_>, until: f64, done: impl Fn(&Kind) -> bool + Send + Sync) -> PyResult<()> {
-        refuse_within_a_force()?;
-        let fallen = &self.fallen;
-        let outcome = interruptible(py, |stop: &AtomicBool| {
-            let mut kind = self.kind.lock().unwrap_or_else(PoisonError::into_inner);
-            while !done(&kind) && !stop.load(Ordering::Relaxed) && !fallen.is_there() {
-                each!(&mut *kind, simulation => Engine::advance(simulation.as_mut(), until))?;
+        loop {
+            match self.kind.try_lock() {
+                Ok(kind) => return Ok(kind),
+                Err(TryLockError::Poisoned(kind)) => return Ok(kind.into_inner()),
+                Err(TryLockError::WouldBlock) => {
+                    py.check_signals()?;
+                    py.detach(|| std::thread::sleep(LOOK_AGAIN));
+                }
             }
-            Ok::<(), SimError>(())
-        })?;
-        self.fallen.raise(py)?;
-        outcome.map_err(|error| raised(py, error))
+        }
     }
 }
 
@@ -76,16 +75,13 @@ impl Simulation {
     /// Places the grains of a scenario, or takes them out of the run that it names.
     #[new]
     fn new(py: Python<'_>, scenario: &Scenario) -> PyResult<Self> {
-        let given = scenario.clone();
+        let read = &scenario.read;
         let made = interruptible(py, |stop| {
-            let mut watch = || {
-                if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-            };
-            let start = agglo::run::start(&given.read, &given.base, &mut watch)?;
-            Ok::<Kind, Error>(if given.read.is_hard() {
-                Kind::Hard(Box::new(hard::Simulation::start(&given.read, start)?))
+            let start = scenario.start(stop)?;
+            Ok::<Kind, Error>(if read.is_hard() {
+                Kind::Hard(Box::new(hard::Simulation::start(read, start)?))
             } else {
-                Kind::Soft(Box::new(soft::Simulation::start(&given.read, start)?))
+                Kind::Soft(Box::new(soft::Simulation::start(read, start)?))
             })
         })?;
         Ok(Self::of(scenario.clone(), made.map_err(|error| raised(py, error))?))
@@ -152,10 +148,10 @@ impl Simulation {
 
     /// Goes on for a little while: one step, or some thousand events of hard spheres.
     fn step(&self, py: Python<'_>) -> PyResult<()> {
-        refuse_within_a_force()?;
+        let mut held = self.lock(py)?;
+        let kind = &mut *held;
         let outcome = briefly(py, || {
-            let mut kind = self.kind.lock().unwrap_or_else(PoisonError::into_inner);
-            each!(&mut *kind, simulation => {
+            each!(kind, simulation => {
                 let end = Engine::end(simulation.as_ref());
                 if Engine::is_finished(simulation.as_ref()) { Ok(()) } else { Engine::advance(simulation.as_mut(), end) }
             })
@@ -169,11 +165,23 @@ impl Simulation {
         if time_s.is_nan() {
             return Err(InputError::new_err("time_s is not a number"));
         }
-        self.go(py, time_s, move |kind| {
+        let mut held = self.lock(py)?;
+        let kind = &mut *held;
+        let outcome = interruptible(py, |stop| {
             each!(kind, simulation => {
-                Engine::is_finished(simulation.as_ref()) || Engine::time(simulation.as_ref()) >= time_s
-            })
-        })
+                let simulation = simulation.as_mut();
+                while Engine::time(simulation) < time_s
+                    && !Engine::is_finished(simulation)
+                    && !stop.load(Ordering::Relaxed)
+                    && !self.fallen.is_there()
+                {
+                    Engine::advance(simulation, time_s)?;
+                }
+            });
+            Ok::<(), SimError>(())
+        })?;
+        self.fallen.raise(py)?;
+        outcome.map_err(|error| raised(py, error))
     }
 
     /// Columns of the grains by their names with units, as copies in the order of their ids.
@@ -308,17 +316,10 @@ impl Simulation {
             return Err(InputError::new_err(message));
         }
         let callback = Callback::new(force.unbind(), pace, self.fallen.clone());
-        {
-            let kind = self.lock(py)?;
-            soft_alone(&kind, "attach")?;
-        }
+        let mut held = self.lock(py)?;
+        let Kind::Soft(simulation) = &mut *held else { return Err(for_soft("attach")) };
         // It is asked at once, on a thread of the pool.
-        briefly(py, || {
-            let mut kind = self.kind.lock().unwrap_or_else(PoisonError::into_inner);
-            if let Kind::Soft(simulation) = &mut *kind {
-                simulation.attach(Box::new(callback));
-            }
-        })?;
+        briefly(py, || simulation.attach(Box::new(callback)))?;
         self.fallen.raise(py)
     }
 

@@ -1,5 +1,6 @@
 //! Work that takes time: on a pool of threads, without the interpreter's lock, and ended by Ctrl-C.
 
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -59,6 +60,11 @@ pub(crate) fn set_threads(threads: Option<usize>) -> PyResult<()> {
     }
     *WANTED.lock().unwrap_or_else(PoisonError::into_inner) = wanted;
     Ok(())
+}
+
+/// Whether to go on, as those want to know who may be stopped.
+pub(crate) fn unless(stop: &AtomicBool) -> ControlFlow<()> {
+    if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }
 
 /// Does something that is soon done, on the pool and without the interpreter's lock.

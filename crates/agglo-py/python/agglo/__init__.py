@@ -25,8 +25,8 @@ from agglo._agglo import (
     templates,
 )
 from agglo._errors import AggloError, InputError, RunError, ScenarioError
-from agglo._results import Run, Table, read
-from agglo._verbs import Plan, check, report, resume, run, schema, snapshots
+from agglo._results import Run, Table, read, report
+from agglo._verbs import Plan, check, resume, run, schema, snapshots
 
 __all__ = [
     "AggloError",

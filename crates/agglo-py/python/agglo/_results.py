@@ -92,7 +92,7 @@ class Run:
 
     def report(self) -> Path:
         """Writes report.html, and gives its path."""
-        return Path(_agglo.report(self.folder)[0])
+        return report(self.folder)
 
     def __repr__(self) -> str:
         state = "finished" if self.summary is not None else "not finished"
@@ -114,3 +114,12 @@ def read(folder: Folder) -> Run:
         InputError: It holds none.
     """
     return Run(folder)
+
+
+def report(folder: Folder) -> Path:
+    """Writes report.html into the folder of a run, search or study, and gives its path.
+
+    Raises:
+        InputError: There is nothing to show.
+    """
+    return Path(_agglo.report(Path(folder))[0])

@@ -82,15 +82,6 @@ def resume(
     return Run(Path(folder))
 
 
-def report(folder: Folder) -> Path:
-    """Writes report.html into the folder of a run, search or study, and gives its path.
-
-    Raises:
-        InputError: There is nothing to show.
-    """
-    return Path(_agglo.report(Path(folder))[0])
-
-
 def schema() -> dict[str, Any]:
     """The JSON schema of scenarios."""
     return dict(json.loads(_agglo.schema()))
