@@ -4,7 +4,7 @@ use agglo::forecast::Plan;
 use agglo::search::{Axis, Campaign, CampaignForecast, Ensemble, Problem, Scale, Until, campaign};
 use serde_json::{Value as Json, json};
 
-use crate::json::{Line, of_plan};
+use crate::json::Line;
 use crate::progress::columns;
 use crate::read::Source;
 use crate::search::threads;
@@ -28,7 +28,7 @@ pub(crate) fn check(source: &Source, settings: &[String], is_json: bool) -> Resu
         middle.transpose().map_err(|error| Failure::bad_input(format!("error: {shown}: {error}")))?;
     if is_json {
         let campaign = Some(in_json(&campaign, &problem, &forecast, &notes));
-        let run = middle.as_ref().map(of_plan);
+        let run = middle.as_ref();
         return Line::Plan { file: shown, kind: source.kind().verb(), run, campaign }.print();
     }
     let mut parts = vec![format!("{shown} is valid"), columns(&rows(&campaign, &problem, &forecast))];

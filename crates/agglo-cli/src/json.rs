@@ -11,7 +11,7 @@ use agglo::scenario::Fault;
 use agglo::search::campaign::CampaignProgress;
 use agglo::text::visible;
 use serde::Serialize;
-use serde_json::{Value as Json, json};
+use serde_json::Value as Json;
 
 use crate::brake::Reason;
 use crate::failure::{About, Failure, Stopped, shown};
@@ -27,7 +27,7 @@ const EVERY: Duration = Duration::from_secs(1);
 #[serde(tag = "type", rename_all = "snake_case")]
 pub(crate) enum Line<'a> {
     /// What a file would do.
-    Plan { file: &'a str, kind: &'static str, run: Option<Json>, campaign: Option<Json> },
+    Plan { file: &'a str, kind: &'static str, run: Option<&'a Plan>, campaign: Option<Json> },
     /// Work has begun.
     Started { version: &'static str, verb: &'static str, folder: String },
     /// How far a run is.
@@ -46,16 +46,8 @@ pub(crate) enum Line<'a> {
     #[serde(rename = "progress")]
     Campaign {
         wall_s: f64,
-        stage: &'static str,
-        evaluations: u64,
-        evaluations_at_most: Option<u64>,
-        batches: u64,
-        failures: u64,
-        runs: u64,
-        runs_per_s: f64,
-        best: Option<f64>,
-        best_standard_error: Option<f64>,
-        left_s: Option<f64>,
+        #[serde(flatten)]
+        progress: &'a CampaignProgress,
     },
     /// Something to keep in mind.
     Warning { message: &'a str },
@@ -81,7 +73,7 @@ pub(crate) enum Line<'a> {
     /// It failed.
     Failed { message: &'a str, exit_code: u8 },
     /// What was asked for cannot be done.
-    Refused { file: Option<&'a str>, faults: Vec<Json>, message: &'a str, exit_code: u8 },
+    Refused { file: Option<&'a str>, faults: Vec<&'a Fault>, message: &'a str, exit_code: u8 },
 }
 
 impl Line<'_> {
@@ -140,7 +132,7 @@ impl Listener for Lines {
         self.told = Some(Instant::now());
         match news {
             News::Run(progress, pace) => of_run(progress, pace, wall_s).tell(),
-            News::Campaign(progress) => of_campaign(progress, wall_s).tell(),
+            News::Campaign(progress) => Line::Campaign { wall_s, progress }.tell(),
         }
     }
 
@@ -171,22 +163,6 @@ fn of_run<'a>(progress: &'a Progress, pace: &Pace, wall_s: f64) -> Line<'a> {
     }
 }
 
-fn of_campaign(progress: &CampaignProgress, wall_s: f64) -> Line<'static> {
-    Line::Campaign {
-        wall_s,
-        stage: progress.stage.word(),
-        evaluations: progress.evaluations,
-        evaluations_at_most: progress.evaluations_at_most,
-        batches: progress.generations,
-        failures: progress.failures,
-        runs: progress.replicates,
-        runs_per_s: progress.replicates_per_second,
-        best: progress.best.map(|(best, _)| best),
-        best_standard_error: progress.best.map(|(_, error)| error),
-        left_s: progress.left_s,
-    }
-}
-
 /// Tells programs why the program ends early.
 pub(crate) fn tell(failure: &Failure) {
     let (message, exit_code) = (failure.message.as_str(), failure.code);
@@ -194,7 +170,7 @@ pub(crate) fn tell(failure: &Failure) {
     match &failure.about {
         About::Stopped(how) => of_stopped(how, message, exit_code).tell(),
         About::Faults { file, faults } => {
-            let (count, faults) = (faults.len(), faults.iter().map(of_fault).collect());
+            let (count, faults) = (faults.len(), faults.iter().collect());
             let words = if count == 1 { "1 fault".to_owned() } else { format!("{count} faults") };
             let message = &format!("{words} in {file}; nothing was run or written");
             Line::Refused { file: Some(file), faults, message, exit_code }.tell();
@@ -214,28 +190,6 @@ fn of_stopped<'a>(how: &Stopped, message: &'a str, exit_code: u8) -> Line<'a> {
     };
     let (folder, time_s, wall_s, can_resume) = (shown(folder), *time_s, *wall_s, *can_resume);
     Line::Stopped { folder, reason, time_s, wall_s, can_resume, message, exit_code }
-}
-
-fn of_fault(fault: &Fault) -> Json {
-    let Fault { line, column, setting, key, message, help, .. } = fault;
-    json!({ "key": key, "line": line, "column": column, "setting": setting, "message": message, "help": help })
-}
-
-/// The plan of a run.
-pub(crate) fn of_plan(plan: &Plan) -> Json {
-    let quantities = plan.quantities.iter().map(|(label, value)| json!({ "label": label, "value": value }));
-    json!({
-        "grains": plan.grains,
-        "rays_per_pulse": plan.rays_per_pulse,
-        "pulses": plan.pulses,
-        "impacts": plan.impacts,
-        "steps": plan.steps,
-        "memory_B": plan.memory,
-        "disk_B": plan.disk,
-        "wall_s": plan.seconds,
-        "quantities": quantities.collect::<Vec<_>>(),
-        "notes": plan.notes,
-    })
 }
 
 #[cfg(test)]

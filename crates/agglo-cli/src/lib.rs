@@ -124,7 +124,7 @@ fn check(file: &Path, settings: Vec<String>, from: Option<&Path>, is_json: bool)
     let plan = Plan::new(&scenario, &source.base)
         .map_err(|error| Failure::bad_input(format!("error: {}: {error}", source.shown)))?;
     if is_json {
-        let (file, kind, run) = (source.shown.as_str(), "scenario", Some(json::of_plan(&plan)));
+        let (file, kind, run) = (source.shown.as_str(), "scenario", Some(&plan));
         return json::Line::Plan { file, kind, run, campaign: None }.print();
     }
     print(&format!("{} is valid\n{plan}", source.shown))

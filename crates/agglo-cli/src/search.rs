@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use agglo::folder::names::CAMPAIGN;
-use agglo::search::campaign::{self, CampaignEnding, CampaignError, CampaignObserver, Part};
+use agglo::search::campaign::{self, CampaignEnding, CampaignError, CampaignObserver, Means, Part};
 use agglo_view::pictures::campaign_pictures;
 
 use crate::Failure;
@@ -32,12 +32,12 @@ pub(crate) fn conduct(options: &CommonOptions, kind: Kind, part: Option<Part>) -
         part.map_or_else(|| whole.clone(), |part| of_part(&whole, part))
     });
     refuse_occupied(&folder)?;
-    let threads = threads(options.session.threads);
+    let means = means(options.session.threads);
     let session = Session::open(kind.verb(), &folder, wall, &options.session)?;
     let base = &source.base;
     go(session, &source.shown, |observer| match part {
-        Some(part) => campaign::run_part(&campaign, base, (&folder, part), threads, observer),
-        None => campaign::run(&campaign, base, &folder, threads, Some(&campaign_pictures), observer),
+        Some(part) => campaign::run_part(&campaign, base, (&folder, part), means, observer),
+        None => campaign::run(&campaign, base, &folder, means, observer),
     })
 }
 
@@ -53,11 +53,9 @@ pub(crate) fn join(options: &JoinOptions) -> Result<(), Failure> {
     let folder = options.output.as_path();
     options.parts.iter().try_for_each(|part| read::folder(part))?;
     refuse_occupied(folder)?;
-    let threads = threads(options.session.threads);
+    let means = means(options.session.threads);
     let session = Session::open("join", folder, wall, &options.session)?;
-    go(session, &shown(folder), |observer| {
-        campaign::join(&options.parts, folder, threads, Some(&campaign_pictures), observer)
-    })
+    go(session, &shown(folder), |observer| campaign::join(&options.parts, folder, means, observer))
 }
 
 /// Goes on with the search or study in a folder.
@@ -73,10 +71,15 @@ pub(crate) fn resume(options: &ResumeOptions) -> Result<(), Failure> {
     if let Some(summary) = campaign::finished(folder) {
         return session::has_finished(folder, &Outcome::Campaign(Box::new(summary)), &options.session);
     }
-    let threads = threads(options.session.threads);
+    let means = means(options.session.threads);
     let session = Session::open("resume", folder, wall, &options.session)?;
     let file = shown(&folder.join(CAMPAIGN));
-    go(session, &file, |observer| campaign::resume(folder, threads, Some(&campaign_pictures), observer))
+    go(session, &file, |observer| campaign::resume(folder, means, observer))
+}
+
+/// Threads of this process, and pictures at the end.
+fn means(threads_wanted: Option<u32>) -> Means<'static> {
+    Means { draw: Some(&campaign_pictures), ..Means::threads(threads(threads_wanted)) }
 }
 
 /// Threads that are wanted, or all processors.

@@ -8,7 +8,7 @@ use agglo::folder::CampaignFolder;
 use agglo::search::analysis::Moments;
 use agglo::search::campaign::{CampaignEnding, Course, Goal, conduct};
 use agglo::search::functions::TestFunction;
-use agglo::search::optimizer::{Method, PublishedGenetic};
+use agglo::search::optimizer::PublishedGenetic;
 use agglo::search::{Axis, Candidate, Confirm, Ensemble, Fitness, Model, Scale, Trouble};
 use divan::Bencher;
 use divan::counter::ItemsCount;
@@ -55,8 +55,7 @@ fn campaign(threads: usize, replicates: u32) {
     folder.put("", "").expect("a folder that can be written");
     let axis =
         |k: usize| Axis { name: format!("x{k}"), unit: String::new(), scale: Scale::Linear([0.0, 1.0]) };
-    let method =
-        Method::PublishedGenetic(PublishedGenetic { generations: 1427, ..PublishedGenetic::default() });
+    let method = PublishedGenetic { generations: 1427, ..PublishedGenetic::default() };
     let course = Course {
         title: "bowl",
         seed: 1,
@@ -66,7 +65,8 @@ fn campaign(threads: usize, replicates: u32) {
         parameters: (0..10).map(axis).collect(),
         objectives: vec![Goal { formula: "value".to_owned(), is_to_be_large: false }],
         ensemble: Ensemble::fixed(replicates),
-        optimizer: method.start(10, 1, 1),
+        is_led: false,
+        optimizer: Box::new(method.start(10, 1)),
         planned: Vec::new(),
         budget_s: None,
         limits: &|_| Vec::new(),

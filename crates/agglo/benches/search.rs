@@ -13,7 +13,8 @@ fn main() {
 fn search(bencher: Bencher, method: &Method, dimensions: usize) {
     let run = || {
         let mut evaluations = 0_usize;
-        minimize(method.start(dimensions, 1, 1).as_mut(), 2000, |point, _| {
+        let mut search = method.start(dimensions, 1, 1).expect("a method of its own");
+        minimize(search.as_mut(), 2000, |point, _| {
             evaluations += 1;
             Fitness::new(vec![TestFunction::Rosenbrock.at(point)])
         });

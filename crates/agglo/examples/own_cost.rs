@@ -14,7 +14,7 @@ use agglo::run::{Ending, Summary, quiet};
 use agglo::scenario::{Scenario, template};
 use agglo::search::Fitness;
 use agglo::search::functions::minimize;
-use agglo::search::optimizer::{CmaEs, Method};
+use agglo::search::optimizer::CmaEs;
 
 /// The scenario at a point of the unit square: pressure and radius of the beam, each on a scale of equal ratios.
 fn scenario(point: &[f64]) -> Result<Scenario, agglo::Error> {
@@ -45,8 +45,8 @@ fn cost(point: &[f64]) -> Result<Fitness, agglo::Error> {
 }
 
 fn main() -> Result<(), agglo::Error> {
-    let mut search = Method::CmaEs(CmaEs { evaluations: 60, ..CmaEs::default() }).start(2, 1, 1);
-    let best = minimize(search.as_mut(), 60, |point, number| {
+    let mut search = CmaEs { evaluations: 60, ..CmaEs::default() }.start(2, 1);
+    let best = minimize(&mut search, 60, |point, number| {
         let fitness = cost(point).unwrap_or_else(|error| {
             println!("evaluation {number} failed: {error}");
             Fitness::failed()

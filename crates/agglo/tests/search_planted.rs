@@ -5,7 +5,7 @@
 use std::fs;
 use std::ops::ControlFlow;
 
-use agglo::search::campaign::{self, CampaignEnding, CampaignSummary};
+use agglo::search::campaign::{self, CampaignEnding, CampaignSummary, Means};
 use agglo::search::{Campaign, Model, Problem};
 
 /// What the campaign `text` over the scenario `base` comes to, on two threads.
@@ -17,7 +17,7 @@ fn searched(base: &str, text: &str) -> CampaignSummary {
     let campaign = Campaign::load(&file).unwrap_or_else(|error| panic!("{error}"));
     let dir = folder.path().join("out");
     let go_on = &mut |_: &campaign::CampaignProgress| ControlFlow::Continue(());
-    match campaign::run(&campaign, folder.path(), &dir, 2, None, go_on).unwrap() {
+    match campaign::run(&campaign, folder.path(), &dir, Means::threads(2), go_on).unwrap() {
         CampaignEnding::Finished(summary) => *summary,
         CampaignEnding::Interrupted => panic!("nobody asked it to stop"),
     }

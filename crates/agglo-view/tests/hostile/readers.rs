@@ -13,6 +13,7 @@ use agglo::packing;
 use agglo::record::frames::{Collection, Frame};
 use agglo::run;
 use agglo::scenario::{Faults, Scenario};
+use agglo::search::campaign::Means;
 use agglo::search::{self, Campaign};
 use agglo::text::visible;
 use agglo_view::pictures::campaign_pictures;
@@ -272,7 +273,7 @@ pub fn part(bench: &Bench, bytes: &[u8]) -> Verdict {
     let whole = bench.at("whole");
     let _ = fs::remove_dir_all(&whole);
     let mut goes_on = |_: &search::campaign::CampaignProgress| ControlFlow::Continue(());
-    match search::campaign::join(&[dir], &whole, 1, None, &mut goes_on) {
+    match search::campaign::join(&[dir], &whole, Means::threads(1), &mut goes_on) {
         Ok(_) => assert!(search::campaign::finished(&whole).is_some(), "the summary of a study can be read"),
         Err(error) => assert!(refused(&error.to_string()).is_err(), "a refusal"),
     }
@@ -280,7 +281,8 @@ pub fn part(bench: &Bench, bytes: &[u8]) -> Verdict {
 }
 
 fn gone_on(dir: &Path) -> Verdict {
-    match search::campaign::resume(dir, 1, Some(&campaign_pictures), &mut |_| ControlFlow::Continue(())) {
+    let means = Means { draw: Some(&campaign_pictures), ..Means::threads(1) };
+    match search::campaign::resume(dir, means, &mut |_| ControlFlow::Continue(())) {
         Ok(_) => {
             assert!(search::campaign::finished(dir).is_some(), "the summary of a search can be read");
             let _ = Report::of_campaign(dir);

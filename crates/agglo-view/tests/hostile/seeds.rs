@@ -8,7 +8,8 @@ use std::path::Path;
 use agglo::packing::{Placement, Table};
 use agglo::run;
 use agglo::scenario::{Scenario, template};
-use agglo::search::{Campaign, campaign};
+use agglo::search::Campaign;
+use agglo::search::campaign::{self, Means};
 use agglo_view::pictures::campaign_pictures;
 
 /// Twelve bonded grains, one pulse.
@@ -76,8 +77,8 @@ pub fn make(place: &Path) {
         let mut observer = |progress: &campaign::CampaignProgress| {
             if progress.evaluations < most { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         };
-        campaign::run(&search, Path::new(""), dir, 1, Some(&campaign_pictures), &mut observer)
-            .expect("it searches");
+        let means = Means { draw: Some(&campaign_pictures), ..Means::threads(1) };
+        campaign::run(&search, Path::new(""), dir, means, &mut observer).expect("it searches");
     };
     ended(&place.join("ended"), u64::MAX);
     ended(&place.join("search"), 3);
@@ -87,8 +88,10 @@ pub fn make(place: &Path) {
     let study = study.unwrap_or_else(|faults| panic!("{faults}"));
     let goes_on = |_: &campaign::CampaignProgress| ControlFlow::Continue(());
     let part = campaign::Part { number: 1, of: 2 };
-    campaign::run_part(&study, Path::new(""), (&place.join("part"), part), 1, &mut { goes_on })
-        .expect("it runs");
+    campaign::run_part(&study, Path::new(""), (&place.join("part"), part), Means::threads(1), &mut {
+        goes_on
+    })
+    .expect("it runs");
 }
 
 /// A checkpoint with the length of its payload and its checksum put right.

@@ -21,7 +21,8 @@ pub use mark::{Mark, Marked, Marking};
 pub use run::RunFolder;
 pub use traces::Traces;
 
-use std::path::Path;
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
 
 /// Whether a new run, search or study may begin in `dir`: it is not there yet, or an empty folder.
 ///
@@ -49,4 +50,16 @@ pub fn vacant(dir: &Path) -> Result<(), FolderError> {
 fn holds_something(dir: &Path) -> bool {
     let mut entries = std::fs::read_dir(dir).into_iter().flatten().flatten();
     entries.any(|entry| entry.file_name() != names::LOCK)
+}
+
+/// The tables that stand in the folder of a run, search or study: names without their ending, and places, in the order of the
+/// names.
+pub fn tables_in(dir: &Path) -> Vec<(String, PathBuf)> {
+    let is_table = |path: &PathBuf| path.extension() == Some(OsStr::new("csv")) && path.is_file();
+    let entries = [dir.to_owned(), dir.join(names::SERIES)].map(std::fs::read_dir).into_iter().flatten();
+    let paths = entries.flatten().flatten().map(|entry| entry.path()).filter(is_table);
+    let mut tables: Vec<(String, PathBuf)> =
+        paths.filter_map(|path| Some((path.file_stem()?.to_str()?.to_owned(), path))).collect();
+    tables.sort();
+    tables
 }

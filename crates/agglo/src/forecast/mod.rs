@@ -19,6 +19,8 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use serde::{Serialize, Serializer};
+
 use crate::engine::{SimError, Start};
 use crate::packing::StartError;
 use crate::particles::Particles;
@@ -50,8 +52,8 @@ impl Default for Effort {
     }
 }
 
-/// The plan of a run.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// The plan of a run. Programs are told of it under these names, with the units of SI at their ends.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Plan {
     /// Number of grains; expected where they were not placed.
     pub grains: u64,
@@ -64,15 +66,29 @@ pub struct Plan {
     /// Expected number of steps; of events, from impact to impact. Nothing where it is not known.
     pub steps: Option<f64>,
     /// Expected memory [B].
+    #[serde(rename = "memory_B")]
     pub memory: f64,
     /// Expected size of the run's folder [B], where it is known.
+    #[serde(rename = "disk_B")]
     pub disk: Option<f64>,
     /// Expected time of the run on this machine [s], where it is known.
+    #[serde(rename = "wall_s")]
     pub seconds: Option<f64>,
     /// What else is worth knowing: label and value.
+    #[serde(serialize_with = "labeled")]
     pub quantities: Vec<(String, String)>,
     /// What to keep in mind: validity of the models, laws that do not converge, settings without effect.
     pub notes: Vec<String>,
+}
+
+/// Each as an object of its own.
+fn labeled<S: Serializer>(quantities: &[(String, String)], serializer: S) -> Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Quantity<'a> {
+        label: &'a str,
+        value: &'a str,
+    }
+    serializer.collect_seq(quantities.iter().map(|(label, value)| Quantity { label, value }))
 }
 
 impl Plan {

@@ -12,7 +12,7 @@ pub use keys::{File, keys, table};
 pub use list::{chapters, markdown};
 
 /// Pages of what this crate has, beside those of the laws.
-const OWN: [Page; 13] = [
+const OWN: [Page; 14] = [
     Page::new("growth", "run/hard", &["growth_deficit"], include_str!("../run/hard/growth.rs")),
     Page::new("cma_es", "search/optimizer", &[], include_str!("../search/optimizer/cma_es.rs")),
     Page::new("genetic", "search/optimizer", &[], include_str!("../search/optimizer/genetic.rs")),
@@ -30,6 +30,7 @@ const OWN: [Page; 13] = [
     ),
     Page::new("random", "search/optimizer", &[], include_str!("../search/optimizer/random.rs")),
     Page::new("sobol", "search/optimizer", &[], include_str!("../search/optimizer/sobol.rs")),
+    Page::new("external", "search/optimizer", &[], include_str!("../search/optimizer/external.rs")),
     Page::new("grid", "search/plan", &[], include_str!("../search/plan/grid.rs")),
     Page::new("list", "search/plan", &[], include_str!("../search/plan/list.rs")),
     Page::new("refinement", "search/plan", &[], include_str!("../search/plan/refinement.rs")),

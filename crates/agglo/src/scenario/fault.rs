@@ -4,17 +4,19 @@ use std::fmt;
 use std::ops::Range;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+use serde::Serialize;
 
 use crate::text::visible;
 
-/// One thing that is wrong with a scenario.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// One thing that is wrong with a scenario. Programs are told of it under these names, but for the bytes.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Fault {
     /// Line in the file, from 1; none where the fault has no line (a missing key of the whole file, a setting).
     pub line: Option<usize>,
     /// Column in that line in characters, from 1.
     pub column: Option<usize>,
     /// Bytes of the file, or of `setting` if there is one, that are meant.
+    #[serde(skip)]
     pub span: Option<Range<usize>>,
     /// The setting `key=value` that is at fault, where it is not the file.
     pub setting: Option<String>,

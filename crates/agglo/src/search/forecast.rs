@@ -8,7 +8,7 @@ use std::time::Duration;
 use super::campaign::{Stage, planned};
 use super::file::Campaign;
 use super::model::Model;
-use super::optimizer::{Method, Point, Sobol};
+use super::optimizer::{Optimizer, Point, Sobol};
 use super::problem::Problem;
 use crate::forecast::{Effort, Plan, duration};
 use crate::text::readable;
@@ -158,9 +158,9 @@ fn points(campaign: &Campaign, problem: &Problem) -> Vec<Point> {
         return points.into_iter().step_by(every).collect();
     }
     let dimensions = problem.axes().len();
-    let spread = Method::Sobol(Sobol { points: SAMPLED });
-    if !spread.faults(dimensions, 1).is_empty() {
+    let spread = Sobol { points: SAMPLED };
+    if !spread.faults(dimensions).is_empty() {
         return vec![vec![0.5; dimensions]];
     }
-    spread.start(dimensions, 1, campaign.seed).ask()
+    spread.start(dimensions, campaign.seed).ask()
 }

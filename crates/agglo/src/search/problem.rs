@@ -2,6 +2,7 @@
 
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, OnceLock};
 
 use serde::Deserialize;
 use serde_json::Value as Json;
@@ -13,10 +14,10 @@ use super::campaign::LimitKept;
 use super::file::Campaign;
 use super::formula::{Formula, value_of};
 use super::formulas::{Corridor, Cost, Reader};
+use super::runner::{Here, Replicate, Runner};
 use super::setter::Setter;
 use super::space::{self, Axis};
 use super::{Candidate, Fitness, Model, Trouble, columns};
-use crate::run::{self, Ending};
 use crate::scenario::{Fault, Faults, Scenario};
 
 /// What a campaign evaluates: its scenario, with values for its parameters.
@@ -32,6 +33,7 @@ pub struct Problem {
     columns: Vec<String>,
     /// Whether the file has objectives; a study without any is judged by its first column.
     has_objectives: bool,
+    runner: Arc<dyn Runner>,
 }
 
 /// A candidate's scenario, checked.
@@ -39,6 +41,26 @@ pub struct Problem {
 pub struct Prepared {
     scenario: Scenario,
     numbers: Vec<f64>,
+    text: OnceLock<String>,
+}
+
+impl Prepared {
+    /// The scenario, with the seed of the base.
+    pub fn scenario(&self) -> &Scenario {
+        &self.scenario
+    }
+
+    /// The scenario as TOML with every default written out, for those who run it elsewhere; it is written once.
+    ///
+    /// # Errors
+    /// As [`Scenario::to_toml`].
+    pub fn to_toml(&self) -> Result<&str, Faults> {
+        if let Some(text) = self.text.get() {
+            return Ok(text);
+        }
+        let text = self.scenario.to_toml()?;
+        Ok(self.text.get_or_init(|| text))
+    }
 }
 
 impl Problem {
@@ -79,7 +101,25 @@ impl Problem {
         }
         let axes = knobs.iter().map(|knob| knob.axis.clone()).collect();
         let has_objectives = !campaign.objectives.is_empty();
-        Ok(Self { base, knobs, axes, derived, constraints, objectives, limits, columns, has_objectives })
+        let runner = Arc::new(Here);
+        Ok(Self {
+            base,
+            knobs,
+            axes,
+            derived,
+            constraints,
+            objectives,
+            limits,
+            columns,
+            has_objectives,
+            runner,
+        })
+    }
+
+    /// The same with simulations that someone else runs.
+    #[must_use]
+    pub fn run_by(self, runner: Arc<dyn Runner>) -> Self {
+        Self { runner, ..self }
     }
 
     /// The parameters as axes, in the order of a candidate's values.
@@ -242,17 +282,13 @@ impl Model for Problem {
             let lines: Vec<String> = faults.iter().map(Fault::to_string).collect();
             lines.join("; ")
         })?;
-        Ok(Prepared { scenario, numbers: self.numbers(&candidate.values) })
+        Ok(Prepared { scenario, numbers: self.numbers(&candidate.values), text: OnceLock::new() })
     }
 
     fn run(&self, prepared: &Prepared, seed: u64, stop: &AtomicBool) -> Result<Vec<f64>, Trouble> {
-        let scenario = Scenario { seed, ..prepared.scenario.clone() };
-        let summary = match run::quiet(&scenario, &self.base.folder, stop) {
-            Ok(Ending::Finished(summary)) => summary,
-            Ok(Ending::Interrupted(_)) => return Err(Trouble::Stopped),
-            Err(error) => return Err(Trouble::Failed(error.to_string())),
-        };
-        let quantities = columns::pick(&summary, &self.columns);
+        let (folder, columns) = (self.base.folder.as_path(), self.columns.as_slice());
+        let replicate = Replicate { candidate: prepared, seed, folder, columns };
+        let quantities = self.runner.run(&replicate, stop)?;
         match self.without_value(&prepared.numbers, &quantities) {
             Some(formula) => Err(Trouble::Failed(format!("\"{formula}\" has no value for this run"))),
             None => Ok(quantities),

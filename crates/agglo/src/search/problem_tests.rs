@@ -1,5 +1,6 @@
 use super::*;
 use crate::math::rng::{Purpose, Stream};
+use crate::run::{self, Ending};
 
 const SHIPPED: &str = include_str!("../../../../scenarios/search-agglomeration.toml");
 

@@ -10,6 +10,7 @@ use super::clock::Clock;
 use super::course::{Course, Results};
 use super::journal::{Journal, Past};
 use super::progress::CampaignObserver;
+use super::proposals::Proposals;
 use super::records::{Records, Replicate};
 use super::summary::CampaignSummary;
 use super::watch::{Now, Watch};
@@ -78,16 +79,16 @@ pub fn conduct<M: Model>(
     let known = known.saturating_sub(course.first());
     let mut observer = |progress: &super::CampaignProgress| observer(progress);
     let sign = course.objectives.first().map(|goal| if goal.is_to_be_large { -1.0 } else { 1.0 });
-    let most = course.planned.iter().map(|(_, candidates)| candidates).sum::<u64>();
-    let most = (most > 0).then_some(most);
+    let most = Some(course.planned.iter().map(|(_, candidates)| candidates).sum()).filter(|most| *most > 0);
     let watch = Watch::new(&mut observer, began, most, known, sign).warning(folder.warning());
     let clock = Clock::new(&course, &journal, &past, &wall_s);
+    let proposals = Proposals::new(&journal, course.is_led);
     let ended = std::thread::scope(|scope| {
         let _home = Home(&pool);
         for _ in 0..course.threads.max(1) {
             scope.spawn(|| pool.work());
         }
-        Conductor::new(model, &course, folder, &pool, (past, clock), watch)?.all(course, &wall_s)
+        Conductor::new(model, &course, folder, &pool, (past, clock, proposals), watch)?.all(course, &wall_s)
     });
     match ended {
         Ok(summary) => Ok(CampaignEnding::Finished(Box::new(summary))),
@@ -122,6 +123,7 @@ pub(super) struct Conductor<'a, M: Model> {
     seeds: [Seeds; 3],
     past: Past,
     clock: Clock<'a>,
+    proposals: Proposals<'a>,
     /// Evaluations of the search by the bits of their values.
     evaluated: BTreeMap<Vec<u64>, u64>,
     pub(super) records: Records,
@@ -138,7 +140,7 @@ impl<'a, M: Model> Conductor<'a, M> {
         course: &Course<'_>,
         folder: &'a CampaignFolder,
         pool: &'a Pool<'a, M>,
-        (past, clock): (Past, Clock<'a>),
+        (past, clock, proposals): (Past, Clock<'a>, Proposals<'a>),
         watch: Watch<'a>,
     ) -> Result<Self, RecordError> {
         let Course { ensemble, seed, confirm, .. } = course;
@@ -165,6 +167,7 @@ impl<'a, M: Model> Conductor<'a, M> {
             ],
             past,
             clock,
+            proposals,
             evaluated: BTreeMap::new(),
             records,
             archive: Archive::default(),
@@ -239,9 +242,13 @@ impl<'a, M: Model> Conductor<'a, M> {
     fn ask_and_tell(&mut self, stage: Stage, optimizer: &mut dyn Optimizer) -> Result<Option<Point>, Stop> {
         loop {
             let points = optimizer.ask();
+            if optimizer.has_failed() {
+                return Err(Stop::Asked);
+            }
             if points.is_empty() {
                 return Ok(optimizer.recommended());
             }
+            self.proposals.hold(&self.past, self.archive.evaluations.len() as u64, &points)?;
             let candidates = points.iter().map(|point| self.model.candidate(point)).collect();
             let fitnesses = self.generation(stage, candidates)?;
             if fitnesses.len() < points.len() {

@@ -38,6 +38,8 @@ pub struct Course<'a> {
     pub objectives: Vec<Goal>,
     /// How many random replicates a candidate gets.
     pub ensemble: Ensemble,
+    /// Whether a program outside proposes the points.
+    pub is_led: bool,
     /// What proposes the points.
     pub optimizer: Box<dyn Optimizer>,
     /// Candidates that each stage is allowed; empty if that is not known.

@@ -61,6 +61,27 @@ pub enum CampaignError {
     /// Parts of a study that cannot be made or put together.
     #[error("{0}")]
     Parts(String),
+    /// Points come from a program outside, and there is none.
+    #[error(
+        "method.external: a program outside says which points are tried, and there is none here; lead the campaign by \
+         `agglo.search` in Python, or take one of agglo's methods, such as cma_es"
+    )]
+    NoProposer,
+    /// A program outside proposes points for a campaign that has a method.
+    #[error("found {found}; a campaign whose points come from a program outside has method.external")]
+    OwnMethod {
+        /// What it has, such as "method.cma_es".
+        found: String,
+    },
+    /// A program outside proposes another point than in an earlier session.
+    #[error(
+        "evaluation {evaluation}: the program that leads this campaign proposes another point than in the session before, so \
+         what is known of that one is of no use; seed it so that it proposes the same when it is told the same, or begin anew"
+    )]
+    OtherPoint {
+        /// Number of the evaluation.
+        evaluation: u64,
+    },
     /// The machine cannot hold the simulations.
     #[error("{0}")]
     TooLarge(StartError),
@@ -74,7 +95,12 @@ impl CampaignError {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Folder(error) => error.exit_code(),
-            Self::Faulty(_) | Self::Parts(_) | Self::TooLarge(_) => 2,
+            Self::Faulty(_)
+            | Self::Parts(_)
+            | Self::TooLarge(_)
+            | Self::NoProposer
+            | Self::OtherPoint { .. }
+            | Self::OwnMethod { .. } => 2,
             Self::Record(_)
             | Self::CutShort { .. }
             | Self::Gone { .. }

@@ -7,14 +7,14 @@ use std::path::{Path, PathBuf};
 
 use super::part::Part;
 use super::verbs::{go_on, text_of};
-use super::{CampaignEnding, CampaignError, CampaignObserver, Draw, finished, journal};
+use super::{CampaignEnding, CampaignError, CampaignObserver, Means, finished, journal};
 use crate::folder::{CampaignFolder, names};
 use crate::record::{RecordError, atomic, door};
 
-/// Makes the whole study of all its parts, in any order, in the folder `dir`; what it comes to is drawn by `draw`.
+/// Makes the whole study of all its parts, in any order, in the folder `dir`.
 ///
 /// The folder is, but for wall times, byte for byte the one that [`run`](super::run) would have written. Where lines of a
-/// part's journal were damaged, their replicates are run again, on `threads` threads.
+/// part's journal were damaged, their replicates are run again.
 ///
 /// # Errors
 /// [`CampaignError::Parts`] where one is missing, there twice, of another study, or not at its end; else as
@@ -22,8 +22,7 @@ use crate::record::{RecordError, atomic, door};
 pub fn join(
     parts: &[PathBuf],
     dir: &Path,
-    threads: usize,
-    draw: Option<&Draw<'_>>,
+    means: Means<'_>,
     observer: &mut CampaignObserver<'_>,
 ) -> Result<CampaignEnding, CampaignError> {
     let parts = all_parts(parts)?;
@@ -42,7 +41,7 @@ pub fn join(
     whole.take_tables_of(first)?;
     atomic::write(&whole.journal(), &lines)?;
     whole.put(&read(&first.campaign())?, &read(&first.scenario())?)?;
-    go_on(&whole, threads, draw, observer)
+    go_on(&whole, means, observer)
 }
 
 fn refusal(reason: &str) -> CampaignError {

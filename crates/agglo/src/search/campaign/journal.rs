@@ -5,6 +5,7 @@
 //! 17,0,5403271183612,12.3,ok,0.61,311.5,9e21ab04    evaluation, replicate, seed, wall time [s], quantities, checksum
 //! 18,0,5403271183612,12.4,failed,"reason",11ce0792
 //! budget,16,12.4,goes_on,8c31aa02                   what the clock decided once so many candidates were evaluated
+//! point,17,5d0c9b1e,90b1d3f7                        the checksum of the point that a program proposed for an evaluation
 //! ```
 //! Each line is handed to the operating system at once. A line that a kill or a loss of power cut short, or that was
 //! damaged, does not fit its checksum and is as if it had never been: its replicate is run again. Once the campaign has
@@ -45,6 +46,8 @@ pub struct Past {
     pub replicates: BTreeMap<(u64, u32), Entry>,
     /// Wall time of all earlier sessions [s].
     pub wall_s: f64,
+    /// Checksums of the points that a program outside proposed, by evaluation.
+    pub points: BTreeMap<u64, u32>,
     /// Candidates at which the budget of time let the search go on: the most.
     pub went_on: Option<u64>,
     /// Candidates at which the budget of time ended the search.
@@ -129,26 +132,23 @@ impl Journal {
     /// # Errors
     /// [`RecordError::File`].
     pub fn note(&self, finished: &Finished<'_>, wall_s: f64) -> Result<(), RecordError> {
-        let mut open = self.open.lock().unwrap_or_else(PoisonError::into_inner);
-        let (file, line) = &mut *open;
-        line.clear();
         let Finished { evaluation, replicate, seed, outcome } = finished;
-        // Writing to a string cannot fail.
-        let _ = write!(line, "{evaluation},{replicate},{seed},{wall_s:.3},");
-        match outcome {
-            Ok(quantities) => {
-                line.push_str("ok");
-                quantities.iter().for_each(|quantity| {
-                    let _ = write!(line, ",{}", Number(*quantity));
-                });
+        self.add(|line| {
+            // Writing to a string cannot fail.
+            let _ = write!(line, "{evaluation},{replicate},{seed},{wall_s:.3},");
+            match outcome {
+                Ok(quantities) => {
+                    line.push_str("ok");
+                    quantities.iter().for_each(|quantity| {
+                        let _ = write!(line, ",{}", Number(*quantity));
+                    });
+                }
+                Err(reason) => {
+                    let reason = serde_json::Value::from(*reason);
+                    let _ = write!(line, "failed,{reason}");
+                }
             }
-            Err(reason) => {
-                let reason = serde_json::Value::from(*reason);
-                let _ = write!(line, "failed,{reason}");
-            }
-        }
-        seal(line);
-        file.write_all(line.as_bytes()).map_err(RecordError::file("write", &self.path))
+        })
     }
 
     /// Writes down what the clock decided once so many candidates were evaluated, so that a later session decides the same.
@@ -156,18 +156,37 @@ impl Journal {
     /// # Errors
     /// [`RecordError::File`].
     pub fn decide(&self, evaluations: u64, goes_on: bool, wall_s: f64) -> Result<(), RecordError> {
+        let word = if goes_on { GOES_ON } else { ENDS };
+        self.add(|line| {
+            // Writing to a string cannot fail.
+            let _ = write!(line, "{BUDGET},{evaluations},{wall_s:.3},{word}");
+        })
+    }
+
+    /// Writes down which point a program outside proposed for an evaluation.
+    ///
+    /// # Errors
+    /// [`RecordError::File`].
+    pub fn propose(&self, evaluation: u64, checksum: u32) -> Result<(), RecordError> {
+        self.add(|line| {
+            // Writing to a string cannot fail.
+            let _ = write!(line, "{POINT},{evaluation},{checksum:08x}");
+        })
+    }
+
+    /// Adds a line with its checksum.
+    fn add(&self, words: impl FnOnce(&mut String)) -> Result<(), RecordError> {
         let mut open = self.open.lock().unwrap_or_else(PoisonError::into_inner);
         let (file, line) = &mut *open;
         line.clear();
-        let word = if goes_on { GOES_ON } else { ENDS };
-        // Writing to a string cannot fail.
-        let _ = write!(line, "{BUDGET},{evaluations},{wall_s:.3},{word}");
+        words(line);
         seal(line);
         file.write_all(line.as_bytes()).map_err(RecordError::file("write", &self.path))
     }
 }
 
 const BUDGET: &str = "budget";
+const POINT: &str = "point";
 const GOES_ON: &str = "goes_on";
 const ENDS: &str = "ends";
 
@@ -186,6 +205,8 @@ impl Past {
             self.wall_s = self.wall_s.max(wall_s);
             let kept = if goes_on { &mut self.went_on } else { &mut self.ended };
             *kept = (*kept).max(Some(evaluations));
+        } else if let Some((evaluation, checksum)) = point(content) {
+            self.points.entry(evaluation).or_insert(checksum);
         } else if let Some((key, wall_s, entry)) = replicate(content) {
             self.wall_s = self.wall_s.max(wall_s);
             self.replicates.entry(key).or_insert(entry);
@@ -205,6 +226,11 @@ fn decision(content: &str) -> Option<(u64, f64, bool)> {
     let mut words = content.strip_prefix(BUDGET)?.strip_prefix(',')?.split(',');
     let (evaluations, wall_s) = (words.next()?.parse().ok()?, time(words.next()?)?);
     Some((evaluations, wall_s, words.next()? == GOES_ON))
+}
+
+fn point(content: &str) -> Option<(u64, u32)> {
+    let (evaluation, checksum) = content.strip_prefix(POINT)?.strip_prefix(',')?.split_once(',')?;
+    Some((evaluation.parse().ok()?, u32::from_str_radix(checksum, 16).ok()?))
 }
 
 /// A wall time [s].
@@ -282,6 +308,16 @@ mod tests {
         let (_, past) = open(&path);
         let wanted = Past { wall_s: 3.75, went_on: Some(16), ended: Some(24), ..Past::default() };
         assert_eq!(past, wanted);
+    }
+
+    #[test]
+    fn what_was_proposed_comes_back() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("replicates.journal");
+        let (journal, _) = open(&path);
+        journal.propose(0, 0x1f).unwrap();
+        journal.propose(7, u32::MAX).unwrap();
+        assert_eq!(open(&path).1.points, BTreeMap::from([(0, 0x1f), (7, u32::MAX)]));
     }
 
     /// Cut at any byte: all lines that are whole come back, and the next one does not stick to what was cut.

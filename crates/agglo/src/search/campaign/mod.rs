@@ -16,6 +16,7 @@ mod journal;
 mod part;
 mod pictures;
 mod progress;
+mod proposals;
 mod records;
 mod summary;
 mod tables;
@@ -34,7 +35,7 @@ pub use part::Part;
 pub use pictures::Draw;
 pub use progress::{CampaignObserver, CampaignProgress};
 pub use summary::{Best, CampaignSummary, FrontPoint, Goal, LimitKept, Named, Noise, Spent};
-pub use verbs::{planned, refuse_too_large, resume, run, run_part, way_of};
+pub use verbs::{Means, planned, refuse_too_large, resume, run, run_part, way_of};
 
 use std::path::Path;
 

@@ -2,6 +2,9 @@
 
 use std::ops::ControlFlow;
 
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
+
 use super::Stage;
 
 /// What an observer is told while a campaign goes on, about ten times a second.
@@ -29,6 +32,24 @@ pub struct CampaignProgress {
     pub left_s: Option<f64>,
     /// Warnings that came up since the last call.
     pub warnings: Vec<String>,
+}
+
+/// As programs are told of it; warnings are told apart.
+impl Serialize for CampaignProgress {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("stage", self.stage.word())?;
+        map.serialize_entry("evaluations", &self.evaluations)?;
+        map.serialize_entry("evaluations_at_most", &self.evaluations_at_most)?;
+        map.serialize_entry("batches", &self.generations)?;
+        map.serialize_entry("failures", &self.failures)?;
+        map.serialize_entry("runs", &self.replicates)?;
+        map.serialize_entry("runs_per_s", &self.replicates_per_second)?;
+        map.serialize_entry("best", &self.best.map(|(best, _)| best))?;
+        map.serialize_entry("best_standard_error", &self.best.map(|(_, error)| error))?;
+        map.serialize_entry("left_s", &self.left_s)?;
+        map.end()
+    }
 }
 
 /// Someone who is told of the progress and may ask to stop.

@@ -71,7 +71,7 @@ pub(super) fn conducted_with(
         scale: Scale::Linear([-5.12, 5.12]),
     };
     let goals = 1 + usize::from(model.second.is_some());
-    let polish: &Polish<'_> = &|_| Method::Random(Random { points: 5 }).start(2, 1, 12);
+    let polish: &Polish<'_> = &|_| Box::new(Random { points: 5 }.start(2, 12));
     let course = Course {
         title: "bowl",
         seed: setup.seed,
@@ -81,7 +81,8 @@ pub(super) fn conducted_with(
         parameters: ["x", "y"].map(axis).to_vec(),
         objectives: vec![Goal { formula: "value".to_owned(), is_to_be_large: false }; goals],
         ensemble: setup.ensemble.clone(),
-        optimizer: method.start(2, goals, setup.seed),
+        is_led: false,
+        optimizer: method.start(2, goals, setup.seed).unwrap(),
         planned: vec![
             (Stage::Search, method.evaluations() as u64),
             (Stage::Polish, 5),

@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use super::archive::Stage;
 use super::conduct::conduct;
@@ -16,10 +17,29 @@ use crate::record::{RecordError, door};
 use crate::run::{self, Ending, RunError};
 use crate::scenario::{LoadError, Scenario};
 use crate::search::optimizer::{Method, NelderMead, Optimizer};
-use crate::search::{Base, Campaign, Confirm, Problem, Range, Scalar};
+use crate::search::{Base, Campaign, Confirm, Here, Problem, Range, Runner, Scalar};
 
-/// Conducts a campaign on `threads` threads in the folder `dir`; `base` is the folder that its files are relative to. What it
-/// comes to is drawn by `draw`; without one there are no pictures.
+/// By whom and how a campaign is conducted. What it comes to is the same to the last bit, whoever runs its simulations.
+#[derive(Default)]
+pub struct Means<'a> {
+    /// How many simulations are under way at once; at least 1.
+    pub threads: usize,
+    /// Draws what it comes to; without one there are no pictures.
+    pub draw: Option<&'a Draw<'a>>,
+    /// Runs the simulations; without one they run on threads of this process.
+    pub runner: Option<Arc<dyn Runner>>,
+    /// Says which points are tried, where the campaign's method is [`External`](crate::search::optimizer::External).
+    pub proposer: Option<Box<dyn Optimizer>>,
+}
+
+impl Means<'_> {
+    /// So many threads of this process, and no pictures.
+    pub fn threads(threads: usize) -> Self {
+        Self { threads, ..Self::default() }
+    }
+}
+
+/// Conducts a campaign in the folder `dir`; `base` is the folder that its files are relative to.
 ///
 /// # Errors
 /// [`CampaignError`] where the folder is in use, nothing can be evaluated, or a file cannot be written.
@@ -27,12 +47,12 @@ pub fn run(
     campaign: &Campaign,
     base: &Path,
     dir: &Path,
-    threads: usize,
-    draw: Option<&Draw<'_>>,
+    means: Means<'_>,
     observer: &mut CampaignObserver<'_>,
 ) -> Result<CampaignEnding, CampaignError> {
-    let folder = begin(campaign, base, dir, threads, None)?;
-    go_on(&folder, threads, draw, observer)
+    refuse_without_proposer(campaign, &means)?;
+    let folder = begin(campaign, base, dir, means.threads, None)?;
+    go_on(&folder, means, observer)
 }
 
 /// Runs a part of a study into a folder of its own; the rest is as in [`run`]. [`join`](super::join) makes the whole of all
@@ -44,11 +64,24 @@ pub fn run_part(
     campaign: &Campaign,
     base: &Path,
     (dir, part): (&Path, Part),
-    threads: usize,
+    means: Means<'_>,
     observer: &mut CampaignObserver<'_>,
 ) -> Result<CampaignEnding, CampaignError> {
-    let folder = begin(campaign, base, dir, threads, Some(part))?;
-    go_on(&folder, threads, None, observer)
+    let folder = begin(campaign, base, dir, means.threads, Some(part))?;
+    go_on(&folder, means, observer)
+}
+
+/// Refuses a campaign whose points come from a program outside where there is none, before anything is written.
+fn refuse_without_proposer(campaign: &Campaign, means: &Means<'_>) -> Result<(), CampaignError> {
+    let is_external = matches!(campaign.method, Some(Method::External(_)));
+    match &means.proposer {
+        None if is_external => Err(CampaignError::NoProposer),
+        Some(_) if !is_external => {
+            let (way, word) = way_of(campaign);
+            Err(CampaignError::OwnMethod { found: format!("{way}.{word}") })
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Puts all that a campaign, or a part of it, needs into its folder.
@@ -120,7 +153,7 @@ fn with_tables(
     Ok((scenario, campaign))
 }
 
-/// Goes on with the campaign in `dir`, on any number of threads; what it comes to is drawn by `draw`.
+/// Goes on with the campaign in `dir`, by whatever means.
 ///
 /// A campaign that has finished is left as it is, and its summary given again.
 ///
@@ -128,8 +161,7 @@ fn with_tables(
 /// [`CampaignError`] where there is no campaign, or a file cannot be written.
 pub fn resume(
     dir: &Path,
-    threads: usize,
-    draw: Option<&Draw<'_>>,
+    means: Means<'_>,
     observer: &mut CampaignObserver<'_>,
 ) -> Result<CampaignEnding, CampaignError> {
     let finished = || super::finished(dir).map(|summary| CampaignEnding::Finished(Box::new(summary)));
@@ -140,15 +172,14 @@ pub fn resume(
     // Another process may have finished it in between.
     match finished() {
         Some(ending) => Ok(ending),
-        None => go_on(&folder, threads, draw, observer),
+        None => go_on(&folder, means, observer),
     }
 }
 
 /// Goes on with the campaign in a folder whose lock is held.
 pub(super) fn go_on(
     folder: &CampaignFolder,
-    threads: usize,
-    draw: Option<&Draw<'_>>,
+    means: Means<'_>,
     observer: &mut CampaignObserver<'_>,
 ) -> Result<CampaignEnding, CampaignError> {
     let dir = folder.root();
@@ -158,7 +189,9 @@ pub(super) fn go_on(
         FolderError::NoCampaign { dir: dir.to_owned(), reason }
     };
     let campaign = Campaign::load(&folder.campaign()).map_err(unreadable)?;
-    let problem = Problem::new(&campaign, dir)?;
+    refuse_without_proposer(&campaign, &means)?;
+    let Means { threads, draw, runner, proposer } = means;
+    let problem = Problem::new(&campaign, dir)?.run_by(runner.unwrap_or_else(|| Arc::new(Here)));
     let no_part = |reason| FolderError::NoCampaign { dir: dir.to_owned(), reason };
     let part = match Part::read(folder)? {
         Some(part) => Some((part, own(part, &campaign, &problem).map_err(no_part)?)),
@@ -168,8 +201,7 @@ pub(super) fn go_on(
     let is_search = campaign.plan.is_none();
     let polish = |point: &[f64]| -> Box<dyn Optimizer> {
         let simplex = campaign.polish.clone().unwrap_or_default();
-        let from = Method::NelderMead(NelderMead { start: point.to_vec(), ..simplex });
-        from.start(point.len(), 1, campaign.seed)
+        Box::new(NelderMead { start: point.to_vec(), ..simplex }.start(point.len()))
     };
     let course = Course {
         title: &campaign.title,
@@ -180,7 +212,8 @@ pub(super) fn go_on(
         parameters: problem.axes().to_vec(),
         objectives: problem.objectives().map(|(formula, large)| goal(formula, large)).collect(),
         ensemble: campaign.ensemble.clone(),
-        optimizer: optimizer(&campaign, &problem),
+        is_led: proposer.is_some(),
+        optimizer: optimizer(&campaign, &problem, proposer)?,
         planned: of_part.unwrap_or_else(|| planned(&campaign, &problem)),
         budget_s: campaign.budget.as_ref().map(|budget| budget.time.si()),
         polish: campaign.polish.as_ref().map(|_| &polish as &Polish<'_>),
@@ -242,12 +275,20 @@ fn levels(problem: &Problem) -> Vec<Option<usize>> {
 }
 
 /// What proposes the points of a search or study; its file has been checked.
-fn optimizer(campaign: &Campaign, problem: &Problem) -> Box<dyn Optimizer> {
+fn optimizer(
+    campaign: &Campaign,
+    problem: &Problem,
+    proposer: Option<Box<dyn Optimizer>>,
+) -> Result<Box<dyn Optimizer>, CampaignError> {
     if let Some(plan) = &campaign.plan {
-        return plan.start(&levels(problem), campaign.seed);
+        return Ok(plan.start(&levels(problem), campaign.seed));
     }
     let method = campaign.method.clone().unwrap_or_default();
-    method.start(problem.axes().len(), campaign.objectives.len(), campaign.seed)
+    let led = match (&method, proposer) {
+        (Method::External(external), Some(proposer)) => Some(external.led_by(proposer)),
+        _ => method.start(problem.axes().len(), campaign.objectives.len(), campaign.seed),
+    };
+    led.ok_or(CampaignError::NoProposer)
 }
 
 /// Candidates that each stage of a search or study is allowed.

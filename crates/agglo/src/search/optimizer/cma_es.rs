@@ -54,10 +54,10 @@
 //! # Example
 //! ```
 //! use agglo::search::functions::{Noisy, TestFunction, minimize};
-//! use agglo::search::optimizer::{CmaEs, Method};
+//! use agglo::search::optimizer::CmaEs;
 //! let bowl = Noisy { function: TestFunction::Sphere, sigma: 0.0, seed: 1 };
-//! let mut search = Method::CmaEs(CmaEs { evaluations: 2000, ..Default::default() }).start(5, 1, 1);
-//! let best = minimize(search.as_mut(), 2000, |point, n| bowl.fitness(point, n)).expect("points were told");
+//! let mut search = CmaEs { evaluations: 2000, ..Default::default() }.start(5, 1);
+//! let best = minimize(&mut search, 2000, |point, n| bowl.fitness(point, n)).expect("points were told");
 //! assert!(TestFunction::Sphere.at(&best) < 1e-10);
 //! ```
 
@@ -124,7 +124,8 @@ impl Default for CmaEs {
 }
 
 impl CmaEs {
-    pub(super) fn start(&self, dimensions: usize, seed: u64) -> impl Optimizer + use<> {
+    /// Begins a search over so many parameters.
+    pub fn start(&self, dimensions: usize, seed: u64) -> impl Optimizer + use<> {
         Search::new(self.clone(), dimensions, seed)
     }
 

@@ -43,11 +43,11 @@
 //! ```
 //! use agglo::search::Fitness;
 //! use agglo::search::functions::minimize;
-//! use agglo::search::optimizer::{Genetic, Method};
+//! use agglo::search::optimizer::Genetic;
 //! // Near to 0 and near to 1 at once: every point between is on the front.
-//! let mut search = Method::Genetic(Genetic { generations: 20, ..Default::default() }).start(1, 2, 1);
+//! let mut search = Genetic { generations: 20, ..Default::default() }.start(1, 2, 1);
 //! let costs = |x: f64| Fitness::new(vec![x.powi(2), (1.0 - x).powi(2)]);
-//! let knee = minimize(search.as_mut(), 2000, |point, _| costs(point[0])).expect("points were told");
+//! let knee = minimize(&mut search, 2000, |point, _| costs(point[0])).expect("points were told");
 //! assert!((knee[0] - 0.5).abs() < 0.05);
 //! ```
 
@@ -87,7 +87,8 @@ impl Default for Genetic {
 }
 
 impl Genetic {
-    pub(super) fn start(&self, dimensions: usize, objectives: usize, seed: u64) -> impl Optimizer + use<> {
+    /// Begins a search over so many parameters for one cost or two.
+    pub fn start(&self, dimensions: usize, objectives: usize, seed: u64) -> impl Optimizer + use<> {
         Search {
             parameters: self.clone(),
             dimensions,

@@ -4,6 +4,7 @@
 
 mod cma_es;
 mod eigen;
+mod external;
 mod genetic;
 mod nelder_mead;
 mod published_genetic;
@@ -17,6 +18,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use cma_es::CmaEs;
+pub use external::External;
 pub use genetic::Genetic;
 pub use nelder_mead::NelderMead;
 pub use published_genetic::PublishedGenetic;
@@ -42,6 +44,11 @@ pub trait Optimizer: Send {
 
     /// The point that it would choose now; with noise that need not be the one with the lowest cost seen.
     fn recommended(&self) -> Option<Point>;
+
+    /// Whether it cannot go on, as may be with a program outside: the campaign stops then, and can be gone on with.
+    fn has_failed(&self) -> bool {
+        false
+    }
 }
 
 /// How the space is searched.
@@ -60,6 +67,8 @@ pub enum Method {
     Random(Random),
     /// Points that fill the space evenly.
     Sobol(Sobol),
+    /// Points that a program outside proposes.
+    External(External),
 }
 
 impl Default for Method {
@@ -72,16 +81,18 @@ impl Default for Method {
 const MOST: usize = 100_000_000;
 
 impl Method {
-    /// An optimizer over `dimensions` parameters for `objectives` costs; its parameters have no faults.
-    pub fn start(&self, dimensions: usize, objectives: usize, seed: u64) -> Box<dyn Optimizer> {
-        match self {
+    /// An optimizer over `dimensions` parameters for `objectives` costs; its parameters have no faults. None where its points come
+    /// from outside.
+    pub fn start(&self, dimensions: usize, objectives: usize, seed: u64) -> Option<Box<dyn Optimizer>> {
+        Some(match self {
             Self::CmaEs(parameters) => Box::new(parameters.start(dimensions, seed)),
             Self::Genetic(parameters) => Box::new(parameters.start(dimensions, objectives, seed)),
             Self::PublishedGenetic(parameters) => Box::new(parameters.start(dimensions, seed)),
             Self::NelderMead(parameters) => Box::new(parameters.start(dimensions)),
             Self::Random(parameters) => Box::new(parameters.start(dimensions, seed)),
             Self::Sobol(parameters) => Box::new(parameters.start(dimensions, seed)),
-        }
+            Self::External(_) => return None,
+        })
     }
 
     /// The word that stands for it in a file.
@@ -93,6 +104,7 @@ impl Method {
             Self::NelderMead(_) => "nelder_mead",
             Self::Random(_) => "random",
             Self::Sobol(_) => "sobol",
+            Self::External(_) => "external",
         }
     }
 
@@ -108,6 +120,7 @@ impl Method {
             Self::NelderMead(method) => method.evaluations,
             Self::Random(method) => method.points,
             Self::Sobol(method) => method.points,
+            Self::External(method) => method.evaluations,
         }
     }
 
@@ -120,8 +133,11 @@ impl Method {
             Self::NelderMead(parameters) => parameters.faults(dimensions),
             Self::Random(parameters) => parameters.faults(),
             Self::Sobol(parameters) => parameters.faults(dimensions),
+            Self::External(parameters) => parameters.faults(),
         };
-        if objectives != 1 && !matches!(self, Self::Genetic(_) | Self::Random(_) | Self::Sobol(_)) {
+        let finds_fronts =
+            matches!(self, Self::Genetic(_) | Self::Random(_) | Self::Sobol(_) | Self::External(_));
+        if objectives != 1 && !finds_fronts {
             let message =
                 format!("this method makes 1 cost small, not {objectives}; `genetic` finds fronts of 2");
             faults.push(("objectives", message));

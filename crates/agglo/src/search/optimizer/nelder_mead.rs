@@ -43,10 +43,10 @@
 //! # Example
 //! ```
 //! use agglo::search::functions::{Noisy, TestFunction, minimize};
-//! use agglo::search::optimizer::{Method, NelderMead};
+//! use agglo::search::optimizer::NelderMead;
 //! let valley = Noisy { function: TestFunction::Rosenbrock, sigma: 0.0, seed: 1 };
 //! let polish = NelderMead { start: vec![0.3, 0.35], evaluations: 400, ..Default::default() };
-//! let best = minimize(Method::NelderMead(polish).start(2, 1, 1).as_mut(), 400, |point, n| valley.fitness(point, n));
+//! let best = minimize(&mut polish.start(2), 400, |point, n| valley.fitness(point, n));
 //! assert!(TestFunction::Rosenbrock.at(&best.expect("points were told")) < 1e-8);
 //! ```
 
@@ -81,7 +81,8 @@ impl Default for NelderMead {
 }
 
 impl NelderMead {
-    pub(super) fn start(&self, dimensions: usize) -> impl Optimizer + use<> {
+    /// Begins a search over so many parameters.
+    pub fn start(&self, dimensions: usize) -> impl Optimizer + use<> {
         Search::new(self.clone(), dimensions)
     }
 

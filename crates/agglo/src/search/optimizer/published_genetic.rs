@@ -46,8 +46,8 @@
 //!
 //! # Example
 //! ```
-//! use agglo::search::optimizer::{Method, PublishedGenetic};
-//! let mut search = Method::PublishedGenetic(PublishedGenetic::default()).start(10, 1, 1);
+//! use agglo::search::optimizer::{Optimizer, PublishedGenetic};
+//! let mut search = PublishedGenetic::default().start(10, 1);
 //! assert_eq!(search.ask().len(), 20);
 //! ```
 
@@ -83,7 +83,8 @@ impl Default for PublishedGenetic {
 }
 
 impl PublishedGenetic {
-    pub(super) fn start(&self, dimensions: usize, seed: u64) -> impl Optimizer + use<> {
+    /// Begins a search over so many parameters.
+    pub fn start(&self, dimensions: usize, seed: u64) -> impl Optimizer + use<> {
         Search {
             parameters: self.clone(),
             generation: 0,

@@ -30,10 +30,10 @@
 //! # Example
 //! ```
 //! use agglo::search::functions::{TestFunction, minimize, Noisy};
-//! use agglo::search::optimizer::{Method, Random};
+//! use agglo::search::optimizer::Random;
 //! let bowl = Noisy { function: TestFunction::Sphere, sigma: 0.0, seed: 1 };
-//! let mut search = Method::Random(Random { points: 1000 }).start(1, 1, 7);
-//! let best = minimize(search.as_mut(), 1000, |point, n| bowl.fitness(point, n)).expect("1000 points");
+//! let mut search = Random { points: 1000 }.start(1, 7);
+//! let best = minimize(&mut search, 1000, |point, n| bowl.fitness(point, n)).expect("1000 points");
 //! // The nearest of 1000 points is 1/2000 from the middle on average, further than ten times that in e^-10 of all cases.
 //! assert!((best[0] - 0.5).abs() < 0.005);
 //! ```
@@ -59,7 +59,8 @@ impl Default for Random {
 }
 
 impl Random {
-    pub(super) fn start(&self, dimensions: usize, seed: u64) -> impl Optimizer + use<> {
+    /// Begins a search over so many parameters.
+    pub fn start(&self, dimensions: usize, seed: u64) -> impl Optimizer + use<> {
         let mut stream = stream(seed, Part::Points);
         Samples::new(self.points, move || uniform_point(&mut stream, dimensions))
     }

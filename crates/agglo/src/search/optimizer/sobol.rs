@@ -35,8 +35,8 @@
 //!
 //! # Example
 //! ```
-//! use agglo::search::optimizer::{Method, Sobol};
-//! let mut search = Method::Sobol(Sobol { points: 32 }).start(3, 1, 1);
+//! use agglo::search::optimizer::{Optimizer, Sobol};
+//! let mut search = Sobol { points: 32 }.start(3, 1);
 //! // Each of 32 equal slices of each axis holds one point.
 //! let mut slices: Vec<u32> = search.ask().iter().map(|point| (32.0 * point[2]) as u32).collect();
 //! slices.sort();
@@ -102,14 +102,15 @@ impl Default for Sobol {
 }
 
 impl Sobol {
-    pub(super) fn start(&self, dimensions: usize, seed: u64) -> impl Optimizer + use<> {
+    /// Begins a search over so many parameters.
+    pub fn start(&self, dimensions: usize, seed: u64) -> impl Optimizer + use<> {
         let mut shifts = stream(seed, Part::Points);
         let shift = (0..dimensions).map(|_| (shifts.uniform() * 2.0_f64.powi(53)) as u64).collect();
         let mut sequence = Sequence::new(dimensions, shift);
         Samples::new(self.points, move || sequence.next_point())
     }
 
-    pub(super) fn faults(&self, dimensions: usize) -> Vec<Fault> {
+    pub(in crate::search) fn faults(&self, dimensions: usize) -> Vec<Fault> {
         let mut faults = Vec::new();
         if self.points == 0 || self.points as u64 >= 1 << BITS {
             faults.push(("points", format!("{} is not from 1 to 2^{BITS} - 1", self.points)));

@@ -20,7 +20,7 @@ fn methods(evaluations: usize) -> Vec<Method> {
 /// All that is asked, with a lowest point at a corner so that bounds are met.
 fn asked(method: &Method, seed: u64) -> Vec<Point> {
     let mut points = Vec::new();
-    let mut search = method.start(4, 1, seed);
+    let mut search = method.start(4, 1, seed).unwrap();
     let corner = |point: &[f64]| point.iter().map(|x| (1.0 - x).powi(2)).sum::<f64>();
     let best = minimize(search.as_mut(), 1000, |point, _| {
         points.push(point.to_vec());
@@ -48,7 +48,7 @@ fn the_seed_decides_and_bounds_are_kept() {
 #[test]
 fn failures_alone_do_no_harm() {
     for method in methods(200) {
-        minimize(method.start(3, 1, 1).as_mut(), 200, |_, _| Fitness::failed());
+        minimize(method.start(3, 1, 1).unwrap().as_mut(), 200, |_, _| Fitness::failed());
     }
 }
 
@@ -105,7 +105,9 @@ fn median(method: &Method, noisy: Noisy, seeds: u64) -> f64 {
     let mut values: Vec<f64> = (0..seeds)
         .map(|seed| {
             let noisy = Noisy { seed, ..noisy };
-            let best = minimize(method.start(10, 1, seed).as_mut(), 2000, |point, n| noisy.fitness(point, n));
+            let best = minimize(method.start(10, 1, seed).unwrap().as_mut(), 2000, |point, n| {
+                noisy.fitness(point, n)
+            });
             noisy.function.at(&best.unwrap())
         })
         .collect();
@@ -181,7 +183,7 @@ fn budgets_are_used_to_the_last_evaluation() {
                 Method::Genetic(genetic),
             ] {
                 let mut count = 0;
-                let mut search = method.start(dimensions, 1, 3);
+                let mut search = method.start(dimensions, 1, 3).unwrap();
                 let mut turns = agglo_testing::Turns::at_most(1_000_000, "the search to end");
                 loop {
                     turns.take();

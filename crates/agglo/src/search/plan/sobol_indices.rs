@@ -42,7 +42,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Draw, stream};
-use crate::search::optimizer::{Method, Point, Sobol};
+use crate::search::optimizer::{Optimizer, Point, Sobol};
 
 /// Shares of the outcome's variance, for each parameter alone and with all others.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -100,12 +100,12 @@ impl SobolIndices {
 
 /// Points of the unit cube of `width` dimensions: a Sobol' sequence as far as its table goes, else random ones.
 fn bases(count: usize, width: usize, seed: u64) -> Vec<Point> {
-    let sequence = Method::Sobol(Sobol { points: count });
-    if !sequence.faults(width, 1).is_empty() {
+    let sequence = Sobol { points: count };
+    if !sequence.faults(width).is_empty() {
         let mut stream = stream(seed, Draw::Bases);
         return (0..count).map(|_| (0..width).map(|_| stream.uniform()).collect()).collect();
     }
-    let mut sequence = sequence.start(width, 1, seed);
+    let mut sequence = sequence.start(width, seed);
     let batches = std::iter::from_fn(|| Some(sequence.ask()).filter(|batch| !batch.is_empty()));
     batches.flatten().collect()
 }
