@@ -24,13 +24,17 @@ from agglo._agglo import (
     set_threads,
     templates,
 )
-from agglo._errors import AggloError, InputError, RunError, ScenarioError
-from agglo._results import Run, Table, read, report
+from agglo._errors import AggloError, InputError, PackageError, RunError, ScenarioError
+from agglo._results import Run, read, report
+from agglo._shapes import to_ase, to_pyvista
+from agglo._start import start
+from agglo._tables import Table
 from agglo._verbs import Plan, check, resume, run, schema, snapshots
 
 __all__ = [
     "AggloError",
     "InputError",
+    "PackageError",
     "Plan",
     "Run",
     "RunError",
@@ -52,5 +56,8 @@ __all__ = [
     "schema",
     "set_threads",
     "snapshots",
+    "start",
     "templates",
+    "to_ase",
+    "to_pyvista",
 ]

@@ -40,5 +40,9 @@ class ScenarioError(InputError):
         return str(self.args[0])
 
 
+class PackageError(ImportError, InputError):
+    """A package is missing that is not needed otherwise; the message says what to install."""
+
+
 class RunError(AggloError, RuntimeError):
     """Something failed on the way: a step, a file, a stop."""

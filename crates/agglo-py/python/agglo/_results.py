@@ -4,30 +4,20 @@ from __future__ import annotations
 
 import csv
 import json
-from collections.abc import Mapping
-from importlib import import_module
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from agglo import _agglo
+from agglo import _agglo, _html, _plots
 from agglo._agglo import Scenario
 from agglo._errors import InputError
+from agglo._optional import need
+from agglo._shapes import Graph, genealogy, sizes, to_ase
+from agglo._tables import Table, column, read_table
 from agglo._types import Columns, Folder
-
-
-class Table(dict[str, npt.NDArray[Any]]):
-    """A table over time: columns [n] by their names, which end with their units. Empty entries are not a number."""
-
-    def pandas(self) -> Any:
-        """The same as a DataFrame of pandas, which must be installed."""
-        return import_module("pandas").DataFrame(dict(self))
-
-    def polars(self) -> Any:
-        """The same as a DataFrame of polars, which must be installed."""
-        return import_module("polars").DataFrame(dict(self))
 
 
 class Run:
@@ -67,7 +57,7 @@ class Run:
             rows = csv.reader(lines)
             names = next(rows, [])
             whole = [row for row in rows if len(row) == len(names)]
-        return Table({name: _column([row[at] for row in whole]) for at, name in enumerate(names)})
+        return Table({name: column([row[at] for row in whole]) for at, name in enumerate(names)})
 
     def frames(self, kind: str = "grains") -> list[tuple[float, Path]]:
         """Times [s] and files of the frames of "grains", "bonds" or "rays"."""
@@ -79,32 +69,112 @@ class Run:
         Raises:
             InputError: There is no such frame.
         """
-        frames = self.frames()
-        try:
-            time, file = frames[frame]
-        except IndexError:
-            raise InputError(f"there is no frame {frame} in {self.folder}; it has {len(frames)}") from None
+        time, file = self._frame(frame, "grains")
         return time, _agglo.read_frame(file)
 
-    def pyvista(self, frame: int = -1) -> Any:
-        """The grains of a frame as a mesh of PyVista, which must be installed."""
-        return import_module("pyvista").read(self.frames()[frame][1])
+    def events(self) -> Table:
+        """What happened, a row for each: bonds that broke or were made; merges and breakages of hard spheres.
+
+        Raises:
+            InputError: There is no events.csv.
+        """
+        return self._file("events.csv")
+
+    def kernels(self) -> dict[str, Table]:
+        """How often hard spheres collide, merge and break, by classes of size, once the run has come to its end.
+
+        "kernels" has collisions and merges of pairs of classes [m3/s], "breakage" the rates of breaking [1/s], "daughters"
+        what they broke into.
+
+        Raises:
+            InputError: The run is of soft spheres, or has not come to its end.
+        """
+        return {name: self._file(f"{name}.csv") for name in ("kernels", "breakage", "daughters")}
+
+    def genealogy(self) -> Graph:
+        """Who became part of whom in a run of hard spheres, as a DiGraph of networkx from parents to children.
+
+        A node is a grain for as long as it stays the same: `(id, event)`, with the event that made it, 0 for the start.
+        Nodes have `grain` (the id), `born_s`, `ended_s` (not a number while it is there), `primaries` and `mass_kg`; edges
+        have `event`, `time_s`, `kind` ("merge" or "break"), and the `primaries` and `mass_kg` that go from one to the other.
+
+        Raises:
+            PackageError: networkx is not installed.
+            InputError: The run is of soft spheres, or has no first frame.
+        """
+        return genealogy(self.events(), self._file("genealogy.csv"), self.grains(0)[1])
+
+    def sizes(self, frame: int = -1) -> Table:
+        """How many grains of a frame are in each class of size, and their part of the mass.
+
+        Classes are 1, 2 to 3, 4 to 7, ... primaries. Of soft spheres clusters are counted, by the grains in them.
+
+        Raises:
+            InputError: There is no such frame.
+        """
+        return sizes(self.grains(frame)[1])
+
+    def pyvista(self, frame: int = -1, kind: str = "grains") -> Any:
+        """The "grains", "bonds" or "rays" of a frame as a mesh of PyVista: points, but lines for bonds.
+
+        The mesh has the columns of the frame as data. Spheres of grains are
+        `mesh.glyph(scale="radius_m", geom=pyvista.Sphere(radius=1.0), orient=False)`.
+
+        Raises:
+            PackageError: PyVista is not installed.
+            InputError: There is no such frame.
+        """
+        vista = need("pyvista", "Run.pyvista")
+        return vista.read(self._frame(frame, kind)[1])
+
+    def ase(self, frame: int = -1, length_unit_m: float = 1.0) -> Any:
+        """The grains of a frame as `Atoms` of ASE, with positions in units of `length_unit_m`; see `agglo.to_ase`.
+
+        Raises:
+            PackageError: ASE is not installed.
+            InputError: There is no such frame.
+        """
+        time, grains = self.grains(frame)
+        return to_ase(grains, length_unit_m, time)
+
+    def plot(self, charts: Sequence[str] | None = None) -> Any:
+        """Charts over time as a Figure of matplotlib, which the caller shows or saves.
+
+        Args:
+            charts: Which ones, in their order: of soft spheres "dispersion", "clusters", "stores", "flows", "rays", "beam",
+                "flying", "power", "speed", "step"; of hard spheres "growth", "grains", "sizes", "largest", "impacts",
+                "energy", "heat", "temperature", "speed", "step". If none are named, those that tell most.
+
+        Raises:
+            PackageError: matplotlib is not installed.
+            InputError: There is no such chart.
+        """
+        return _plots.run(self, charts)
 
     def report(self) -> Path:
         """Writes report.html, and gives its path."""
         return report(self.folder)
 
+    def _frame(self, frame: int, kind: str) -> tuple[float, Path]:
+        frames = self.frames(kind)
+        try:
+            return frames[frame]
+        except IndexError:
+            raise InputError(f"there is no frame {frame} of {kind} in {self.folder}; it has {len(frames)}") from None
+
+    def _file(self, name: str) -> Table:
+        if not (self.folder / name).is_file():
+            kind = "hard" if self.scenario.is_hard else "soft"
+            state = "has" if self.summary is not None else "has not"
+            raise InputError(f"{self.folder} holds no {name}; it is a run of {kind} spheres that {state} come to its end")
+        return read_table(self.folder / name)
+
+    def _repr_html_(self) -> str:
+        return _html.run(self)
+
     def __repr__(self) -> str:
         state = "finished" if self.summary is not None else "not finished"
         return f"<agglo.Run {str(self.folder)!r}, {state}>"
-
-
-def _column(texts: list[str]) -> npt.NDArray[Any]:
-    """Numbers where all are; words otherwise."""
-    try:
-        return np.array([float(text) if text else np.nan for text in texts])
-    except ValueError:
-        return np.array(texts)
 
 
 def read(folder: Folder) -> Run:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from agglo import _agglo
+from agglo import _agglo, _html
 from agglo._agglo import Scenario, Simulation
 from agglo._errors import InputError
 from agglo._results import Run
@@ -33,6 +33,9 @@ class Plan:
 
     def __str__(self) -> str:
         return self.text
+
+    def _repr_html_(self) -> str:
+        return _html.plan(self)
 
 
 def check(scenario: Scenario) -> Plan:
