@@ -2,8 +2,10 @@
 
 use agglo::Error;
 use agglo::scenario::{Faults, LoadError};
+use agglo::search::campaign::CampaignError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
+
+use crate::json::to_python;
 
 mod exceptions {
     #![allow(missing_docs, reason = "the exceptions are documented where they are defined, in Python")]
@@ -20,26 +22,17 @@ pub(crate) fn raised(py: Python<'_>, error: impl Into<Error>) -> PyErr {
     match error.into() {
         Error::Faults(faults) => of_faults(py, &faults, "scenario"),
         Error::Load(LoadError::Faulty { path, faults, .. }) => of_faults(py, &faults, &path),
+        Error::Campaign(CampaignError::Faulty(faults)) => of_faults(py, &faults, "campaign"),
         error if error.exit_code() == 2 => InputError::new_err(error.to_string()),
         error => RunError::new_err(error.to_string()),
     }
 }
 
 /// All faults of a text at once; `name` is what it is called.
-fn of_faults(py: Python<'_>, faults: &Faults, name: &str) -> PyErr {
-    let made = || {
-        let list = PyList::empty(py);
-        for fault in faults {
-            let one = PyDict::new(py);
-            one.set_item("key", &fault.key)?;
-            one.set_item("message", &fault.message)?;
-            one.set_item("help", fault.help.as_deref())?;
-            one.set_item("line", fault.line)?;
-            one.set_item("column", fault.column)?;
-            one.set_item("setting", fault.setting.as_deref())?;
-            list.append(one)?;
-        }
-        Ok(ScenarioError::new_err((format!("{name}:\n{faults}"), list.unbind())))
-    };
-    made().unwrap_or_else(|error: PyErr| error)
+pub(crate) fn of_faults(py: Python<'_>, faults: &Faults, name: &str) -> PyErr {
+    let list: Vec<_> = faults.iter().collect();
+    match to_python(py, &list) {
+        Ok(list) => ScenarioError::new_err((format!("{name}:\n{faults}"), list.unbind())),
+        Err(error) => error,
+    }
 }

@@ -7,13 +7,18 @@
 #![allow(clippy::needless_pass_by_value, reason = "arguments come from Python as values of their own")]
 
 mod arrays;
+mod campaign;
 mod error;
 mod hook;
+mod json;
+mod laws;
 mod pages;
 mod pieces;
 mod runs;
 mod scenario;
+mod search;
 mod simulation;
+mod watcher;
 mod work;
 
 use pyo3::prelude::*;
@@ -21,13 +26,22 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _agglo {
     #[pymodule_export]
+    use super::campaign::Campaign;
+    #[pymodule_export]
+    use super::laws::{contact, reflect, trace};
+    #[pymodule_export]
     use super::pages::{cite, explain, laws, schema, templates};
     #[pymodule_export]
     use super::pieces::{collide, pack};
     #[pymodule_export]
-    use super::runs::{act_on, check, frames, read_frame, report, resume, run, run_quietly};
+    use super::runs::{
+        act_on, check, frames, read_frame, read_table, report, resume, run, run_quietly, summary, tables,
+        what_is_in,
+    };
     #[pymodule_export]
     use super::scenario::Scenario;
+    #[pymodule_export]
+    use super::search::{best_run, conduct, processors, replicate};
     #[pymodule_export]
     use super::simulation::Simulation;
     #[pymodule_export]

@@ -1,15 +1,15 @@
 //! The verbs that the terminal has too: run, resume, check, report.
 
 use std::ffi::OsString;
-use std::ops::ControlFlow;
 use std::path::PathBuf;
-use std::sync::atomic::AtomicBool;
 
 use agglo::Error;
-use agglo::folder::RunFolder;
+use agglo::folder::{CampaignFolder, RunFolder, tables_in};
 use agglo::forecast::Plan;
+use agglo::record::Sheet;
 use agglo::record::frames::{Collection, FieldValues, Frame};
 use agglo::run::{Ending, Progress, RunError};
+use agglo::search::campaign;
 use agglo::units::{Quantity, Time, parse_quantity};
 use agglo_view::report::ReportError;
 use pyo3::prelude::*;
@@ -17,9 +17,10 @@ use pyo3::types::PyDict;
 
 use crate::arrays;
 use crate::error::{InputError, RunError as Failed, raised};
-use crate::hook::Fallen;
+use crate::json::to_python;
 use crate::scenario::Scenario;
-use crate::work::{interruptible, unless};
+use crate::watcher::Watcher;
+use crate::work::interruptible;
 
 /// Does what the arguments of the program say; gives its exit code.
 #[pyfunction]
@@ -36,8 +37,12 @@ pub(crate) fn run(
     folder: PathBuf,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<String> {
-    let watcher = Watcher { progress, fallen: Fallen::default() };
-    watcher.sit(py, |observer| agglo::run::run(&scenario.read, &scenario.base, &folder, observer))
+    let watcher = Watcher::new(progress);
+    let outcome = interruptible(py, |stop| {
+        agglo::run::run(&scenario.read, &scenario.base, &folder, &mut |now| watcher.see(of_run, now, stop))
+    })?;
+    watcher.raise(py)?;
+    told(py, outcome)
 }
 
 /// Goes on with the run in a folder, to another end where one is given ("40 s"); gives its summary as JSON.
@@ -49,13 +54,18 @@ pub(crate) fn resume(
     until: Option<&str>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<String> {
-    let watcher = Watcher { progress, fallen: Fallen::default() };
+    let watcher = Watcher::new(progress);
     let end = until.map(|until| parse_quantity(until, Time::DIMENSION)).transpose();
     let end = end.map_err(|error| InputError::new_err(format!("until: {error}")))?;
-    watcher.sit(py, |observer| match end {
-        Some(end) => agglo::run::resume_until(&folder, Quantity(end), observer),
-        None => agglo::run::resume(&folder, observer),
-    })
+    let outcome = interruptible(py, |stop| {
+        let mut observer = |now: &Progress| watcher.see(of_run, now, stop);
+        match end {
+            Some(end) => agglo::run::resume_until(&folder, Quantity(end), &mut observer),
+            None => agglo::run::resume(&folder, &mut observer),
+        }
+    })?;
+    watcher.raise(py)?;
+    told(py, outcome)
 }
 
 /// Runs a scenario without writing anything; gives its summary as JSON.
@@ -65,45 +75,14 @@ pub(crate) fn run_quietly(py: Python<'_>, scenario: &Scenario) -> PyResult<Strin
     told(py, outcome)
 }
 
-/// Who is told of a run's progress.
-struct Watcher {
-    progress: Option<Py<PyAny>>,
-    fallen: Fallen,
-}
-
-impl Watcher {
-    fn sit(
-        self,
-        py: Python<'_>,
-        work: impl FnOnce(&mut agglo::run::Observer<'_>) -> Result<Ending, RunError> + Send,
-    ) -> PyResult<String> {
-        let outcome = interruptible(py, |stop: &AtomicBool| {
-            work(&mut |progress: &Progress| {
-                self.tell(progress);
-                if self.fallen.is_there() { ControlFlow::Break(()) } else { unless(stop) }
-            })
-        })?;
-        self.fallen.raise(py)?;
-        told(py, outcome)
-    }
-
-    fn tell(&self, told: &Progress) {
-        let Some(progress) = &self.progress else { return };
-        Python::attach(|py| {
-            let called = || {
-                let table = PyDict::new(py);
-                table.set_item("time_s", told.time)?;
-                table.set_item("end_s", told.end)?;
-                table.set_item(told.steps_are, told.step)?;
-                table.set_item("now", &told.now)?;
-                table.set_item("warnings", &told.warnings)?;
-                progress.bind(py).call1((table,)).map(drop)
-            };
-            if let Err(error) = called() {
-                self.fallen.keep(error);
-            }
-        });
-    }
+fn of_run<'py>(py: Python<'py>, now: &Progress) -> PyResult<Bound<'py, PyAny>> {
+    let table = PyDict::new(py);
+    table.set_item("time_s", now.time)?;
+    table.set_item("end_s", now.end)?;
+    table.set_item(now.steps_are, now.step)?;
+    table.set_item("now", &now.now)?;
+    table.set_item("warnings", &now.warnings)?;
+    Ok(table.into_any())
 }
 
 fn told(py: Python<'_>, outcome: Result<Ending, RunError>) -> PyResult<String> {
@@ -114,22 +93,12 @@ fn told(py: Python<'_>, outcome: Result<Ending, RunError>) -> PyResult<String> {
     }
 }
 
-/// What a scenario would ask of the machine, and what to keep in mind of it.
+/// What a scenario would ask of the machine, and what to keep in mind of it; the last entry says all of it in words.
 #[pyfunction]
-pub(crate) fn check<'py>(py: Python<'py>, scenario: &Scenario) -> PyResult<Bound<'py, PyDict>> {
+pub(crate) fn check<'py>(py: Python<'py>, scenario: &Scenario) -> PyResult<Bound<'py, PyAny>> {
     let plan = interruptible(py, |_| Plan::new(&scenario.read, &scenario.base))?;
     let plan = plan.map_err(|error| raised(py, error))?;
-    let table = PyDict::new(py);
-    table.set_item("grains", plan.grains)?;
-    table.set_item("rays_per_pulse", plan.rays_per_pulse)?;
-    table.set_item("pulses", plan.pulses)?;
-    table.set_item("impacts", plan.impacts)?;
-    table.set_item("steps", plan.steps)?;
-    table.set_item("memory_B", plan.memory)?;
-    table.set_item("disk_B", plan.disk)?;
-    table.set_item("wall_s", plan.seconds)?;
-    table.set_item("quantities", &plan.quantities)?;
-    table.set_item("notes", &plan.notes)?;
+    let table = to_python(py, &plan)?;
     table.set_item("text", plan.to_string())?;
     Ok(table)
 }
@@ -142,6 +111,50 @@ pub(crate) fn report(py: Python<'_>, folder: PathBuf) -> PyResult<(PathBuf, Vec<
         ReportError::NothingThere { .. } => InputError::new_err(error.to_string()),
         ReportError::Record(error) => raised(py, Error::from(error)),
     })
+}
+
+/// What the run, search or study in a folder came to; None where it has not come to its end.
+#[pyfunction]
+pub(crate) fn summary<'py>(py: Python<'py>, folder: PathBuf) -> PyResult<Option<Bound<'py, PyAny>>> {
+    if campaign::is_one(&folder) {
+        return campaign::finished(&folder).map(|summary| to_python(py, &summary)).transpose();
+    }
+    let found = agglo::run::summary(&folder).map_err(|error| raised(py, error))?;
+    found.map(|summary| to_python(py, &summary)).transpose()
+}
+
+/// Whether a folder holds a run, a search or study, or nothing of ours: "run", "campaign" or None; and the file that says what
+/// was asked for.
+#[pyfunction]
+pub(crate) fn what_is_in(folder: PathBuf) -> Option<(&'static str, PathBuf)> {
+    if campaign::is_one(&folder) {
+        return Some(("campaign", CampaignFolder::at(&folder).campaign()));
+    }
+    let scenario = RunFolder::at(&folder).scenario();
+    scenario.is_file().then_some(("run", scenario))
+}
+
+/// Names and files of the tables in a folder.
+#[pyfunction]
+pub(crate) fn tables(folder: PathBuf) -> Vec<(String, PathBuf)> {
+    tables_in(&folder)
+}
+
+/// The columns of a table by their names: numbers where all entries are, with NaN for those that are empty; else words.
+#[pyfunction]
+pub(crate) fn read_table(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyDict>> {
+    let sheet = Sheet::read(&path)
+        .map_err(|reason| Failed::new_err(format!("cannot read {}: {reason}", path.display())))?;
+    let table = PyDict::new(py);
+    for name in &sheet.names {
+        let words = sheet.words(name).unwrap_or_default();
+        let number = |word: &&str| if word.is_empty() { Some(f64::NAN) } else { word.parse().ok() };
+        match words.iter().map(number).collect() {
+            Some(numbers) => table.set_item(name, arrays::scalars(py, numbers))?,
+            None => table.set_item(name, words)?,
+        }
+    }
+    Ok(table)
 }
 
 /// Times [s] and files of a run's frames of a kind.

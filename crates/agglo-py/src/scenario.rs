@@ -11,6 +11,7 @@ use pyo3::types::PyTuple;
 use serde_json::Value as Json;
 
 use crate::error::{InputError, raised};
+use crate::json::to_python;
 use crate::work::unless;
 
 /// A checked scenario. It does not change: `replace` makes another one.
@@ -30,13 +31,18 @@ impl Scenario {
 }
 
 /// A function that turns values of Python into values of a scenario.
-fn helper<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+pub(crate) fn helper<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
     py.import("agglo._settings")?.getattr(name)
 }
 
 /// Settings as `key.path=value`.
-fn lines(py: Python<'_>, settings: Option<Bound<'_, PyAny>>) -> PyResult<Vec<String>> {
+pub(crate) fn lines(py: Python<'_>, settings: Option<Bound<'_, PyAny>>) -> PyResult<Vec<String>> {
     settings.map_or_else(|| Ok(Vec::new()), |settings| helper(py, "lines")?.call1((settings,))?.extract())
+}
+
+/// A folder as Python has it, which writes no path as ".".
+pub(crate) fn folder(given: PathBuf) -> PathBuf {
+    if given == Path::new(".") { PathBuf::new() } else { given }
 }
 
 #[pymethods]
@@ -47,8 +53,7 @@ impl Scenario {
     #[pyo3(signature = (text, settings=None, base=PathBuf::new()))]
     fn new(py: Python<'_>, text: &str, settings: Option<Bound<'_, PyAny>>, base: PathBuf) -> PyResult<Self> {
         let settings = lines(py, settings)?;
-        // As Python writes no path.
-        let base = if base == Path::new(".") { PathBuf::new() } else { base };
+        let base = folder(base);
         let read = Read::from_source(text, &base, &settings).map_err(|faults| raised(py, faults))?;
         Ok(Self { read, base })
     }
@@ -92,6 +97,13 @@ impl Scenario {
         Self::new(py, &self.to_toml(py)?, Some(settings), self.base.clone())
     }
 
+    /// The same with another seed.
+    fn seeded(&self, py: Python<'_>, seed: u64) -> PyResult<Self> {
+        let read = Read { seed, ..self.read.clone() };
+        read.check().map_err(|faults| raised(py, faults))?;
+        Ok(Self { read, base: self.base.clone() })
+    }
+
     /// The scenario as TOML, with every default written out.
     fn to_toml(&self, py: Python<'_>) -> PyResult<String> {
         self.read.to_toml().map_err(|faults| raised(py, faults))
@@ -99,9 +111,7 @@ impl Scenario {
 
     /// The scenario as dicts, with every default written out.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let text =
-            serde_json::to_string(&self.read).map_err(|error| InputError::new_err(error.to_string()))?;
-        py.import("json")?.call_method1("loads", (text,))
+        to_python(py, &self.read)
     }
 
     /// What it is about.

@@ -5,6 +5,7 @@ use std::sync::{Mutex, MutexGuard, TryLockError};
 use std::time::Duration;
 
 use agglo::Error;
+use agglo::acoustics::PulseCount;
 use agglo::engine::{Measures, SimError, Simulation as Engine, hard, soft};
 use agglo::ledger::Balance;
 use agglo::math::Vec3;
@@ -248,20 +249,18 @@ impl Simulation {
         let kind = self.lock(py)?;
         let list = PyList::empty(py);
         for pulse in soft_alone(&kind, "pulses")?.pulses.flight().pulses() {
-            let one = PyDict::new(py);
-            one.set_item("beam", pulse.beam)?;
-            one.set_item("number", pulse.number)?;
-            one.set_item("start_s", pulse.start_s)?;
-            one.set_item("rays", pulse.rays)?;
-            one.set_item("in_flight", pulse.in_flight)?;
-            one.set_item("reflections", pulse.reflections)?;
-            one.set_item("segments", pulse.segments)?;
-            one.set_item("power_in_W", pulse.power_in)?;
-            one.set_item("power_absorbed_W", pulse.power_absorbed)?;
-            one.set_item("power_escaped_W", pulse.power_escaped)?;
+            let one = in_dict(py, pulse)?;
             list.append(one)?;
         }
         Ok(list)
+    }
+
+    /// Launches a pulse of a beam of the scenario now, beside those that it has; soft spheres alone have beams.
+    #[pyo3(signature = (beam=0))]
+    fn pulse(&self, py: Python<'_>, beam: u32) -> PyResult<()> {
+        let mut kind = self.lock(py)?;
+        let Kind::Soft(simulation) = &mut *kind else { return Err(for_soft("pulse")) };
+        simulation.pulse(beam).map_err(|error| InputError::new_err(error.to_string()))
     }
 
     /// Gives soft spheres impulses [N s] at their centers, at once: ids [n], impulses [n, 3]. The ledger has their work.
@@ -330,6 +329,22 @@ impl Simulation {
             self.scenario.read.title
         ))
     }
+}
+
+/// Counts and powers of a pulse.
+pub(crate) fn in_dict<'py>(py: Python<'py>, pulse: &PulseCount) -> PyResult<Bound<'py, PyDict>> {
+    let one = PyDict::new(py);
+    one.set_item("beam", pulse.beam)?;
+    one.set_item("number", pulse.number)?;
+    one.set_item("start_s", pulse.start_s)?;
+    one.set_item("rays", pulse.rays)?;
+    one.set_item("in_flight", pulse.in_flight)?;
+    one.set_item("reflections", pulse.reflections)?;
+    one.set_item("segments", pulse.segments)?;
+    one.set_item("power_in_W", pulse.power_in)?;
+    one.set_item("power_absorbed_W", pulse.power_absorbed)?;
+    one.set_item("power_escaped_W", pulse.power_escaped)?;
+    Ok(one)
 }
 
 fn for_soft(what: &str) -> PyErr {

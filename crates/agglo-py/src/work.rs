@@ -35,9 +35,7 @@ pub(crate) fn pool(_: Python<'_>) -> PyResult<Arc<ThreadPool>> {
     if let Some(found) = held.as_ref().filter(|found| found.process == process && found.wanted == wanted) {
         return Ok(Arc::clone(&found.threads));
     }
-    let made = ThreadPoolBuilder::new().num_threads(wanted).build();
-    let made = made.map_err(|error| RunError::new_err(format!("cannot start {wanted} threads: {error}")))?;
-    let pool = Arc::new(made);
+    let pool = Arc::new(made(wanted)?);
     // A pool of the parent has no threads here that could end.
     if let Some(old) = held.replace(Pool { process, wanted, threads: Arc::clone(&pool) })
         && old.process != process
@@ -45,6 +43,12 @@ pub(crate) fn pool(_: Python<'_>) -> PyResult<Arc<ThreadPool>> {
         std::mem::forget(old.threads);
     }
     Ok(pool)
+}
+
+/// So many threads, or all processors with 0.
+fn made(wanted: usize) -> PyResult<ThreadPool> {
+    let made = ThreadPoolBuilder::new().num_threads(wanted).build();
+    made.map_err(|error| RunError::new_err(format!("cannot start {wanted} threads: {error}")))
 }
 
 /// How many threads simulations use from now on: all processors, or as many as RAYON_NUM_THREADS says, with None. Results have
@@ -73,6 +77,17 @@ pub(crate) fn briefly<R: Send>(py: Python<'_>, work: impl FnOnce() -> R + Send) 
     Ok(py.detach(|| pool.install(work)))
 }
 
+/// As [`interruptible`], on threads of its own: others find the pool free while it goes on and calls functions of Python, which may
+/// want the pool themselves.
+pub(crate) fn interruptible_apart<R: Send>(
+    py: Python<'_>,
+    work: impl FnOnce(&AtomicBool) -> R + Send,
+) -> PyResult<R> {
+    let wanted = *WANTED.lock().unwrap_or_else(PoisonError::into_inner);
+    let threads = made(wanted)?;
+    until_a_signal(py, |stop| threads.install(|| work(stop)))
+}
+
 /// Does something on the pool, without the interpreter's lock. At Ctrl-C the flag that it is given is set; what it comes to
 /// then is dropped, and KeyboardInterrupt raised.
 pub(crate) fn interruptible<R: Send>(
@@ -80,11 +95,16 @@ pub(crate) fn interruptible<R: Send>(
     work: impl FnOnce(&AtomicBool) -> R + Send,
 ) -> PyResult<R> {
     let pool = pool(py)?;
+    until_a_signal(py, |stop| pool.install(|| work(stop)))
+}
+
+/// Does something on another thread; asks the interpreter for signals meanwhile.
+fn until_a_signal<R: Send>(py: Python<'_>, work: impl FnOnce(&AtomicBool) -> R + Send) -> PyResult<R> {
     let stop = AtomicBool::new(false);
     let (send, mut receive) = channel();
     std::thread::scope(|scope| {
-        let (pool, stop) = (&pool, &stop);
-        scope.spawn(move || send.send(pool.install(|| work(stop))));
+        let stop = &stop;
+        scope.spawn(move || send.send(work(stop)));
         let mut asked = None;
         loop {
             let waiting = &mut receive;

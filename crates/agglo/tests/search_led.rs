@@ -135,9 +135,6 @@ fn without_a_program_nothing_is_begun() {
     let own = Campaign::from_toml(&own).unwrap_or_else(|faults| panic!("{faults}"));
     let go_on = &mut |_: &CampaignProgress| ControlFlow::Continue(());
     let error = campaign::run(&own, Path::new(""), &dir, by(March::new(0.1)), go_on).unwrap_err();
-    assert_eq!(
-        error.to_string(),
-        "found method.random; a campaign whose points come from a program outside has method.external"
-    );
+    assert!(error.to_string().starts_with("found method.random; a campaign whose"), "{error}");
     assert!(!dir.exists());
 }

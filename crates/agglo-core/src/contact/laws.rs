@@ -9,6 +9,21 @@ use crate::math::Pace;
 use crate::math::roots::root_between;
 use crate::particles::{Material, Mixture};
 
+/// What the laws of a scenario make of a contact along the line of centers.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Along {
+    /// What the elastic laws make of it; the stiffness only where another law takes it.
+    pub elastic: Elastic,
+    /// Dashpot coefficient [N s/m].
+    pub dashpot: f64,
+    /// Force on each grain, away from the other [N].
+    pub repulsion: f64,
+    /// What is lost [W].
+    pub dissipation: f64,
+    /// What a formula that drives the grains puts in [W].
+    pub driven: f64,
+}
+
 /// The laws of contact of a scenario: what repels, what dissipates, what resists sliding.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -83,6 +98,24 @@ impl ContactLaws {
             }
         }
         elastic
+    }
+
+    /// What the laws make of a contact along the line of centers, whose grains part at `separation` [m/s].
+    #[inline]
+    pub fn along(&self, pair: &PairConstants, geometry: &ContactGeometry, separation: f64) -> Along {
+        let elastic = self.elastic(pair, geometry, self.takes_stiffness());
+        let damping = self.damping.as_ref().filter(|_| geometry.overlap > 0.0);
+        let dashpot = damping.map_or(0.0, |law| law.coefficient(pair, geometry, &elastic));
+        let beyond_rest =
+            self.custom.as_ref().map_or(0.0, |law| law.beyond_rest(pair, geometry, -separation));
+        let lost = -beyond_rest * separation;
+        Along {
+            elastic,
+            dashpot,
+            repulsion: elastic.force - dashpot * separation + beyond_rest,
+            dissipation: dashpot * separation * separation + lost.max(0.0),
+            driven: (-lost).max(0.0),
+        }
     }
 
     /// Energy stored along the line of centers [J].

@@ -28,7 +28,7 @@ pub use damping::Damping;
 pub use elastic::Elastic;
 pub use friction::Friction;
 pub use geometry::{ContactGeometry, lever_arms};
-pub use laws::ContactLaws;
+pub use laws::{Along, ContactLaws};
 pub use normal::Normal;
 pub use pair_constants::PairConstants;
 pub use pairs::PairTable;

@@ -322,25 +322,17 @@ impl<'a> Contact<'a> {
         let (mut repulsion, mut tangential, mut spring) = (0.0, Vec3::ZERO, TangentialSpring::default());
         let is_touching = geometry.overlap > 0.0;
         if let Some(laws) = world.laws {
-            let elastic = laws.elastic(constants, geometry, laws.takes_stiffness());
-            let damping = laws.damping.as_ref().filter(|_| is_touching);
-            let dashpot = damping.map_or(0.0, |law| law.coefficient(constants, geometry, &elastic));
-            repulsion = elastic.force - dashpot * separation;
-            rates.damping += dashpot * separation * separation;
-            if let Some(law) = &laws.custom {
-                let beyond_rest = law.beyond_rest(constants, geometry, -separation);
-                repulsion += beyond_rest;
-                let lost = -beyond_rest * separation;
-                rates.damping += lost.max(0.0);
-                rates.driven += (-lost).max(0.0);
-            }
+            let along = laws.along(constants, geometry, separation);
+            repulsion = along.repulsion;
+            rates.damping += along.dissipation;
+            rates.driven += along.driven;
             if let Some(law) = laws.friction.as_ref().filter(|_| is_touching) {
                 let way = if law.has_memory() { self.way(world, slip) } else { Sliding::default() };
                 let sliding = Sliding {
                     normal: *normal,
                     velocity: slip,
-                    elastic,
-                    normal_dashpot: dashpot,
+                    elastic: along.elastic,
+                    normal_dashpot: along.dashpot,
                     normal_force: repulsion,
                     dt: world.dt,
                     ..way

@@ -162,6 +162,14 @@ pub enum SimError {
         /// Id of one of the grains.
         grain: u32,
     },
+    /// A beam that the scenario has not.
+    #[error("there is no beam {beam}; the scenario has {beams}, numbered from 0")]
+    NoBeam {
+        /// Its number.
+        beam: u32,
+        /// How many there are.
+        beams: usize,
+    },
     /// The grains do not come to rest before the clock starts.
     #[error(
         "start.relax: after {time:.3e} s the fastest grain still moves at {speed:.3e} m/s, more than {limit:.3e} m/s; \

@@ -14,6 +14,7 @@ Quantities are in SI units, and names of arrays end with theirs. Arrays are copi
 
 from agglo._agglo import (
     VERSION as __version__,
+    Campaign,
     Scenario,
     Simulation,
     cite,
@@ -25,7 +26,11 @@ from agglo._agglo import (
     templates,
 )
 from agglo._errors import AggloError, InputError, PackageError, RunError, ScenarioError
-from agglo._results import Run, read, report
+from agglo._fitness import Fitness
+from agglo._gaussian import GaussianProcess
+from agglo._pieces import Trace, contact, reflect, trace
+from agglo._results import Run, report
+from agglo._search import Evaluator, Search, read, search
 from agglo._shapes import to_ase, to_pyvista
 from agglo._start import start
 from agglo._tables import Table
@@ -33,6 +38,10 @@ from agglo._verbs import Plan, check, resume, run, schema, snapshots
 
 __all__ = [
     "AggloError",
+    "Campaign",
+    "Evaluator",
+    "Fitness",
+    "GaussianProcess",
     "InputError",
     "PackageError",
     "Plan",
@@ -40,24 +49,30 @@ __all__ = [
     "RunError",
     "Scenario",
     "ScenarioError",
+    "Search",
     "Simulation",
     "Table",
+    "Trace",
     "__version__",
     "check",
     "cite",
     "collide",
+    "contact",
     "explain",
     "laws",
     "pack",
     "read",
+    "reflect",
     "report",
     "resume",
     "run",
     "schema",
+    "search",
     "set_threads",
     "snapshots",
     "start",
     "templates",
     "to_ase",
     "to_pyvista",
+    "trace",
 ]

@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-import csv
-import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
-
-import numpy as np
-import numpy.typing as npt
 
 from agglo import _agglo, _html, _plots
 from agglo._agglo import Scenario
 from agglo._errors import InputError
 from agglo._optional import need
 from agglo._shapes import Graph, genealogy, sizes, to_ase
-from agglo._tables import Table, column, read_table
+from agglo._tables import Table, table_of
 from agglo._types import Columns, Folder
 
 
@@ -25,39 +20,33 @@ class Run:
 
     def __init__(self, folder: Folder) -> None:
         self.folder = Path(folder)
-        if not (self.folder / "scenario.toml").is_file():
-            raise InputError(f"{self.folder} holds no run: scenario.toml is missing")
+        found = _agglo.what_is_in(self.folder)
+        if found is None or found[0] != "run":
+            raise InputError(f"{self.folder} holds no run")
+        self._asked = Path(found[1])
 
     @property
     def scenario(self) -> Scenario:
         """What was run, with all defaults."""
-        return Scenario.from_file(self.folder / "scenario.toml")
+        return Scenario.from_file(self._asked)
 
     @property
     def summary(self) -> Mapping[str, Any] | None:
         """What the run came to; None as long as it has not reached its end."""
-        file = self.folder / "summary.json"
-        return dict(json.loads(file.read_text(encoding="utf-8"))) if file.is_file() else None
+        return _agglo.summary(self.folder)
 
     @property
     def tables(self) -> list[str]:
-        """Names of the tables over time."""
-        return sorted(file.stem for file in (self.folder / "series").glob("*.csv"))
+        """Names of its tables: those over time, such as "energy", and those of what happened, such as "events"."""
+        return [name for name, _ in _agglo.tables(self.folder)]
 
     def table(self, name: str) -> Table:
-        """A table over time, such as "energy".
+        """A table, such as "energy".
 
         Raises:
             InputError: There is no such table.
         """
-        file = self.folder / "series" / f"{name}.csv"
-        if not file.is_file():
-            raise InputError(f"there is no table {name!r} in {self.folder}; there are {', '.join(self.tables)}")
-        with file.open(encoding="utf-8", newline="") as lines:
-            rows = csv.reader(lines)
-            names = next(rows, [])
-            whole = [row for row in rows if len(row) == len(names)]
-        return Table({name: column([row[at] for row in whole]) for at, name in enumerate(names)})
+        return table_of(self.folder, name)
 
     def frames(self, kind: str = "grains") -> list[tuple[float, Path]]:
         """Times [s] and files of the frames of "grains", "bonds" or "rays"."""
@@ -76,9 +65,9 @@ class Run:
         """What happened, a row for each: bonds that broke or were made; merges and breakages of hard spheres.
 
         Raises:
-            InputError: There is no events.csv.
+            InputError: There is no such table.
         """
-        return self._file("events.csv")
+        return self.table("events")
 
     def kernels(self) -> dict[str, Table]:
         """How often hard spheres collide, merge and break, by classes of size, once the run has come to its end.
@@ -89,7 +78,7 @@ class Run:
         Raises:
             InputError: The run is of soft spheres, or has not come to its end.
         """
-        return {name: self._file(f"{name}.csv") for name in ("kernels", "breakage", "daughters")}
+        return {name: self.table(name) for name in ("kernels", "breakage", "daughters")}
 
     def genealogy(self) -> Graph:
         """Who became part of whom in a run of hard spheres, as a DiGraph of networkx from parents to children.
@@ -102,7 +91,7 @@ class Run:
             PackageError: networkx is not installed.
             InputError: The run is of soft spheres, or has no first frame.
         """
-        return genealogy(self.events(), self._file("genealogy.csv"), self.grains(0)[1])
+        return genealogy(self.events(), self.table("genealogy"), self.grains(0)[1])
 
     def sizes(self, frame: int = -1) -> Table:
         """How many grains of a frame are in each class of size, and their part of the mass.
@@ -162,28 +151,12 @@ class Run:
         except IndexError:
             raise InputError(f"there is no frame {frame} of {kind} in {self.folder}; it has {len(frames)}") from None
 
-    def _file(self, name: str) -> Table:
-        if not (self.folder / name).is_file():
-            kind = "hard" if self.scenario.is_hard else "soft"
-            state = "has" if self.summary is not None else "has not"
-            raise InputError(f"{self.folder} holds no {name}; it is a run of {kind} spheres that {state} come to its end")
-        return read_table(self.folder / name)
-
     def _repr_html_(self) -> str:
         return _html.run(self)
 
     def __repr__(self) -> str:
         state = "finished" if self.summary is not None else "not finished"
         return f"<agglo.Run {str(self.folder)!r}, {state}>"
-
-
-def read(folder: Folder) -> Run:
-    """What stands in the folder of a run.
-
-    Raises:
-        InputError: It holds none.
-    """
-    return Run(folder)
 
 
 def report(folder: Folder) -> Path:

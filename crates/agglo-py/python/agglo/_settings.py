@@ -45,10 +45,19 @@ def lines(settings: Mapping[str, Any] | Iterable[str] | None) -> list[str]:
     if settings is None:
         return []
     if isinstance(settings, Mapping):
-        return [f"{key}={json.dumps(plain(value))}" for key, value in settings.items()]
+        return [f"{key}={toml(plain(value))}" for key, value in settings.items()]
     if isinstance(settings, str):
         return [settings]
     return list(settings)
+
+
+def toml(value: Any) -> str:
+    """A value of JSON as TOML on one line."""
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{json.dumps(key)} = {toml(inner)}" for key, inner in value.items()) + " }"
+    if isinstance(value, list):
+        return "[" + ", ".join(toml(inner) for inner in value) + "]"
+    return json.dumps(value)
 
 
 def tables(given: Mapping[str, Any]) -> str:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import csv
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from agglo import _html
+from agglo import _agglo, _html
+from agglo._errors import InputError
 from agglo._optional import need
 from agglo._types import Folder
 
@@ -50,17 +50,17 @@ class Table(dict[str, npt.NDArray[Any]]):
 
 
 def read_table(file: Path) -> Table:
-    """A table of a run's folder. A last line that is being written is passed over."""
-    with file.open(encoding="utf-8", newline="") as lines:
-        rows = csv.reader(lines)
-        names = next(rows, [])
-        whole = [row for row in rows if len(row) == len(names)]
-    return Table({name: column([row[at] for row in whole]) for at, name in enumerate(names)})
+    """A table of a folder. A last line that is being written is passed over."""
+    return Table({name: np.asarray(values) for name, values in _agglo.read_table(file).items()})
 
 
-def column(texts: list[str]) -> npt.NDArray[Any]:
-    """Numbers where all are; words otherwise."""
-    try:
-        return np.array([float(text) if text else np.nan for text in texts])
-    except ValueError:
-        return np.array(texts)
+def table_of(folder: Path, name: str) -> Table:
+    """The table of this name in a folder.
+
+    Raises:
+        InputError: There is none.
+    """
+    files = dict(_agglo.tables(folder))
+    if name not in files:
+        raise InputError(f"there is no table {name!r} in {folder}; there are {', '.join(files) or 'none'}")
+    return read_table(Path(files[name]))

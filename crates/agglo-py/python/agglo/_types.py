@@ -26,11 +26,25 @@ Folder: TypeAlias = Union[str, "PathLike[str]"]
 
 
 class Progress(TypedDict, total=False):
-    """How far a run is: the simulated time and its end, steps or events so far, what happens now, and new warnings."""
+    """How far a run is: the simulated time and its end, steps or events so far, what happens now, and new warnings.
+
+    Of a search or study: the stage, evaluations so far and at the most, batches, failures, simulations that ended and how many in
+    a second, the best with its standard error, and the wall time that is left.
+    """
 
     time_s: float
     end_s: float
     steps: int
     events: int
     now: str
+    stage: str
+    evaluations: int
+    evaluations_at_most: int | None
+    batches: int
+    failures: int
+    runs: int
+    runs_per_s: float
+    best: float | None
+    best_standard_error: float | None
+    left_s: float | None
     warnings: list[str]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import Executor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,7 +12,9 @@ from typing import Any
 from agglo import _agglo, _html
 from agglo._agglo import Scenario, Simulation
 from agglo._errors import InputError
+from agglo._replicate import Function
 from agglo._results import Run
+from agglo._search import Method, Search, go_on
 from agglo._types import Columns, Folder, Progress
 
 
@@ -45,7 +48,7 @@ def check(scenario: Scenario) -> Plan:
         InputError: The grains cannot be placed.
     """
     found = _agglo.check(scenario)
-    found["quantities"] = dict(found["quantities"])
+    found["quantities"] = {one["label"]: one["value"] for one in found["quantities"]}
     found["notes"] = tuple(found["notes"])
     return Plan(**found)
 
@@ -73,16 +76,34 @@ def run(
 
 
 def resume(
-    folder: Folder, *, until: str | None = None, progress: Callable[[Progress], object] | None = None
-) -> Run:
-    """Goes on with the run in a folder from its newest whole checkpoint, to another end such as "40 s" where one is given.
+    folder: Folder,
+    *,
+    until: str | None = None,
+    executor: Executor | None = None,
+    at_once: int | None = None,
+    method: Method | None = None,
+    function: Function | None = None,
+    progress: Callable[[Progress], object] | None = None,
+) -> Run | Search:
+    """Goes on with what is in a folder, wherever it was begun.
+
+    A run goes on from its newest whole checkpoint, to another end such as "40 s" where `until` is given. A search or study goes on
+    with all simulations that ended; `executor`, `at_once`, `method` and `function` are those of `agglo.search`.
 
     Raises:
-        InputError: There is no such run, or it has come to that time already.
+        InputError: There is nothing to go on with, or it has come to that time already.
         RunError: A step failed, or a file could not be written.
     """
-    _agglo.resume(Path(folder), until, progress)
-    return Run(Path(folder))
+    place = Path(folder)
+    found = _agglo.what_is_in(place)
+    if found is not None and found[0] == "campaign":
+        if until is not None:
+            raise InputError(f"{place} holds a search or study; until is for runs")
+        return go_on(place, executor, at_once, method, function, progress)
+    if executor is not None or at_once is not None or method is not None or function is not None:
+        raise InputError(f"{place} holds no search or study; executor, at_once, method and function are for these")
+    _agglo.resume(place, until, progress)
+    return Run(place)
 
 
 def schema() -> dict[str, Any]:

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use agglo::engine::SimError;
-use agglo::engine::soft::Simulation;
+use agglo::engine::soft::{FirstPulse, Settings, Simulation, Spheres, trace};
 use agglo::math::Vec3;
 use agglo::scenario::Scenario;
 
@@ -147,4 +147,59 @@ fn rays_that_are_dropped_are_told() {
     assert!(told.is_some_and(|(_, times)| *times == u64::from(count.capped)), "{told:?} {count:?}");
     let books = count.power_absorbed + count.power_escaped + count.power_truncated;
     assert_close!(books, count.power_in, 1e-12);
+}
+
+const FLYING: &str = "[\"-5 cm\", \"0 m\", \"0 m\"]";
+
+fn until(simulation: &mut Simulation, time: f64) {
+    while simulation.clock().time < time {
+        common::steps(simulation, 1);
+    }
+}
+
+/// A pulse that is asked for is the one that the scenario would have had at that time, and a restart has it in its state.
+#[test]
+fn a_pulse_that_is_asked_for_is_as_one_of_the_scenario() {
+    let mut planned = common::start(&aimed(FLYING, "0 s", "0.1 ms"), |_| {});
+    // Its own pulse would come after the end.
+    let mut asked = common::start(&aimed(FLYING, "1 s", "0.1 ms"), |_| {});
+    assert!(matches!(asked.pulse(1), Err(SimError::NoBeam { beam: 1, beams: 1 })));
+    asked.pulse(0).unwrap();
+    until(&mut asked, 2e-5);
+    let scenario = common::scenario(&aimed(FLYING, "1 s", "0.1 ms"));
+    let state = postcard::to_stdvec(&asked.state()).unwrap();
+    let mut asked = Simulation::resume(&scenario, postcard::from_bytes(&state).unwrap()).unwrap();
+    common::finish(&mut planned);
+    common::finish(&mut asked);
+    assert!(planned.pulses.counts()[0].reflections > 300, "the pulse hits the first grain");
+    assert_eq!(asked.pulses.counts(), planned.pulses.counts());
+    let bits = |simulation: &Simulation| format!("{:?}", simulation.system.grains.velocity);
+    assert_eq!(bits(&asked), bits(&planned));
+    // The next one is another, with its own places of rays.
+    asked.pulse(0).unwrap();
+    let numbers: Vec<u32> = asked.pulses.counts().iter().map(|count| count.number).collect();
+    assert_eq!((numbers, asked.pulses.scheduled()), (vec![0, 1], 2));
+}
+
+/// Rays traced at once have the hits of rays that fly in steps among grains held still.
+#[test]
+fn a_traced_pulse_kicks_as_one_that_flies() {
+    let scenario = common::scenario(&aimed(FLYING, "0 s", "0.1 ms"));
+    let settings = Settings::try_from(&scenario).unwrap();
+    let grains = common::grains(&scenario, |_| {});
+    let spheres = Spheres { position: &grains.position, radius: &grains.radius, material: &grains.material };
+    let traced = trace(&settings, spheres, 0, 0).unwrap();
+    assert!(traced.are_impulses && traced.hits.len() as u64 == traced.count.reflections);
+    let mut impulse = vec![Vec3::ZERO; grains.len()];
+    for (hit, load) in traced.hits.iter().zip(&traced.loads) {
+        impulse[hit.grain as usize] += *load;
+    }
+    let mass = grains.mass.clone();
+    let (flown, _) = FirstPulse::of(&settings, grains, 0, u32::MAX);
+    assert_eq!(traced.count.reflections, flown.count.reflections);
+    for ((impulse, mass), kick) in impulse.iter().zip(mass).zip(&flown.kicks) {
+        // Sums of some hundred hits in another order.
+        assert_near!((*impulse - *kick * mass).norm(), 0.0, 1e-12 * impulse.norm());
+    }
+    assert!(matches!(trace(&settings, spheres, 4, 0), Err(SimError::NoBeam { beam: 4, beams: 1 })));
 }

@@ -24,7 +24,7 @@ pub use forces::laws::Laws;
 pub use forces::loads::{LoadViews, Loads};
 pub use forces::truncation::{Truncation, truncation};
 pub use hook::{Hook, Scene};
-pub use rays::{FirstPulse, Pulses};
+pub use rays::{FirstPulse, Pulses, Spheres, Traced, trace};
 pub use relax::{RestWatch, Resting};
 pub use settings::{Relaxation, Settings};
 pub use simulation::{Clock, Simulation, SimulationState};

@@ -1,5 +1,6 @@
 //! What a caller does to the grains of a simulation: hooks and kicks.
 
+use crate::engine::SimError;
 use crate::ledger::Supply;
 use crate::math::Vec3;
 
@@ -47,6 +48,16 @@ impl Simulation {
         // Dashpots and drag are others now.
         system.evaluate_again(self.clock.time, self.clock.next_step);
         self.shorten_step();
+    }
+
+    /// Launches a pulse of beam number `beam` now, beside those that the scenario has; its rays scatter as those of no other. It is
+    /// gone on with after [`Simulation::resume`] as any other.
+    ///
+    /// # Errors
+    /// [`SimError::NoBeam`] where there is no such beam.
+    pub fn pulse(&mut self, beam: u32) -> Result<(), SimError> {
+        let now = self.clock.time;
+        self.pulses.launch_now(beam, &self.system.grains, now, self.end(), &mut self.warnings)
     }
 
     /// Looks at the laws again, and takes a shorter automatic step if they ask for it.

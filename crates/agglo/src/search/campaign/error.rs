@@ -68,7 +68,10 @@ pub enum CampaignError {
     )]
     NoProposer,
     /// A program outside proposes points for a campaign that has a method.
-    #[error("found {found}; a campaign whose points come from a program outside has method.external")]
+    #[error(
+        "found {found}; a campaign whose points come from a program outside has method.external, such as `campaign.led(200)` in \
+         Python"
+    )]
     OwnMethod {
         /// What it has, such as "method.cma_es".
         found: String,

@@ -3,7 +3,9 @@
 mod first_pulse;
 mod flight;
 mod pulses;
+mod trace;
 
 pub use first_pulse::FirstPulse;
 pub(super) use pulses::PulseState;
 pub use pulses::Pulses;
+pub use trace::{Spheres, Traced, trace};

@@ -6,12 +6,14 @@
 use serde::{Deserialize, Serialize};
 
 use crate::acoustics::fresnel::Interface;
-use crate::acoustics::{ALLOWANCE, Acoustics, Beam, Flight, Impedance, Medium, PulseCount, Targets, Tracer};
+use crate::acoustics::{
+    self, ALLOWANCE, Acoustics, Beam, Flight, Impedance, Medium, PulseCount, Targets, Tracer,
+};
 use crate::engine::validate::{Fault, ensure, length};
 use crate::engine::{Moment, SimError, Warnings};
 use crate::math::Vec3;
 use crate::particles::Particles;
-use crate::units::Velocity;
+use crate::units::{Quantity, Velocity};
 
 use super::flight::validate_flight;
 use crate::engine::soft::settings::Settings;
@@ -31,6 +33,8 @@ struct Launch {
 pub struct PulseState {
     flight: Flight,
     launched: usize,
+    /// Pulses that were asked for besides.
+    asked: usize,
     ray_time: f64,
     /// Mean radius of the grains at the start [m].
     mean_radius: f64,
@@ -45,16 +49,17 @@ pub struct Pulses {
     hit_grains: Vec<u32>,
 }
 
+/// What is the same for all pulses.
 #[derive(Debug)]
-struct Setup {
-    acoustics: Acoustics,
-    medium: Medium,
-    seed: u64,
-    tracer: Tracer,
+pub(super) struct Setup {
+    pub acoustics: Acoustics,
+    pub medium: Medium,
+    pub seed: u64,
+    pub tracer: Tracer,
     /// Impedances of the materials, by number.
-    impedances: Vec<Impedance>,
+    pub impedances: Vec<Impedance>,
     /// How long a hit presses [s].
-    duration: f64,
+    pub duration: f64,
 }
 
 /// Grains that were hit are made a list without doubles whenever it is as long as this.
@@ -71,7 +76,7 @@ impl PulseState {
             "pulses: not finite".to_owned()
         })?;
         let pulses = self.flight.pulses().len();
-        length("pulses that have started", self.launched, pulses)?;
+        length("pulses that have started", self.launched.saturating_add(self.asked), pulses)?;
         validate_flight(&self.flight, settings, n)?;
         let due = schedule(settings).len();
         ensure(self.launched <= due, || format!("{} pulses have started of {due}", self.launched))
@@ -79,7 +84,7 @@ impl PulseState {
 }
 
 impl Setup {
-    fn new(settings: &Settings, radius: f64) -> Option<Self> {
+    pub fn new(settings: &Settings, radius: f64) -> Option<Self> {
         let acoustics = settings.acoustics.clone()?;
         let medium = settings.medium.clone();
         let materials = || {
@@ -101,6 +106,29 @@ impl Setup {
             acoustics,
             medium,
         })
+    }
+}
+
+impl Setup {
+    /// Warns of rays that start in grains, and of a pulse that comes to nothing in the time that is left [s].
+    fn warn_of_launch(
+        &self,
+        beam: u32,
+        grains: &Particles,
+        blocked: Option<(u32, u32)>,
+        left: f64,
+        warnings: &mut Warnings,
+    ) {
+        if let Some((rays, _)) = blocked {
+            let text = format!(
+                "acoustics.beams.{beam}: rays of a pulse would have started inside a grain; they were dropped"
+            );
+            warnings.add_times(&text, u64::from(rays));
+        }
+        let arrival = self.acoustics.beams[beam as usize].first_hit(&grains.position, &grains.radius);
+        if let Some(text) = warning_of_launch(beam, arrival, self.medium.sound_speed.si(), left) {
+            warnings.add(&text);
+        }
     }
 }
 
@@ -161,10 +189,10 @@ impl Pulses {
 
     /// When the latest pulse started [s], from its launch until its rays are gone.
     pub fn since(&self, now: f64) -> Option<f64> {
-        let (launched, coming) = self.schedule.split_at(self.state.launched);
-        let due = coming.first().filter(|launch| launch.time <= now);
-        let latest = || launched.last().filter(|_| !self.state.flight.rays().is_empty());
-        due.or_else(latest).map(|launch| launch.time)
+        let due = self.schedule[self.state.launched..].first().filter(|launch| launch.time <= now);
+        let flight = &self.state.flight;
+        let latest = || flight.pulses().last().filter(|_| !flight.rays().is_empty());
+        due.map(|launch| launch.time).or_else(|| latest().map(|pulse| pulse.start_s))
     }
 
     /// Longest step [s] from `now` that the rays allow.
@@ -197,25 +225,39 @@ impl Pulses {
             let (beam, flight) = (&setup.acoustics.beams[launch.beam as usize], &mut self.state.flight);
             flight.launch(beam, &setup.medium, setup.seed, launch.beam, launch.pulse);
             self.state.launched += 1;
-            let targets = targets(grains, &setup.medium);
-            if let Some((rays, grain)) = setup.tracer.drop_blocked(flight, &targets) {
-                let beam = launch.beam;
-                if moment.step <= 1 {
-                    let grain = grains.id[grain as usize];
-                    return Err(SimError::BeamInGrain { at: moment.clone(), beam, rays, grain });
-                }
-                let text = format!(
-                    "acoustics.beams.{beam}: rays of a pulse would have started inside a grain; they were dropped"
-                );
-                warnings.add_times(&text, u64::from(rays));
+            let blocked = setup.tracer.drop_blocked(flight, &targets(grains, &setup.medium));
+            if let Some((rays, grain)) = blocked.filter(|_| moment.step <= 1) {
+                let grain = grains.id[grain as usize];
+                return Err(SimError::BeamInGrain { at: moment.clone(), beam: launch.beam, rays, grain });
             }
-            let arrival = beam.first_hit(targets.positions, targets.radii);
-            if let Some(text) =
-                warning_of_launch(launch.beam, arrival, setup.medium.sound_speed.si(), end - now)
-            {
-                warnings.add(&text);
-            }
+            setup.warn_of_launch(launch.beam, grains, blocked, end - now, warnings);
         }
+        Ok(())
+    }
+
+    /// Launches a pulse of a beam now, which is not among those that the scenario has; its rays scatter as those of no other.
+    pub fn launch_now(
+        &mut self,
+        beam: u32,
+        grains: &Particles,
+        now: f64,
+        end: f64,
+        warnings: &mut Warnings,
+    ) -> Result<(), SimError> {
+        let beams = self.setup.as_ref().map_or(0, |setup| setup.acoustics.beams.len());
+        let Some(setup) = self.setup.as_mut().filter(|_| (beam as usize) < beams) else {
+            return Err(SimError::NoBeam { beam, beams });
+        };
+        let of_beam = |launch: &&Launch| launch.beam == beam;
+        let asked = self.state.flight.pulses().iter().filter(|pulse| pulse.beam == beam).count()
+            - self.schedule[..self.state.launched].iter().filter(of_beam).count();
+        let pulse = (self.schedule.iter().filter(of_beam).count() + asked) as u32;
+        let mut once = setup.acoustics.beams[beam as usize].clone();
+        once.pulses = acoustics::Pulses { first: Quantity(now), period: None, count: 1 };
+        self.state.flight.launch(&once, &setup.medium, setup.seed, beam, pulse);
+        self.state.asked += 1;
+        let blocked = setup.tracer.drop_blocked(&mut self.state.flight, &targets(grains, &setup.medium));
+        setup.warn_of_launch(beam, grains, blocked, end - now, warnings);
         Ok(())
     }
 
@@ -306,9 +348,9 @@ impl Pulses {
         &self.state.flight
     }
 
-    /// How many pulses there will be.
+    /// How many pulses there will be, with those that were asked for so far.
     pub fn scheduled(&self) -> usize {
-        self.schedule.len()
+        self.schedule.len() + self.state.asked
     }
 
     /// The beams.
