@@ -79,8 +79,10 @@ def test_notebooks_show_tables_plans_and_grains(soft):  # noqa: F811
     plan = agglo.check(soft.scenario)
     assert html.unescape(plan._repr_html_()) == f"<pre>{plan.text}</pre>"
     grains = {
-        "position_m": np.array([[0.0, 1.0, 0.0], [2.0, 0.0, 4.0]]), "radius_m": np.array([1.0, 1.0]), "velocity_m_s": np.array([[0.0, 0, 0], [3.0, 0, 4]]),
-    }  # fmt: skip
+        "position_m": np.array([[0.0, 1.0, 0.0], [2.0, 0.0, 4.0]]),
+        "radius_m": np.array([1.0, 1.0]),
+        "velocity_m_s": np.array([[0.0, 0.0, 0.0], [3.0, 0.0, 4.0]]),
+    }
     picture = agglo._html.grains(grains)
     circles = re.findall(r"cx='([\d.]+)' cy='([\d.]+)' r='([\d.]+)' fill='(#\w+)'", picture)
     # 6 m high, of which 2 to 398 are drawn; the one that is farther along y is behind, so it comes first.

@@ -121,6 +121,19 @@ def test_events_and_kernels_are_tables(soft, hard):
         soft.genealogy()
 
 
+def test_bonds_and_rays_of_a_frame(soft):
+    _, bonds = soft.bonds(0)
+    assert len(bonds["grain_i"]) == soft.summary["bonds_start"] and np.all(bonds["grain_i"] < bonds["grain_j"])
+    assert bonds["stretch"] == pytest.approx(0.0, abs=1e-12)
+    time_s, rays = soft.rays(1)
+    table = soft.table("rays")
+    row = np.argmin(np.abs(table["time_s"] - time_s))
+    assert len(rays["power_W"]) == table["in_flight"][row] > 0 and rays["position_m"].shape == rays["direction"].shape
+    assert rays["power_W"].sum() == pytest.approx(table["flying_magnitude"][row] * table["power_in_W"][row], rel=1e-9)
+    with pytest.raises(agglo.InputError, match="no frame 99 of rays"):
+        soft.rays(99)
+
+
 def test_parquet_brings_back_the_same_bits(hard, tmp_path):
     files = pytest.importorskip("pyarrow.parquet")
     for name, table in [("energy", hard.table("energy")), ("events", hard.events())]:

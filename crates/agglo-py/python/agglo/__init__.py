@@ -29,6 +29,7 @@ from agglo._errors import AggloError, InputError, PackageError, RunError, Scenar
 from agglo._fitness import Fitness
 from agglo._gaussian import GaussianProcess
 from agglo._pieces import Trace, contact, reflect, trace
+from agglo._plots import style as plot_style
 from agglo._results import Run, report
 from agglo._search import Evaluator, Search, read, search
 from agglo._shapes import to_ase, to_pyvista
@@ -61,6 +62,7 @@ __all__ = [
     "explain",
     "laws",
     "pack",
+    "plot_style",
     "read",
     "reflect",
     "report",

@@ -49,7 +49,18 @@ LOOK = {
     "xtick.color": INK,
     "ytick.color": INK,
 }
-"""Settings of matplotlib that make charts look as those of the report."""
+
+
+def style() -> dict[str, Any]:
+    """Settings of matplotlib with which charts look as those of the report, for `matplotlib.rc_context`.
+
+    Lines with the same number have the same color and dashes.
+
+    Raises:
+        PackageError: matplotlib is not installed.
+    """
+    colors, dashes = zip(*LINES)
+    return {**LOOK, "axes.prop_cycle": need("matplotlib", "plot_style").cycler(color=colors, linestyle=dashes)}
 
 
 @dataclass(frozen=True)

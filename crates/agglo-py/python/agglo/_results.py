@@ -61,6 +61,26 @@ class Run:
         time, file = self._frame(frame, "grains")
         return time, _agglo.read_frame(file)
 
+    def bonds(self, frame: int = -1) -> tuple[float, Columns]:
+        """The time [s] and the bonds of a frame of soft spheres: `grain_i`, `grain_j` [m] (ids, the lower first) and `stretch` [m].
+
+        `stretch` is the length over the first length, less 1. Besides, `id` [n] and `position_m` [n, 3] are those of all grains.
+
+        Raises:
+            InputError: There is no such frame, or the run began without bonds.
+        """
+        time, file = self._frame(frame, "bonds")
+        return time, _agglo.read_frame(file)
+
+    def rays(self, frame: int = -1) -> tuple[float, Columns]:
+        """The time [s] and the rays in flight of a frame: `position_m`, `direction` [m, 3] and `power_W` [m].
+
+        Raises:
+            InputError: There is no such frame, or the run is without beams.
+        """
+        time, file = self._frame(frame, "rays")
+        return time, _agglo.read_frame(file)
+
     def events(self) -> Table:
         """What happened, a row for each: bonds that broke or were made; merges and breakages of hard spheres.
 
