@@ -22,7 +22,7 @@ import measure  # noqa: E402
 from test_defaults import SCENARIO  # noqa: E402
 
 WANTED = {
-    "README", "CHANGELOG", "convergence", "differences", "embedding", "files", "gallery", "performance", "pictures", "report", "search",
+    "README", "CHANGELOG", "cluster", "convergence", "differences", "embedding", "files", "gallery", "performance", "pictures", "report", "search",
     "validation", "validity", "watch", *(f"tutorials/{path.stem}" for path in (ROOT / "docs/tutorials").glob("*.md")),
 }  # fmt: skip
 
