@@ -86,6 +86,9 @@ pub(crate) enum Verb {
     Cite {
         /// The run's folder
         folder: PathBuf,
+        /// As entries for BibTeX
+        #[arg(long)]
+        bibtex: bool,
     },
     /// Go on with a run from its newest whole checkpoint, or with a search or study
     Resume(ResumeOptions),

@@ -73,7 +73,7 @@ fn act(verb: Verb) -> Result<(), Failure> {
         Verb::Man { output } => manuals::man(output.as_deref()),
         Verb::Schema { search } => print(&format!("{:#}", if search { campaign_schema() } else { schema() })),
         Verb::Report { folder } => report::report(&folder),
-        Verb::Cite { folder } => report::cite(&folder),
+        Verb::Cite { folder, bibtex } => report::cite(&folder, bibtex),
         Verb::Run(options) => run::run(&options),
         Verb::Search(options) => search::conduct(&options, Kind::Search, None),
         Verb::Study(options) => search::study(&options),

@@ -59,11 +59,14 @@ pub(crate) fn report(folder: &Path) -> Result<(), Failure> {
     print(&lines.collect::<Vec<_>>().join("\n"))
 }
 
-/// Prints what to cite for a run's folder.
-pub(crate) fn cite(folder: &Path) -> Result<(), Failure> {
+/// Prints what to cite for a run's folder, in words or for BibTeX.
+pub(crate) fn cite(folder: &Path, is_bibtex: bool) -> Result<(), Failure> {
     let file = RunFolder::at(folder).scenario();
     let scenario = Scenario::load(&file).map_err(|error| Failure::bad_input(format!("error: {error}")))?;
     let laws = report::citations(&scenario);
+    if is_bibtex {
+        return print(report::bibtex(&laws).trim_end());
+    }
     let lines =
         laws.iter().map(|citation| format!("{}: {}\n  {}", citation.law, citation.title, citation.source));
     print(&format!("{}\n\n{}", report::program(), lines.collect::<Vec<_>>().join("\n")))

@@ -30,7 +30,7 @@ mod _agglo {
     #[pymodule_export]
     use super::laws::{contact, reflect, trace};
     #[pymodule_export]
-    use super::pages::{cite, explain, laws, schema, templates};
+    use super::pages::{bibtex, cite, explain, laws, schema, templates};
     #[pymodule_export]
     use super::pieces::{collide, pack};
     #[pymodule_export]

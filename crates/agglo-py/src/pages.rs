@@ -1,11 +1,11 @@
 //! What laws say of themselves, templates, schemas and citations.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use agglo::folder::RunFolder;
 use agglo::pages::all;
 use agglo::scenario::{Scenario, TEMPLATES};
-use agglo_view::report::citations;
+use agglo_view::report::{Citation, citations};
 use pyo3::prelude::*;
 
 use crate::error::{InputError, raised};
@@ -40,7 +40,17 @@ pub(crate) fn schema() -> String {
 /// What to cite for the laws of a run: word, title, source.
 #[pyfunction]
 pub(crate) fn cite(py: Python<'_>, folder: PathBuf) -> PyResult<Vec<(&'static str, String, String)>> {
-    let scenario = Scenario::load(&RunFolder::at(&folder).scenario()).map_err(|error| raised(py, error))?;
-    let found = citations(&scenario);
+    let found = of_folder(py, &folder)?;
     Ok(found.into_iter().map(|one| (one.law, one.title.to_owned(), one.source)).collect())
+}
+
+/// The same as entries for BibTeX, with those of the program and of the papers whose model is computed.
+#[pyfunction]
+pub(crate) fn bibtex(py: Python<'_>, folder: PathBuf) -> PyResult<String> {
+    Ok(agglo_view::report::bibtex(&of_folder(py, &folder)?))
+}
+
+fn of_folder(py: Python<'_>, folder: &Path) -> PyResult<Vec<Citation>> {
+    let scenario = Scenario::load(&RunFolder::at(folder).scenario()).map_err(|error| raised(py, error))?;
+    Ok(citations(&scenario))
 }

@@ -138,6 +138,11 @@ impl Scenario {
         self.base.clone()
     }
 
+    /// What a notebook shows.
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("agglo._html")?.getattr("scenario")?.call1((slf,))
+    }
+
     fn __repr__(&self) -> String {
         let kind = if self.read.is_hard() { "hard" } else { "soft" };
         format!("<agglo.Scenario {:?}, {kind} spheres, {} s>", self.read.title, self.read.time.end.si())

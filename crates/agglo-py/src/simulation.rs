@@ -322,6 +322,11 @@ impl Simulation {
         self.fallen.raise(py)
     }
 
+    /// What a notebook shows.
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("agglo._html")?.getattr("simulation")?.call1((slf,))
+    }
+
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
         let (time, end, steps) = (self.time_s(py)?, self.end_s(py)?, self.steps(py)?);
         Ok(format!(

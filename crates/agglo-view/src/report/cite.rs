@@ -25,6 +25,8 @@ pub struct Paper {
     pub label: &'static str,
     title: &'static str,
     place: &'static str,
+    /// Key, journal, volume, first page and year for BibTeX.
+    entry: [&'static str; 5],
 }
 
 /// The papers that stand behind the models.
@@ -34,11 +36,13 @@ pub const PAPERS: [Paper; 2] = [
         title: "A discrete element and ray framework for rapid simulation of acoustical dispersion of microscale \
                 particulate agglomerations",
         place: "Comput. Mech. 57, 465 (2016)",
+        entry: ["zohdi2016", "Computational Mechanics", "57", "465", "2016"],
     },
     Paper {
         label: "[B]",
         title: "A computational framework for agglomeration in thermochemically reacting granular flows",
         place: "Proc. R. Soc. Lond. A 460, 3421 (2004)",
+        entry: ["zohdi2004", "Proceedings of the Royal Society of London. Series A", "460", "3421", "2004"],
     },
 ];
 
@@ -75,6 +79,46 @@ fn citation(page: &'static Page) -> Option<Citation> {
 /// How to cite the program.
 pub fn program() -> String {
     format!("The agglo developers, agglo {} (software).", env!("CARGO_PKG_VERSION"))
+}
+
+/// The same for BibTeX: the program, the papers whose model is computed, and the sources of laws as they stand.
+pub fn bibtex(found: &[Citation]) -> String {
+    let mut entries = vec![format!(
+        "@software{{agglo,\n  author = {{{{The agglo developers}}}},\n  title = {{agglo}},\n  version = {{{}}}\n}}",
+        env!("CARGO_PKG_VERSION")
+    )];
+    let is_named = |paper: &&Paper| found.iter().any(|one| one.source.contains(&paper.whole()));
+    entries.extend(PAPERS.iter().filter(is_named).map(|paper| {
+        let [key, journal, volume, page, year] = paper.entry;
+        format!(
+            "@article{{{key},\n  author = {{Zohdi, T. I.}},\n  title = {{{}}},\n  journal = {{{journal}}},\n  volume = \
+             {{{volume}}},\n  pages = {{{page}}},\n  year = {{{year}}}\n}}",
+            paper.title
+        )
+    }));
+    entries.extend(found.iter().map(|one| {
+        let (title, source) = (in_tex(one.title), in_tex(&one.source));
+        format!("@misc{{agglo-{},\n  title = {{{{{title}}}}},\n  note = {{{source}}}\n}}", one.law)
+    }));
+    entries.join("\n\n") + "\n"
+}
+
+/// A text in which nothing is a command of TeX.
+fn in_tex(text: &str) -> String {
+    let mut safe = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '\\' => safe.push_str("\\textbackslash{}"),
+            '~' => safe.push_str("\\textasciitilde{}"),
+            '^' => safe.push_str("\\textasciicircum{}"),
+            '&' | '%' | '$' | '#' | '_' | '{' | '}' => {
+                safe.push('\\');
+                safe.push(c);
+            }
+            _ => safe.push(c),
+        }
+    }
+    safe
 }
 
 /// The laws that a scenario uses with their sources, in the order of the code.
@@ -178,6 +222,23 @@ mod tests {
         assert_has_not!(hard, &"work");
         assert_has!(laws("reacting-published"), &"work");
         assert!(!hard.contains(&"constant") && !hard.contains(&"restitution"), "{hard:?}");
+    }
+
+    #[test]
+    fn entries_for_bibtex_are_whole_and_safe() {
+        let scenario = Scenario::from_toml(template("reacting").unwrap().text).unwrap();
+        let found = citations(&scenario);
+        let text = bibtex(&found);
+        assert_has!(text.lines().collect::<Vec<_>>(), &"@article{zohdi2004,");
+        assert!(!text.contains("zohdi2016"), "the other paper is not computed");
+        assert_eq!(text.matches("@misc{agglo-").count(), found.len());
+        let depth = |text: &str| text.matches('{').count() as i64 - text.matches('}').count() as i64;
+        let plain = text.replace("\\{", "").replace("\\}", "");
+        assert!(plain.split("\n\n").all(|entry| depth(entry) == 0), "{text}");
+        assert_eq!(
+            in_tex("a_b & 5 % {x^2}~\\"),
+            "a\\_b \\& 5 \\% \\{x\\textasciicircum{}2\\}\\textasciitilde{}\\textbackslash{}"
+        );
     }
 
     #[test]

@@ -19,7 +19,7 @@ mod testing;
 
 use std::path::{Path, PathBuf};
 
-pub use cite::{Citation, citations, program};
+pub use cite::{Citation, bibtex, citations, program};
 pub use listing::Line;
 pub use replay::Replay;
 
