@@ -145,7 +145,7 @@ pub struct Pulses {
     /// From one start to the next; needed for more than one pulse.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub period: Option<Time>,
-    /// How many.
+    /// How many; none but those that a program asks for with 0.
     #[serde(default = "one")]
     pub count: u32,
 }
