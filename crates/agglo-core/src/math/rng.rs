@@ -46,6 +46,8 @@ pub enum Purpose {
     Start = 8,
     /// Sizes of the fragments of agglomerates that break.
     FragmentSize = 9,
+    /// Where primaries go that a merged grain is taken apart into.
+    Primaries = 10,
 }
 
 /// An endless sequence of random numbers that belongs to (seed, purpose, part).

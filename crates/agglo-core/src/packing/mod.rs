@@ -1,5 +1,6 @@
 //! Where grains are, and how large, when the clock starts.
 
+mod cluster;
 mod error;
 mod group;
 mod lattice;
@@ -7,12 +8,15 @@ mod occupied;
 mod overlap;
 mod place;
 mod placement;
+mod pockets;
 mod random;
 mod room;
 mod size;
+mod spread;
 mod velocity;
 mod watch;
 
+pub use cluster::{PackedCluster, pack_cluster};
 pub use error::{PackingError, SATURATION};
 pub use group::{GrainGroup, Groups, SphereKind};
 pub use overlap::{Overlap, first_overlap};
@@ -20,6 +24,7 @@ pub use place::{make_ready, place, place_groups, place_groups_watched};
 pub use placement::{Fill, GrainList, Lattice, LatticeKind, Placement, RandomAddition, Table, TableGrain};
 pub use random::fill_with;
 pub use size::{ConstantSize, LengthRatio, LognormalSize, Size, SizeTable, UniformSize};
+pub use spread::least_spread;
 pub use velocity::{Maxwell, UniformSpread, VelocitySpread};
 pub use watch::{PlaceWatch, ReadTable};
 
