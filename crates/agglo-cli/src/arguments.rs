@@ -75,6 +75,9 @@ pub(crate) enum Verb {
     Study(StudyOptions),
     /// Put the parts of a study (study --part) together into one folder, as one process would have written it
     Join(JoinOptions),
+    /// Hand a run over to the other kind of spheres: a scenario in which grown grains are packed of their primaries, or clusters
+    /// are one grain each
+    HandOver(crate::hand_over::HandOverOptions),
     /// Draw a run: a picture, numbered pictures or a movie
     Render(Box<crate::render::RenderOptions>),
     /// Write report.html into the folder of a run, search or study: replay, charts, quantities; opens offline

@@ -12,6 +12,7 @@ mod brake;
 mod campaign_plan;
 mod explain;
 mod failure;
+mod hand_over;
 mod json;
 mod laws;
 mod manuals;
@@ -78,6 +79,7 @@ fn act(verb: Verb) -> Result<(), Failure> {
         Verb::Search(options) => search::conduct(&options, Kind::Search, None),
         Verb::Study(options) => search::study(&options),
         Verb::Join(options) => search::join(&options),
+        Verb::HandOver(options) => hand_over::hand_over(&options),
         #[cfg(feature = "watch")]
         Verb::Watch { folder } => watch::watch(&folder),
         Verb::Render(options) => render::render(&options),

@@ -88,6 +88,11 @@ impl Source {
         }
     }
 
+    /// A text of the program's own.
+    pub(crate) fn of_text(shown: &str, text: &str) -> Self {
+        Self { shown: shown.to_owned(), base: PathBuf::new(), text: text.to_owned() }
+    }
+
     /// What it is meant to be, told from its text without reading it closely.
     pub(crate) fn kind(&self) -> Kind {
         if !Campaign::is_meant_by(&self.text) {

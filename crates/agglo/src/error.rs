@@ -5,6 +5,7 @@ use thiserror::Error;
 use crate::engine::SimError;
 use crate::engine::hard::EmbeddedError;
 use crate::folder::FolderError;
+use crate::hand_over::HandOverError;
 use crate::packing::{PackingError, StartError, TableError};
 use crate::record::RecordError;
 use crate::run::RunError;
@@ -61,6 +62,9 @@ pub enum Error {
     /// A run ended early.
     #[error(transparent)]
     Run(#[from] RunError),
+    /// A run could not be handed over.
+    #[error(transparent)]
+    HandOver(#[from] HandOverError),
     /// A search or study ended early.
     #[error(transparent)]
     Campaign(#[from] CampaignError),
@@ -80,6 +84,7 @@ impl Error {
             Self::Simulation(_) | Self::Record(_) => 1,
             Self::Folder(error) => error.exit_code(),
             Self::Run(error) => error.exit_code(),
+            Self::HandOver(error) => error.exit_code(),
             Self::Campaign(error) => error.exit_code(),
         }
     }

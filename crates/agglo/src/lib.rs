@@ -54,6 +54,7 @@
 //! | run it into a folder, or without one        | [`run`]                                                            |
 //! | read what a run has written                 | [`folder`], [`record`]                                             |
 //! | search for the best conditions, or study    | [`search`]                                                         |
+//! | let agglomerates grow, then disperse them   | [`hand_over`]                                                      |
 //! | drive grains step by step                   | [`engine`], [`packing`]                                            |
 //! | use a law alone                             | [`contact`], [`fields`], [`impact`], [`acoustics`]                 |
 //! | measure clusters, shapes, pairs             | [`measure`]                                                        |
@@ -87,6 +88,7 @@ pub mod record;
 pub mod folder;
 
 pub mod forecast;
+pub mod hand_over;
 pub mod run;
 pub mod scenario;
 

@@ -15,6 +15,7 @@ mod end;
 mod folders;
 mod foreign;
 mod from;
+mod hand_over;
 mod hard;
 mod hostile;
 mod json;

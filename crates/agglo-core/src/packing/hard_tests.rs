@@ -217,12 +217,7 @@ fn velocities_do_not_depend_on_other_groups() {
 
 #[test]
 fn rows_with_velocities_and_temperatures_of_their_own_keep_them() {
-    let bare = |x: f64| TableGrain {
-        position: Vec3::new(x, 0.0, 0.0),
-        radius: None,
-        velocity: None,
-        temperature: None,
-    };
+    let bare = |x: f64| TableGrain { position: Vec3::new(x, 0.0, 0.0), ..TableGrain::default() };
     let own = |x: f64, velocity: Vec3, temperature: f64| TableGrain {
         velocity: Some(velocity),
         temperature: Some(temperature),

@@ -35,28 +35,31 @@ pub fn place_groups<'a>(
     groups: impl Into<Groups<'a>>,
     read: &mut ReadTable<'_>,
 ) -> Result<(Particles, Vec<u64>), PackingError> {
-    place_groups_watched(groups, read, &mut || ControlFlow::Continue(()))
+    place_all(groups, read, &mut || ControlFlow::Continue(())).map(|placed| (placed.grains, placed.counts))
 }
 
-/// As [`place_groups`]; `watch` may stop it.
+/// Grains as they were placed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Placed {
+    /// The grains.
+    pub grains: Particles,
+    /// How many each group has [groups]; those of a group follow one another.
+    pub counts: Vec<u64>,
+    /// How many primary grains each is made of [n]: 1, but for hard spheres of a table that says otherwise.
+    pub primaries: Vec<u32>,
+}
+
+/// As [`place`], with all that is known of the grains; `watch` may stop it.
 ///
 /// # Errors
 /// As for [`place`], and [`PackingError::Stopped`].
-pub fn place_groups_watched<'a>(
+pub fn place_all<'a>(
     groups: impl Into<Groups<'a>>,
     read: &mut ReadTable<'_>,
     watch: &mut PlaceWatch<'_>,
-) -> Result<(Particles, Vec<u64>), PackingError> {
-    place_all(&groups.into(), read, watch)
-}
-
-fn place_all(
-    asked: &Groups<'_>,
-    read: &mut ReadTable<'_>,
-    watch: &mut PlaceWatch<'_>,
-) -> Result<(Particles, Vec<u64>), PackingError> {
-    let mut grains = Particles::default();
-    let mut counts = Vec::new();
+) -> Result<Placed, PackingError> {
+    let asked = &groups.into();
+    let mut placed = Placed::default();
     for (group, request) in asked.groups.iter().enumerate() {
         if watch().is_break() {
             return Err(PackingError::Stopped);
@@ -70,16 +73,22 @@ fn place_all(
             return Err(PackingError::Value { group, key: "size", reason });
         }
         let group_of = Group { request, seed: asked.seed, number: group, volume: asked.volume() };
-        let mut spots = group_of.spots(&grains, read, watch)?;
+        let mut spots = group_of.spots(&placed.grains, read, watch)?;
+        if asked.kind == SphereKind::Soft && spots.iter().any(|spot| spot.primaries > 1) {
+            let reason = "its column `primaries` has grains made of several, which only hard spheres can be; \
+                          `agglo hand-over` takes them apart";
+            return Err(PackingError::Value { group, key: "placement.table", reason: reason.to_owned() });
+        }
         scatter(request, asked.seed, group, &mut spots);
+        placed.counts.push(spots.len() as u64);
         for spot in spots {
             let row = grain(request, properties, spot);
-            grains.push(Row { id: grains.len() as u32, material: material as u32, ..row });
+            placed.primaries.push(spot.primaries);
+            placed.grains.push(Row { id: placed.grains.len() as u32, material: material as u32, ..row });
         }
-        counts.push(grains.len() as u64 - counts.iter().sum::<u64>());
     }
-    make_ready(asked, &mut grains, false)?;
-    Ok((grains, counts))
+    make_ready(asked, &mut placed.grains, false)?;
+    Ok(placed)
 }
 
 /// Refuses grains that could not start where they are; of images in a volume that wraps, the one inside counts. Hard
@@ -107,7 +116,9 @@ struct Spot {
     velocity: Vec3,
     /// Whether the velocity is the grain's own and does not scatter.
     has_own_velocity: bool,
+    angular_velocity: Vec3,
     temperature: f64,
+    primaries: u32,
 }
 
 /// A group with what it takes to place it.
@@ -127,9 +138,17 @@ impl Group<'_> {
     ) -> Result<Vec<Spot>, PackingError> {
         let &Self { request, seed, number: group, volume } = self;
         let velocity = vector(request.velocity);
+        let angular_velocity = vector(request.angular_velocity);
         let temperature = request.temperature.si();
-        let spot =
-            |(position, radius)| Spot { position, radius, velocity, has_own_velocity: false, temperature };
+        let spot = |(position, radius)| Spot {
+            position,
+            radius,
+            velocity,
+            has_own_velocity: false,
+            angular_velocity,
+            temperature,
+            primaries: 1,
+        };
         let mut stream = Stream::new(seed, Purpose::Size, group as u32);
         let mut sized = |position| spot((position, request.size.sample(&mut stream)));
         match &request.placement {
@@ -150,7 +169,9 @@ impl Group<'_> {
                         radius: row.radius.unwrap_or(drawn.radius),
                         velocity: row.velocity.unwrap_or(velocity),
                         has_own_velocity: row.velocity.is_some(),
+                        angular_velocity: row.angular_velocity.unwrap_or(angular_velocity),
                         temperature: row.temperature.unwrap_or(temperature),
+                        primaries: row.primaries.unwrap_or(1),
                     }
                 };
                 Ok(rows.into_iter().map(spot).collect())
@@ -247,7 +268,7 @@ fn grain(request: &GrainGroup, properties: &Material, spot: Spot) -> Row {
     Row {
         position: spot.position,
         velocity: spot.velocity,
-        angular_velocity: vector(request.angular_velocity),
+        angular_velocity: spot.angular_velocity,
         radius: spot.radius,
         mass: properties.mass_of_sphere(spot.radius),
         temperature,

@@ -89,7 +89,8 @@ pub enum LatticeKind {
     Hcp,
 }
 
-/// A CSV file with the columns x_m, y_m, z_m and optionally radius_m, temperature_K, vx_m_s, vy_m_s, vz_m_s.
+/// A CSV file with the columns x_m, y_m, z_m and optionally radius_m, temperature_K, velocities, angular velocities and
+/// primaries.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Table {
@@ -109,7 +110,7 @@ pub struct GrainList {
 }
 
 /// A row of a table: what it does not say is `None`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TableGrain {
     /// Center [m].
     pub position: Vec3,
@@ -117,6 +118,10 @@ pub struct TableGrain {
     pub radius: Option<f64>,
     /// Velocity [m/s].
     pub velocity: Option<Vec3>,
+    /// Angular velocity [rad/s].
+    pub angular_velocity: Option<Vec3>,
     /// Temperature [K].
     pub temperature: Option<f64>,
+    /// How many primary grains it is made of.
+    pub primaries: Option<u32>,
 }

@@ -256,8 +256,7 @@ fn tables_override_size_and_velocity() {
     let row = |x: f64, radius: f64| TableGrain {
         position: Vec3::new(x, 0.0, 0.0),
         radius: Some(radius),
-        velocity: None,
-        temperature: None,
+        ..TableGrain::default()
     };
     let mut asked = Vec::new();
     let mut read = |table: &Table| {
@@ -269,6 +268,25 @@ fn tables_override_size_and_velocity() {
     assert_eq!(grains.radius, [0.5, 0.25]);
     assert_eq!(grains.velocity[1], Vec3::new(1.0, 2.0, 3.0));
     assert_near!(grains.mass[0] / grains.mass[1], 8.0, 1e-14);
+}
+
+/// A row's own angular velocity is taken; soft spheres are made of themselves alone.
+#[test]
+fn tables_say_how_grains_turn_and_that_none_is_made_of_several() {
+    let request = vec![group("ink", radius(0.1), Placement::Table(Table { file: "a.csv".into() }))];
+    let turning = Vec3::new(3.0, -1.0, 2.0);
+    let row = |x: f64, primaries| TableGrain {
+        position: Vec3::new(x, 0.0, 0.0),
+        angular_velocity: Some(turning),
+        primaries,
+        ..TableGrain::default()
+    };
+    let single = |_: &Table| Ok(vec![row(0.0, Some(1)), row(1.0, None)]);
+    let grains = super::place(&scenario(request.clone()), &mut { single }).unwrap();
+    assert_eq!(grains.angular_velocity, [turning; 2]);
+    let several = |_: &Table| Ok(vec![row(0.0, Some(2))]);
+    let refused = super::place(&scenario(request), &mut { several }).unwrap_err().to_string();
+    assert_contains!(refused, "grains[0].placement.table: its column `primaries` has grains made of several");
 }
 
 #[test]

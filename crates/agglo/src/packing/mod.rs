@@ -8,5 +8,5 @@ mod table;
 pub use agglo_core::packing::*;
 
 pub use error::StartError;
-pub use place::{place, place_groups, place_groups_watched};
+pub use place::{place, place_all, place_groups};
 pub use table::TableError;

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use super::{Groups, PackingError, PlaceWatch, Table, TableGrain, table};
+use super::{Groups, PackingError, PlaceWatch, Placed, Table, TableGrain, table};
 use crate::particles::Particles;
 
 /// Places all groups in their order; tables are looked for below `base`. As [`agglo_core::packing::place`].
@@ -42,20 +42,20 @@ pub fn place_groups<'a>(
     groups: impl Into<Groups<'a>>,
     base: &Path,
 ) -> Result<(Particles, Vec<u64>), PackingError> {
-    place_groups_watched(groups, base, &mut || ControlFlow::Continue(()))
+    place_all(groups, base, &mut || ControlFlow::Continue(())).map(|placed| (placed.grains, placed.counts))
 }
 
-/// As [`place_groups`]; `watch` may stop it.
+/// As [`place`], with all that is known of the grains; `watch` may stop it.
 ///
 /// # Errors
 /// As for [`place`], and [`PackingError::Stopped`].
-pub fn place_groups_watched<'a>(
+pub fn place_all<'a>(
     groups: impl Into<Groups<'a>>,
     base: &Path,
     watch: &mut PlaceWatch<'_>,
-) -> Result<(Particles, Vec<u64>), PackingError> {
+) -> Result<Placed, PackingError> {
     let mut read = |asked: &Table| -> Result<Vec<TableGrain>, PackingError> {
         table::read(&base.join(&asked.file)).map_err(|error| PackingError::Table(Box::new(error)))
     };
-    agglo_core::packing::place_groups_watched(groups, &mut read, watch)
+    agglo_core::packing::place_all(groups, &mut read, watch)
 }

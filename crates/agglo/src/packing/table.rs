@@ -1,8 +1,10 @@
 //! Grains from a CSV table.
 //!
-//! The first line names the columns: `x_m`, `y_m`, `z_m`, and optionally `radius_m`, `temperature_K` and the three
-//! `vx_m_s`, `vy_m_s`, `vz_m_s`, in any order. Lines that begin with `#` are passed over.
+//! The first line names the columns: `x_m`, `y_m`, `z_m`, and optionally `radius_m`, `temperature_K`, the three `vx_m_s`,
+//! `vy_m_s`, `vz_m_s`, the three `wx_rad_s`, `wy_rad_s`, `wz_rad_s`, and `primaries`, in any order. A column `cluster` is for
+//! whoever reads the table: it must have whole numbers, and is not taken. Lines that begin with `#` are passed over.
 
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
@@ -11,20 +13,41 @@ use super::TableGrain;
 use crate::math::Vec3;
 use crate::record::door;
 use crate::text::cell;
-use crate::units::{Dimension, Length, Temperature, Velocity, kind_of};
+use crate::units::{Dimension, Frequency, Length, Temperature, Velocity, kind_of};
 
-const COLUMNS: [&str; 8] = ["x_m", "y_m", "z_m", "radius_m", "vx_m_s", "vy_m_s", "vz_m_s", "temperature_K"];
-/// What the columns are, each with the range of its kind.
-const DIMENSIONS: [Dimension; COLUMNS.len()] = {
-    let (length, velocity) = (Length::DIMENSION, Velocity::DIMENSION);
-    [length, length, length, length, velocity, velocity, velocity, Temperature::DIMENSION]
+const COLUMNS: [&str; 13] = [
+    "x_m",
+    "y_m",
+    "z_m",
+    "radius_m",
+    "vx_m_s",
+    "vy_m_s",
+    "vz_m_s",
+    "wx_rad_s",
+    "wy_rad_s",
+    "wz_rad_s",
+    "temperature_K",
+    "primaries",
+    "cluster",
+];
+/// What the columns with quantities are, each with the range of its kind.
+const DIMENSIONS: [Dimension; PRIMARIES] = {
+    let (length, velocity, turning) = (Length::DIMENSION, Velocity::DIMENSION, Frequency::DIMENSION);
+    let heat = Temperature::DIMENSION;
+    [length, length, length, length, velocity, velocity, velocity, turning, turning, turning, heat]
 };
 /// Columns that every table has.
-const POSITION: std::ops::Range<usize> = 0..3;
+const POSITION: Range<usize> = 0..3;
 const RADIUS: usize = 3;
 /// Columns of which a table has all or none.
-const VELOCITY: std::ops::Range<usize> = 4..7;
-const TEMPERATURE: usize = 7;
+const VELOCITY: Range<usize> = 4..7;
+/// The same.
+const ANGULAR_VELOCITY: Range<usize> = 7..10;
+const TEMPERATURE: usize = 10;
+const PRIMARIES: usize = 11;
+const CLUSTER: usize = 12;
+/// The largest count or number of a table.
+const MOST_COUNTED: u32 = 1_000_000_000;
 
 /// Why a table gives no grains.
 #[derive(Debug, Error)]
@@ -111,8 +134,11 @@ fn columns(header: &[&str], file: &Path, line: u64) -> Result<[Option<usize>; CO
             }
         }
     }
-    let velocities = places[VELOCITY].iter().any(Option::is_some);
-    let mut wanted = POSITION.chain(VELOCITY.filter(|_| velocities));
+    let asked = [VELOCITY, ANGULAR_VELOCITY].map(|all| {
+        let is_there = places[all.clone()].iter().any(Option::is_some);
+        all.filter(move |_| is_there)
+    });
+    let mut wanted = POSITION.chain(asked.into_iter().flatten());
     match wanted.find(|&at| places[at].is_none()) {
         Some(at) => fault(COLUMNS[at].to_owned(), "the column is missing".to_owned()),
         None => Ok(places),
@@ -141,13 +167,28 @@ impl Entries<'_> {
             }
             value => Ok(value),
         };
+        self.count(CLUSTER, 0)?;
         Ok(TableGrain {
             // The header has been checked: positions are there.
             position: vector(POSITION.start)?.unwrap_or_default(),
             radius: above_zero(RADIUS, "a radius")?,
             velocity: vector(VELOCITY.start)?,
+            angular_velocity: vector(ANGULAR_VELOCITY.start)?,
             temperature: above_zero(TEMPERATURE, "a temperature")?,
+            primaries: self.count(PRIMARIES, 1)?,
         })
+    }
+
+    /// A whole number of at least so much.
+    fn count(&self, column: usize, least: u32) -> Result<Option<u32>, TableError> {
+        let Some(text) = self.places[column].and_then(|at| self.row.get(at)) else { return Ok(None) };
+        match text.parse() {
+            Ok(count) if (least..=MOST_COUNTED).contains(&count) => Ok(Some(count)),
+            _ => {
+                let reason = format!("`{}` is no whole number from {least} to {MOST_COUNTED}", cell(text));
+                Err(self.fault(column, reason))
+            }
+        }
     }
 
     fn number(&self, column: usize) -> Result<Option<f64>, TableError> {
@@ -187,8 +228,7 @@ mod tests {
         let grain = |x, y, z, radius| TableGrain {
             position: Vec3::new(x, y, z),
             radius: Some(radius),
-            velocity: None,
-            temperature: None,
+            ..TableGrain::default()
         };
         assert_eq!(grains, [grain(1.0, 2.0, 3.0, 0.5), grain(0.0, 0.0, -3.5, 1e-6)]);
         let moving = parse_text("x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s\n0,0,0,4,5,6\n").unwrap();
@@ -196,6 +236,11 @@ mod tests {
         assert_eq!(moving[0].radius, None);
         let hot = parse_text("temperature_K,x_m,y_m,z_m\n1234.5,0,0,0\n").unwrap();
         assert_eq!((hot[0].temperature, hot[0].velocity), (Some(1234.5), None));
+        let grown =
+            parse_text("x_m,y_m,z_m,wx_rad_s,wy_rad_s,wz_rad_s,primaries,cluster\n0,0,0,7,8,9,12,3\n")
+                .unwrap();
+        let wanted = (Some(Vec3::new(7.0, 8.0, 9.0)), Some(12));
+        assert_eq!((grown[0].angular_velocity, grown[0].primaries), wanted);
     }
 
     #[test]
@@ -219,6 +264,12 @@ mod tests {
             ("x_m,y_m,z_m\n\n1,2\n", "line 3, column 2: 2 entries where the header has 3"),
             ("x_m,y_m\n1,2\n", "line 1, column z_m: the column is missing"),
             ("x_m,y_m,z_m,vx_m_s\n1,2,3,4\n", "line 1, column vy_m_s: the column is missing"),
+            ("x_m,y_m,z_m,wy_rad_s\n1,2,3,4\n", "line 1, column wx_rad_s: the column is missing"),
+            (
+                "x_m,y_m,z_m,primaries\n1,2,3,0\n",
+                "line 2, column primaries: `0` is no whole number from 1 to",
+            ),
+            ("x_m,y_m,z_m,cluster\n1,2,3,a\n", "line 2, column cluster: `a` is no whole number from 0 to"),
             ("x,y_m,z_m\n1,2,3\n", "line 1, column 1: `x` is not known; known are x_m, y_m"),
             ("x_m,y_m,z_m,x_m\n1,2,3,4\n", "line 1, column 4: the column `x_m` is there twice"),
             ("x_m,y_m,z_m\n", "no rows"),

@@ -30,7 +30,7 @@ pub use error::RunError;
 pub use hard::{
     CountQuantities, Growth, GrowthQuantities, HardSummary, MotionQuantities, RunQuantities, ScaleQuantities,
 };
-pub(crate) use origin::Origin;
+pub(crate) use origin::{Origin, State, state};
 pub use quiet::quiet;
 pub(crate) use rehearsal::{Rehearsal, Stretches, rehearse};
 #[cfg(test)]

@@ -7,11 +7,12 @@ use super::hard::Hard;
 use super::job::{AnySaved, Job};
 use super::soft::Soft;
 use crate::contact::{Bonds, Friction};
+use crate::engine::hard::Grown;
 use crate::engine::{SimError, Start};
 use crate::folder::RunFolder;
 use crate::packing::{
-    ConstantSize, GrainGroup, Groups, PackingError, PlaceWatch, Placement, Size, StartError, Table,
-    UniformSize, make_ready, place_groups_watched,
+    ConstantSize, GrainGroup, Groups, PackingError, PlaceWatch, Placed, Placement, Size, StartError, Table,
+    UniformSize, make_ready, place_all,
 };
 use crate::particles::{Material, Particles};
 use crate::record::checkpoint;
@@ -53,8 +54,9 @@ impl Origin {
                 Trouble::Grains(error) => error.into(),
             });
         }
-        let (grains, counts) = place_groups_watched(scenario, base, watch)?;
-        Ok(Self { start: grains.into(), counts, earlier: None })
+        let Placed { grains, counts, primaries } = place_all(scenario, base, watch)?;
+        let grown = if scenario.is_hard() { grown(&grains, &primaries, scenario) } else { Vec::new() };
+        Ok(Self { start: Start { grown, ..grains.into() }, counts, earlier: None })
     }
 
     /// The grains group by group, as they were placed; those of another run are brought into that order.
@@ -71,6 +73,17 @@ impl Origin {
     }
 }
 
+/// What grains of a table keep of their parts; nothing where all are primary grains. They are of their material throughout.
+fn grown(grains: &Particles, primaries: &[u32], scenario: &Scenario) -> Vec<Grown> {
+    if primaries.iter().all(|&count| count == 1) {
+        return Vec::new();
+    }
+    let heats: Vec<f64> = scenario.materials.values().map(Material::specific_heat).collect();
+    let heat_capacity = |at: usize| grains.mass[at] * heats[grains.material[at] as usize];
+    let of = |(at, &primaries): (usize, &u32)| Grown { primaries, heat_capacity: heat_capacity(at) };
+    primaries.iter().enumerate().map(of).collect()
+}
+
 /// Why the state of another run is not taken.
 enum Trouble {
     Reason(String),
@@ -83,23 +96,45 @@ impl From<String> for Trouble {
     }
 }
 
-fn taken(scenario: &Scenario, path: &Path) -> Result<Origin, Trouble> {
+/// The state of a run as another one takes it up.
+pub(crate) struct State {
+    /// The run's scenario, resolved.
+    pub past: Scenario,
+    /// Simulated time [s].
+    pub time: f64,
+    /// Its grains, with what they bring along.
+    pub start: Start,
+    /// The checkpoint that was taken.
+    pub checkpoint: PathBuf,
+}
+
+/// The newest state of a run's folder, or that of a checkpoint that was named.
+///
+/// # Errors
+/// Why it cannot be taken.
+pub(crate) fn state(path: &Path) -> Result<State, String> {
     let (saved, checkpoint) = read(path)?;
     let past = Scenario::from_toml(saved.parts().0).map_err(|faults| faults.to_string())?;
+    let time = saved.time();
+    let refused = |error: SimError| error.to_string();
+    let start = match saved {
+        AnySaved::Soft(saved) => Soft::resume(&past, saved.state).map_err(refused)?.into_start(),
+        AnySaved::Hard(saved) => Hard::resume(&past, saved.state).map_err(refused)?.into_start(),
+    };
+    Ok(State { past, time, start, checkpoint })
+}
+
+fn taken(scenario: &Scenario, path: &Path) -> Result<Origin, Trouble> {
+    let State { past, time, mut start, checkpoint } = state(path)?;
     if past.is_hard() != scenario.is_hard() {
         let kinds = [past.is_hard(), scenario.is_hard()].map(|is_hard| if is_hard { "hard" } else { "soft" });
         let reason = format!(
-            "it is a run of {} spheres, and the scenario has an engine of {} ones; take one of its kind",
+            "it is a run of {} spheres, and the scenario has an engine of {} ones; take one of its kind, or \
+             `agglo hand-over`",
             kinds[0], kinds[1]
         );
         return Err(reason.into());
     }
-    let time = saved.time();
-    let refused = |error: SimError| error.to_string();
-    let mut start = match saved {
-        AnySaved::Soft(saved) => Soft::resume(&past, saved.state).map_err(refused)?.into_start(),
-        AnySaved::Hard(saved) => Hard::resume(&past, saved.state).map_err(refused)?.into_start(),
-    };
     hand_over_materials(&mut start.grains, &past, scenario)?;
     hand_over_bonds(&start, scenario)?;
     start.warnings.extend(springs_dropped(&start, scenario));

@@ -46,6 +46,18 @@ pub const TEMPLATES: &[Template] = &[
         is_campaign: false,
     },
     Template {
+        name: "form",
+        title: "pigment grains that stick and grow, the first half of form, then disperse",
+        text: include_str!("../../../../scenarios/form.toml"),
+        is_campaign: false,
+    },
+    Template {
+        name: "disperse",
+        title: "pulses of sound on what has grown, the second half",
+        text: include_str!("../../../../scenarios/disperse.toml"),
+        is_campaign: false,
+    },
+    Template {
         name: "search",
         title: "a search for the grains that grow most: ten parameters, the paper's genetic algorithm",
         text: include_str!("../../../../scenarios/search-agglomeration.toml"),
