@@ -6,9 +6,9 @@ use super::{Grown, HandOverError, Options};
 use crate::particles::{Material, Mixture, Particles};
 use crate::scenario::Scenario;
 
-/// The scenario of the other kind with the materials of the grains of the run, each by its own name: density, and
-/// heat capacity if there is a use for it, of the run, all else of the scenario's material of that name, or of its only one. `used` has the numbers of the run's materials
-/// that are needed.
+/// The scenario of the other kind with the materials of the grains of the run, each by its own name: density, and heat capacity
+/// if there is a use for it, of the run, all else of the scenario's material of that name, or of its only one. `used` has the
+/// numbers of the run's materials that are needed.
 ///
 /// # Errors
 /// [`HandOverError::Refused`] where the scenario has several and none of that name.
