@@ -94,7 +94,9 @@ fn shuffled(count: usize, stream: &mut Stream) -> Vec<usize> {
 fn grow(radii: &[f64], limit: f64, power: f64, reach: f64, stream: &mut Stream) -> Option<Heap> {
     let mut heap = Heap::new(radii, reach);
     let first = first_three(radii, stream);
-    first.iter().for_each(|&ball| heap.add(ball));
+    for &ball in &first {
+        heap.add(ball);
+    }
     for &radius in &radii[first.len()..] {
         let target = if power.is_finite() {
             stream.direction() * (limit * stream.uniform().powf(power))
@@ -136,7 +138,9 @@ fn settle(heap: &Heap, order: &[usize], radii: &[f64], masses: &[f64]) -> Packed
         mass += masses[at];
     }
     let center = moment / mass;
-    positions.iter_mut().for_each(|position| *position -= center);
+    for position in &mut positions {
+        *position -= center;
+    }
     let ends = positions.iter().zip(radii).map(|(position, radius)| position.norm() + radius);
     let envelope = ends.fold(0.0, f64::max);
     PackedCluster { positions, envelope }

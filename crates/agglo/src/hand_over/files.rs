@@ -47,7 +47,7 @@ pub(super) struct Told {
 
 /// The group of one material, with the table of its grains.
 pub(super) struct Group {
-    group: GrainGroup,
+    grains: GrainGroup,
     file: PathBuf,
     text: String,
 }
@@ -81,7 +81,7 @@ pub(super) fn groups(
             charge: pattern.map_or(Quantity(0.0), |group| group.charge),
             polarity: pattern.map_or(1.0, |group| group.polarity),
         };
-        found.push(Group { group, file, text });
+        found.push(Group { grains: group, file, text });
     }
     Ok(found)
 }
@@ -196,7 +196,7 @@ pub(super) fn write(
     clusters: &[Cluster],
     record: &HandOver,
 ) -> Result<(), HandOverError> {
-    scenario.grains = groups.iter().map(|group| group.group.clone()).collect();
+    scenario.grains = groups.iter().map(|group| group.grains.clone()).collect();
     scenario.check().map_err(HandOverError::Faults)?;
     let text = scenario.to_toml().map_err(HandOverError::Faults)?;
     if let Some(group) = groups.iter().find(|group| group.file.symlink_metadata().is_ok()) {
@@ -212,8 +212,13 @@ pub(super) fn write(
         reason: error.to_string(),
     };
     atomic::write(&record.record, json(record).map_err(encode)?.as_bytes())?;
-    let heading: String = record.to_string().lines().map(|line| format!("# {}\n", line.trim_end())).collect();
-    let heading = format!("# Handed over from another run by agglo hand-over.\n#\n{heading}\n");
+    let told = record.to_string();
+    let lines = told.lines().flat_map(|line| ["# ", line.trim_end(), "\n"]);
+    let heading: String = ["# Handed over from another run by agglo hand-over.\n#\n"]
+        .into_iter()
+        .chain(lines)
+        .chain(["\n"])
+        .collect();
     atomic::write(&record.scenario, [heading, text].concat().as_bytes())?;
     Ok(())
 }

@@ -133,7 +133,7 @@ impl HandOver {
                 format!("{moved} moved away from neighbors, by {} at most", readable(self.farthest_m, "m"))
             }
         };
-        if self.spread == 1.0 {
+        if self.spread <= 1.0 {
             return moved;
         }
         format!("{moved}; that was not enough: all spread by {:.4} about the center of mass", self.spread)
@@ -260,7 +260,9 @@ impl Cleared {
         if spread > 1.0 {
             let all: Vec<u32> = (0..places.len() as u32).collect();
             let middle = center_of_mass(&places, masses, &all);
-            places.iter_mut().for_each(|place| *place = middle + (*place - middle) * spread);
+            for place in &mut places {
+                *place = middle + (*place - middle) * spread;
+            }
         }
         Self { places, moved, farthest, spread }
     }
