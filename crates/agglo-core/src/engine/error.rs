@@ -32,6 +32,16 @@ pub enum SimError {
         /// The laws that act on it.
         laws: String,
     },
+    /// A hook could not give its forces.
+    #[error("{at}: {name} gave no forces: {reason}")]
+    Hook {
+        /// When.
+        at: Moment,
+        /// What it calls itself.
+        name: String,
+        /// What kept it from it.
+        reason: String,
+    },
     /// An entry of the ledger of energy is infinite or not a number.
     #[error(
         "{at}: the ledger of energy is not finite under {laws}; make the step smaller, or the values less extreme"

@@ -49,6 +49,8 @@ pub const GRAINS: &str = "series/grains.csv";
 pub const IMPACTS: &str = "series/impacts.csv";
 /// Of hard spheres: classes of sizes over time.
 pub const SIZES: &str = "series/sizes.csv";
+/// The caller's own measures over time.
+pub const OWN: &str = "series/own.csv";
 /// Of hard spheres: who became part of whom.
 pub const GENEALOGY: &str = "genealogy.csv";
 /// Of hard spheres: how often grains collide, merge and break.

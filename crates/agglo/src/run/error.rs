@@ -106,6 +106,44 @@ pub enum RunError {
         /// The keys that differ, with both values.
         keys: String,
     },
+    /// The guests of a run cannot be.
+    #[error("{reason}")]
+    Guests {
+        /// Which, why, and what can be.
+        reason: String,
+    },
+    /// A run is to go on with other guests than it began with.
+    #[error(
+        "cannot go on: the run in {} began with {began}, and is to go on with {given}\n\
+         help: its results would be others; go on with the same: `agglo::run::resume_with` in Rust, in Python `agglo.resume` \
+         with force, measures and stop",
+        dir.display()
+    )]
+    OtherGuests {
+        /// The run's folder.
+        dir: PathBuf,
+        /// Those of the run.
+        began: String,
+        /// Those that are there now.
+        given: String,
+    },
+    /// Somebody who measures could not, at the first look: the run did not begin.
+    #[error("{reason}\nNothing was written.")]
+    FirstLook {
+        /// Why.
+        reason: String,
+    },
+    /// Somebody who measures could not.
+    #[error(
+        "{reason}\nA checkpoint is kept in {}; once the cause is put right, the run goes on from there.",
+        checkpoints.display()
+    )]
+    Look {
+        /// Why.
+        reason: String,
+        /// Where the checkpoints are.
+        checkpoints: PathBuf,
+    },
     /// The checkpoint holds what no run has come to.
     #[error("{}: the checkpoint cannot be gone on from: {reason}", dir.display())]
     BadCheckpoint {
@@ -126,11 +164,15 @@ impl RunError {
             | Self::NoCheckpointYet { .. }
             | Self::ScenarioLost { .. }
             | Self::Until { .. }
+            | Self::Guests { .. }
+            | Self::OtherGuests { .. }
             | Self::Edited { .. } => 2,
             Self::Step { .. }
             | Self::Start(_)
             | Self::Quiet(_)
             | Self::StoppedBefore(_)
+            | Self::FirstLook { .. }
+            | Self::Look { .. }
             | Self::Gone { .. }
             | Self::Record(_)
             | Self::CutShort { .. }

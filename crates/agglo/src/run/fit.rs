@@ -6,10 +6,11 @@ use serde_json::Value as Json;
 
 use super::RunError;
 use super::job::AnySaved;
+use super::recorder::Reopened;
 use crate::folder::names::SCENARIO;
 use crate::folder::{RunFolder, files};
 use crate::record::checkpoint::{self, Refused};
-use crate::record::{Opened, RecordError, door};
+use crate::record::{RecordError, door};
 use crate::scenario::Scenario;
 use crate::text::cell;
 
@@ -24,7 +25,7 @@ pub struct Found {
     /// The checkpoint.
     pub saved: AnySaved<'static>,
     /// The tables as it left them, not yet cut.
-    pub tables: Vec<Opened>,
+    pub tables: Reopened,
     /// Newer ones that cannot be used.
     pub refused: Vec<Refused>,
 }
@@ -44,7 +45,9 @@ pub fn load(folder: &RunFolder, before_the_end: bool, reading: &mut Reading<'_>)
     let mut found = Err(RecordError::NoCheckpoint { dir: dir.clone(), refused: Vec::new() });
     if before_the_end {
         found = checkpoint::load_newest(&dir, |saved: AnySaved<'static>| {
-            if saved.time() < fit.scenario.time.end.si() { fit.accept(saved) } else { Err(String::new()) }
+            let is_over = saved.parts().1.own().is_over();
+            let is_before = !is_over && saved.time() < fit.scenario.time.end.si();
+            if is_before { fit.accept(saved) } else { Err(String::new()) }
         });
         // That it is not the newest is as it should be.
         if let Ok((.., refused)) = &mut found {
@@ -97,7 +100,7 @@ struct Fit<'a, 'r> {
 }
 
 impl Fit<'_, '_> {
-    fn accept(&mut self, saved: AnySaved<'static>) -> Result<(AnySaved<'static>, Vec<Opened>), String> {
+    fn accept(&mut self, saved: AnySaved<'static>) -> Result<(AnySaved<'static>, Reopened), String> {
         let (text, recorder, layout) = saved.parts();
         let keys = match Scenario::from_toml(text) {
             Ok(scenario) => differences(&self.with_its_end(scenario, saved.ends_before()), &self.scenario),

@@ -2,13 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::engine::soft::RestWatch;
+use crate::engine::soft::{Hook, RestWatch};
 use crate::engine::{SimError, Simulation, Start};
 use crate::folder::RunFolder;
 use crate::record::{RecordError, columns};
 use crate::scenario::Scenario;
 
 use super::frames::Frames;
+use super::guests::Sight;
 use super::hard::{Hard, HardState};
 use super::recorder::RecorderState;
 use super::soft::{Soft, SoftState};
@@ -99,6 +100,8 @@ pub trait Job: Sized {
     fn start(scenario: &Scenario, start: Start, watch: &mut RestWatch<'_>) -> Result<Self, SimError>;
     /// Goes on from a saved state.
     fn resume(scenario: &Scenario, state: Self::State<'_>) -> Result<Self, SimError>;
+    /// Lets forces of the caller's own act from now on, those of before its state was saved.
+    fn attach(&mut self, forces: Box<dyn Hook>) -> Result<(), SimError>;
     /// What another run can start from.
     fn into_start(self) -> Start;
     /// Adds its state to the rest of a checkpoint.
@@ -133,6 +136,10 @@ pub trait Job: Sized {
     fn is_ray_flight(&self) -> bool {
         false
     }
+    /// Shows it to somebody.
+    fn show<R>(&self, to: impl FnOnce(&Sight<'_>) -> R) -> R;
+    /// Adds a warning.
+    fn warn(&mut self, text: &str);
     /// Warnings that came up for the first time since the last call.
     fn fresh_warnings(&mut self) -> Vec<String>;
     /// What happens now, in words.

@@ -3,9 +3,11 @@
 mod error;
 mod fit;
 mod frames;
+mod guests;
 mod hard;
 mod job;
 mod origin;
+mod own;
 mod quiet;
 mod recorder;
 mod rehearsal;
@@ -27,6 +29,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 pub use error::RunError;
+pub use guests::{Guests, Look, Onlooker, Sight};
 pub use hard::{
     CountQuantities, Growth, GrowthQuantities, HardSummary, MotionQuantities, RunQuantities, ScaleQuantities,
 };
@@ -44,6 +47,7 @@ use crate::packing::{PackingError, PlaceWatch, StartError};
 use crate::record::{RecordError, columns, door};
 use crate::scenario::Scenario;
 use crate::units::Time;
+use guests::Known;
 use hard::Hard;
 use job::{AnySaved, Job};
 use session::{Session, TELL_EVERY, Way};
@@ -110,8 +114,23 @@ pub fn run(
     dir: &Path,
     observer: &mut Observer<'_>,
 ) -> Result<Ending, RunError> {
+    run_with(scenario, base, dir, Guests::default(), observer)
+}
+
+/// As [`run`], with guests: forces, measures and a rule of the caller's own.
+///
+/// # Errors
+/// As [`run`]; [`RunError::Guests`] where the guests cannot be those of such a run, [`RunError::Look`] where one could not measure.
+pub fn run_with(
+    scenario: &Scenario,
+    base: &Path,
+    dir: &Path,
+    guests: Guests<'_>,
+    observer: &mut Observer<'_>,
+) -> Result<Ending, RunError> {
     let began = Instant::now();
     let mut scenario = scenario.resolved();
+    guests.known().check(scenario.is_hard())?;
     crate::forecast::refuse_run(&scenario, base, dir)?;
     let Origin { start, earlier, .. } = placed(&scenario, base, observer)?;
     if let Some(earlier) = earlier {
@@ -122,7 +141,7 @@ pub fn run(
     let scenario = folder.with_tables(&scenario, base).inspect_err(|_| folder.abandon())?;
     on_a_worker(|| {
         let go = if scenario.is_hard() { sit::<Hard> } else { sit::<Soft> };
-        go(&scenario, start, &folder, began, observer)
+        go(&scenario, start, &folder, began, guests, observer)
     })
 }
 
@@ -180,9 +199,10 @@ fn sit<J: Job>(
     start: Start,
     folder: &RunFolder,
     began: Instant,
+    guests: Guests<'_>,
     observer: &mut Observer<'_>,
 ) -> Result<Ending, RunError> {
-    let started = Session::<J>::start(scenario, start, folder.clone(), began, observer);
+    let started = Session::<J>::start(scenario, start, folder.clone(), began, guests, observer);
     started.inspect_err(|_| folder.abandon())?.carry_on(observer)
 }
 
@@ -193,6 +213,23 @@ fn sit<J: Job>(
 /// # Errors
 /// [`RunError`] where there is no whole checkpoint, a step fails or a file cannot be written.
 pub fn resume(dir: &Path, observer: &mut Observer<'_>) -> Result<Ending, RunError> {
+    resume_with(dir, None, Guests::default(), observer)
+}
+
+/// As [`resume`], or [`resume_until`] where an end is given, with the guests of the run.
+///
+/// # Errors
+/// As these; [`RunError::OtherGuests`] where the run began with others.
+pub fn resume_with(
+    dir: &Path,
+    until: Option<Time>,
+    guests: Guests<'_>,
+    observer: &mut Observer<'_>,
+) -> Result<Ending, RunError> {
+    if let Some(until) = until {
+        let folder = RunFolder::take(dir)?;
+        return on_a_worker(|| go_on(&folder, Some(until), guests, observer));
+    }
     if let Some(summary) = finished(dir) {
         return Ok(Ending::Finished(summary));
     }
@@ -201,7 +238,7 @@ pub fn resume(dir: &Path, observer: &mut Observer<'_>) -> Result<Ending, RunErro
     if let Some(summary) = finished(dir) {
         return Ok(Ending::Finished(summary));
     }
-    on_a_worker(|| go_on(&folder, None, observer))
+    on_a_worker(|| go_on(&folder, None, guests, observer))
 }
 
 /// Goes on with the run in `dir` until another end [s], whether it has finished or not. The folder's scenario gets the
@@ -213,14 +250,19 @@ pub fn resume(dir: &Path, observer: &mut Observer<'_>) -> Result<Ending, RunErro
 /// # Errors
 /// As [`resume`]; [`RunError::Until`] where the run has come to that time already.
 pub fn resume_until(dir: &Path, until: Time, observer: &mut Observer<'_>) -> Result<Ending, RunError> {
-    let folder = RunFolder::take(dir)?;
-    on_a_worker(|| go_on(&folder, Some(until), observer))
+    resume_with(dir, Some(until), Guests::default(), observer)
 }
 
-fn go_on(folder: &RunFolder, until: Option<Time>, observer: &mut Observer<'_>) -> Result<Ending, RunError> {
+fn go_on(
+    folder: &RunFolder,
+    until: Option<Time>,
+    guests: Guests<'_>,
+    observer: &mut Observer<'_>,
+) -> Result<Ending, RunError> {
     let has_finished = folder.summary().exists();
     let mut reading = |words: &str| before_the_start(words, 0.0, observer);
     let mut found = fit::load(folder, until.is_some() && has_finished, &mut reading)?;
+    same_guests(folder, found.saved.parts().1.own().known(), &guests)?;
     if let Some(until) = until {
         until::change(folder, &mut found.saved, until)?;
     }
@@ -229,12 +271,22 @@ fn go_on(folder: &RunFolder, until: Option<Time>, observer: &mut Observer<'_>) -
     let (folder, way) = (folder.clone(), Way { is_new_end: until.is_some(), refused: found.refused });
     match found.saved {
         AnySaved::Soft(saved) => {
-            Session::<Soft>::resume(folder, *saved, found.tables, &way)?.carry_on(observer)
+            Session::<Soft>::resume(folder, *saved, found.tables, &way, guests)?.carry_on(observer)
         }
         AnySaved::Hard(saved) => {
-            Session::<Hard>::resume(folder, *saved, found.tables, &way)?.carry_on(observer)
+            Session::<Hard>::resume(folder, *saved, found.tables, &way, guests)?.carry_on(observer)
         }
     }
+}
+
+/// Refuses to go on with other guests than those that the run began with.
+fn same_guests(folder: &RunFolder, began: &Known, guests: &Guests<'_>) -> Result<(), RunError> {
+    let given = guests.known();
+    if *began == given {
+        return Ok(());
+    }
+    let (dir, began, given) = (folder.root().to_owned(), began.to_string(), given.to_string());
+    Err(RunError::OtherGuests { dir, began, given })
 }
 
 /// The summary of the run in `dir`, if it has finished.

@@ -8,7 +8,9 @@ use crate::scenario::Scenario;
 
 use super::fit::Reading;
 use super::frames::{FrameLists, Frames};
+use super::guests::Known;
 use super::job::Job;
+use super::own::{Own, OwnState};
 use super::tables::{Tables, TablesState};
 use super::timers::{Moment, ROUND_OFF, Timers};
 
@@ -30,6 +32,14 @@ pub struct RecorderState {
     merged: Merged,
     tables: TablesState,
     frames: FrameLists,
+    own: OwnState,
+}
+
+/// The tables of a run that is to go on, as its checkpoint left them and not yet cut.
+#[derive(Debug)]
+pub struct Reopened {
+    tables: Vec<Opened>,
+    own: Option<Opened>,
 }
 
 impl RecorderState {
@@ -37,12 +47,13 @@ impl RecorderState {
     ///
     /// # Errors
     /// [`RecordError`] where a table is missing, or not what it was.
-    pub fn check_tables(
-        &self,
-        layout: columns::Tables,
-        folder: &RunFolder,
-    ) -> Result<Vec<Opened>, RecordError> {
-        self.tables.check(layout, folder.root())
+    pub fn check_tables(&self, layout: columns::Tables, folder: &RunFolder) -> Result<Reopened, RecordError> {
+        Ok(Reopened { tables: self.tables.check(layout, folder.root())?, own: self.own.check(folder)? })
+    }
+
+    /// What is known of a caller's own measures and rule.
+    pub fn own(&self) -> &OwnState {
+        &self.own
     }
 
     /// What cannot be of a run of this scenario at this moment, if anything.
@@ -54,7 +65,7 @@ impl RecorderState {
         } else if !last_row_can_be {
             Some("the time of its last row cannot be")
         } else {
-            self.frames.fault(now.time)
+            self.frames.fault(now.time).or(self.own.fault())
         }
     }
 
@@ -75,20 +86,27 @@ pub struct Recorder {
     merged: Merged,
     tables: Tables,
     frames: Frames,
+    /// What a caller measures; who drives the run looks whenever that is due.
+    pub own: Own,
 }
 
 impl Recorder {
-    /// Opens new files in the folder; the scenario is resolved.
+    /// Opens new files in the folder, for these guests; the scenario is resolved.
     ///
     /// # Errors
     /// [`RecordError`] where a file cannot be made.
-    pub fn create<J: Job>(scenario: &Scenario, folder: &RunFolder) -> Result<Self, RecordError> {
+    pub fn create<J: Job>(
+        scenario: &Scenario,
+        folder: &RunFolder,
+        guests: Known,
+    ) -> Result<Self, RecordError> {
         Ok(Self {
             timers: Timers::new(&scenario.output),
             last_row: NO_ROW,
             merged: Merged::default(),
             tables: Tables::create(J::TABLES, folder.root())?,
             frames: Frames::new(folder, FrameLists::default()),
+            own: Own::create(guests, folder)?,
         })
     }
 
@@ -99,14 +117,15 @@ impl Recorder {
     pub fn resume<J: Job>(
         folder: &RunFolder,
         state: RecorderState,
-        tables: Vec<Opened>,
+        opened: Reopened,
     ) -> Result<Self, RecordError> {
         Ok(Self {
             timers: state.timers,
             last_row: state.last_row,
             merged: state.merged,
-            tables: Tables::resume(J::TABLES, tables)?,
+            tables: Tables::resume(J::TABLES, opened.tables)?,
             frames: Frames::new(folder, state.frames),
+            own: Own::resume(state.own, opened.own)?,
         })
     }
 
@@ -118,6 +137,7 @@ impl Recorder {
             merged: self.merged,
             tables: self.tables.state(),
             frames: self.frames.lists().clone(),
+            own: self.own.state(),
         }
     }
 
@@ -184,7 +204,8 @@ impl Recorder {
     /// # Errors
     /// [`RecordError`] where a file cannot be written.
     pub fn flush(&mut self) -> Result<(), RecordError> {
-        self.tables.flush()
+        self.tables.flush()?;
+        self.own.flush()
     }
 
     /// Puts all rows onto the disk.
@@ -192,7 +213,8 @@ impl Recorder {
     /// # Errors
     /// [`RecordError`] where a file cannot be written.
     pub fn sync(&mut self) -> Result<(), RecordError> {
-        self.tables.sync()
+        self.tables.sync()?;
+        self.own.sync()
     }
 
     /// Writes a row in each table over time, due or not.
@@ -201,6 +223,7 @@ impl Recorder {
     /// [`RecordError`] where a file cannot be written.
     pub fn write_rows<J: Job>(&mut self, job: &mut J) -> Result<(), RecordError> {
         self.last_row = job.time();
+        self.own.ask();
         job.record_rows(&mut self.tables)
     }
 

@@ -14,6 +14,7 @@ use crate::folder::RunFolder;
 use crate::record::{RecordError, checkpoint};
 use crate::scenario::Scenario;
 
+use super::guests::Known;
 use super::hard::Hard;
 use super::job::{Job, Saved};
 use super::recorder::Recorder;
@@ -177,7 +178,7 @@ impl Record {
         let place =
             tempfile::tempdir().map_err(RecordError::file("make a folder in", &std::env::temp_dir()))?;
         let folder = RunFolder::create(&place.path().join("run"))?;
-        let recorder = Recorder::create::<J>(scenario, &folder)?;
+        let recorder = Recorder::create::<J>(scenario, &folder, Known::default())?;
         let mut record = Self { scenario: scenario.to_toml()?, place, folder, recorder, frames: [None; 2] };
         record.recorder.record_due(job)?;
         record.weigh_frame(job)?;

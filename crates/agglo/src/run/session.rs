@@ -8,13 +8,15 @@ use std::time::{Duration, Instant};
 use crate::engine::Start;
 use crate::engine::soft::Resting;
 use crate::folder::RunFolder;
+use crate::record::atomic;
 use crate::record::checkpoint::{self, Refused};
-use crate::record::{Opened, atomic};
 use crate::scenario::Scenario;
 use crate::text::readable;
 
+use super::guests::{Guests, Look, Onlooker};
 use super::job::{Job, Saved};
-use super::recorder::Recorder;
+use super::own;
+use super::recorder::{Recorder, Reopened};
 use super::summary::ends_in_words;
 use super::{Ending, Observer, Progress, RunError};
 
@@ -44,7 +46,7 @@ pub struct Way {
 }
 
 /// One session of a run.
-pub struct Session<J> {
+pub struct Session<'g, J> {
     scenario: Scenario,
     /// Ends [s] that the run had before it got a later one.
     ends_before: Vec<f64>,
@@ -55,11 +57,12 @@ pub struct Session<J> {
     began: Instant,
     told: Instant,
     notes: Vec<String>,
+    onlooker: Option<&'g mut dyn Onlooker>,
 }
 
-impl<J: Job> Session<J> {
+impl<'g, J: Job> Session<'g, J> {
     /// Starts a run in an empty folder; its wall time counts from `began`. The observer is told of grains that come to
-    /// rest first.
+    /// rest first. The guests are checked.
     ///
     /// # Errors
     /// [`RunError`] where the start fails or a file cannot be written.
@@ -68,6 +71,7 @@ impl<J: Job> Session<J> {
         start: Start,
         folder: RunFolder,
         began: Instant,
+        mut guests: Guests<'g>,
         observer: &mut Observer<'_>,
     ) -> Result<Self, RunError> {
         let end = scenario.time.end.si();
@@ -79,9 +83,15 @@ impl<J: Job> Session<J> {
             told = Instant::now();
             observer(&coming_to_rest(resting, end))
         };
-        let job = J::start(scenario, start, &mut watch).map_err(RunError::Start)?;
+        let known = guests.known();
+        let mut job = J::start(scenario, start, &mut watch).map_err(RunError::Start)?;
+        guests.take_forces().map_or(Ok(()), |forces| job.attach(forces)).map_err(RunError::Start)?;
+        let mut onlooker = guests.onlooker;
+        // A first look that fails leaves nothing behind, and the folder can be taken again.
+        let first = onlooker.as_deref_mut().map(|onlooker| own::look(onlooker, &known, &job));
+        let first = first.transpose().map_err(|reason| RunError::FirstLook { reason })?;
         write_scenario(scenario, &[], &folder)?;
-        let recorder = Recorder::create::<J>(scenario, &folder)?;
+        let recorder = Recorder::create::<J>(scenario, &folder, known)?;
         let notes = folder.warning().map(str::to_owned).into_iter().collect();
         let mut session = Self {
             scenario: scenario.clone(),
@@ -93,25 +103,31 @@ impl<J: Job> Session<J> {
             began,
             told: began,
             notes,
+            onlooker,
         };
         session.recorder.record_due(&mut session.job)?;
+        first.map_or(Ok(()), |look| session.take(&look))?;
         session.save()?;
         Ok(session)
     }
 
-    /// Goes on from a checkpoint that its folder was held to.
+    /// Goes on from a checkpoint that its folder was held to, with the guests that it knows.
     ///
     /// # Errors
     /// [`RunError`] where a file cannot be brought back to its state at that time.
     pub fn resume(
         folder: RunFolder,
         saved: Saved<J::State<'_>>,
-        tables: Vec<Opened>,
+        tables: Reopened,
         way: &Way,
+        mut guests: Guests<'g>,
     ) -> Result<Self, RunError> {
         let bad = |reason: String| RunError::BadCheckpoint { dir: folder.root().to_owned(), reason };
         let scenario = Scenario::from_toml(&saved.scenario).map_err(|faults| bad(faults.to_string()))?;
-        let job = J::resume(&scenario, saved.state).map_err(|error| bad(error.to_string()))?;
+        let mut job = J::resume(&scenario, saved.state).map_err(|error| bad(error.to_string()))?;
+        let attached = guests.take_forces().map_or(Ok(()), |forces| job.attach(forces));
+        attached.map_err(|error| RunError::Step { error, checkpoints: folder.checkpoints() })?;
+        let onlooker = guests.onlooker;
         let sums_can_be = saved.wall_s >= 0.0 && saved.ends_before.iter().all(|end| *end > 0.0);
         let are_finite = saved.wall_s.is_finite() && saved.ends_before.iter().all(|end| end.is_finite());
         let odd = saved.recorder.fault(&scenario, &job.moment());
@@ -128,7 +144,7 @@ impl<J: Job> Session<J> {
         let wall_before = saved.wall_s;
         let (began, told) = (now, now);
         let mut session =
-            Self { scenario, ends_before, folder, job, recorder, wall_before, began, told, notes };
+            Self { scenario, ends_before, folder, job, recorder, wall_before, began, told, notes, onlooker };
         if way.is_new_end {
             // Those with the end before would not belong to the folder's scenario.
             let newest = session.save()?;
@@ -163,13 +179,16 @@ impl<J: Job> Session<J> {
         if self.tell(observer).is_break() {
             return self.interrupted();
         }
-        while !self.job.is_finished() {
+        // A look that failed is made up for.
+        self.look()?;
+        while !self.job.is_finished() && !self.recorder.own.is_over() {
             let stepped = self.job.advance(self.recorder.next_due());
             if let Err(error) = stepped {
                 self.recorder.sync()?;
                 return Err(RunError::Step { error, checkpoints: self.folder.checkpoints() });
             }
             self.recorder.record_due(&mut self.job)?;
+            self.look()?;
             if self.recorder.checkpoint_is_due(&self.job.moment()) {
                 self.save()?;
             }
@@ -183,6 +202,31 @@ impl<J: Job> Session<J> {
         self.finish(observer)
     }
 
+    /// Lets the onlooker look, if a look is due. Where that fails there is a checkpoint that knows of it.
+    fn look(&mut self) -> Result<(), RunError> {
+        let known = self.recorder.own.known();
+        let onlooker = self.onlooker.as_deref_mut().filter(|_| self.recorder.own.is_due());
+        match onlooker.map(|onlooker| own::look(onlooker, known, &self.job)).transpose() {
+            Ok(look) => look.map_or(Ok(()), |look| self.take(&look)),
+            Err(reason) => {
+                // One that is due now is this one.
+                self.recorder.checkpoint_is_due(&self.job.moment());
+                self.save()?;
+                Err(RunError::Look { reason, checkpoints: self.folder.checkpoints() })
+            }
+        }
+    }
+
+    /// Takes in what a look came to.
+    fn take(&mut self, look: &Look) -> Result<(), RunError> {
+        let (time, is_over) = (self.job.time(), look.is_over && !self.job.is_finished());
+        if is_over {
+            let [now, end] = [time, self.scenario.time.end.si()].map(|time| readable(time, "s"));
+            self.job.warn(&format!("ended at {now} by a rule of the caller, before its end at {end}"));
+        }
+        Ok(self.recorder.own.take(time, &look.values, is_over)?)
+    }
+
     fn interrupted(mut self) -> Result<Ending, RunError> {
         self.save()?;
         Ok(Ending::Interrupted(self.job.time()))
@@ -191,6 +235,7 @@ impl<J: Job> Session<J> {
     fn finish(mut self, observer: &mut Observer<'_>) -> Result<Ending, RunError> {
         self.folder.hold_on()?;
         self.recorder.record_end(&mut self.job, &self.folder)?;
+        self.look()?;
         let summary = self.job.summary(&self.scenario, self.wall_s()).that_went_on(&self.ends_before);
         let checkpoints = self.folder.checkpoints();
         let summary =

@@ -11,6 +11,7 @@ mod common;
 mod crowd;
 mod custom;
 mod from;
+mod guests;
 mod halving;
 mod hard;
 mod ledger;

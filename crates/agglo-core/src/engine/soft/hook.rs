@@ -57,6 +57,8 @@
 //! # Ok::<(), agglo::engine::SimError>(())
 //! ```
 
+use std::sync::{Mutex, PoisonError};
+
 use crate::ledger::Supply;
 use crate::math::Pace;
 use crate::particles::{Motion, Particles};
@@ -90,6 +92,11 @@ pub trait Hook: Send + Sync {
     fn pace(&self, _: &Scene<'_>) -> Option<Pace> {
         None
     }
+
+    /// What kept it from giving its forces, in words, if something did: the step that asked for them is not taken, and fails.
+    fn fault(&self) -> Option<String> {
+        None
+    }
 }
 
 impl<F: Fn(&Scene<'_>, &mut LoadViews<'_>) + Send + Sync> Hook for F {
@@ -99,6 +106,54 @@ impl<F: Fn(&Scene<'_>, &mut LoadViews<'_>) + Send + Sync> Hook for F {
 
     fn load(&self, now: &Scene<'_>, loads: &mut LoadViews<'_>) {
         self(now, loads);
+    }
+}
+
+/// Several hooks as one, whose forces add up.
+pub struct Hooks {
+    all: Vec<Box<dyn Hook>>,
+    name: String,
+    /// The loads of one of them: each begins with none.
+    own: Mutex<Loads>,
+}
+
+impl Hooks {
+    /// All of these, in their order.
+    pub fn new(all: Vec<Box<dyn Hook>>) -> Self {
+        let name = all.iter().map(|hook| hook.name()).collect::<Vec<_>>().join(", ");
+        Self { all, name, own: Mutex::default() }
+    }
+}
+
+impl Hook for Hooks {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn load(&self, now: &Scene<'_>, loads: &mut LoadViews<'_>) {
+        let mut own = self.own.lock().unwrap_or_else(PoisonError::into_inner);
+        if own.force.len() != loads.force.len() {
+            *own = Loads::none(loads.force.len());
+        }
+        for hook in &self.all {
+            own.clear();
+            hook.load(now, &mut own.views());
+            loads.force.iter_mut().zip(&own.force).for_each(|(sum, part)| *sum += *part);
+            loads.torque.iter_mut().zip(&own.torque).for_each(|(sum, part)| *sum += *part);
+        }
+    }
+
+    fn after_step(&mut self, now: &Scene<'_>) {
+        self.all.iter_mut().for_each(|hook| hook.after_step(now));
+    }
+
+    /// All together, if each one says.
+    fn pace(&self, now: &Scene<'_>) -> Option<Pace> {
+        self.all.iter().try_fold(Pace::NONE, |sum, hook| Some(sum + hook.pace(now)?))
+    }
+
+    fn fault(&self) -> Option<String> {
+        self.all.iter().find_map(|hook| hook.fault())
     }
 }
 

@@ -23,7 +23,7 @@ mod validate;
 pub use forces::laws::Laws;
 pub use forces::loads::{LoadViews, Loads};
 pub use forces::truncation::{Truncation, truncation};
-pub use hook::{Hook, Scene};
+pub use hook::{Hook, Hooks, Scene};
 pub use rays::{FirstPulse, Pulses, Spheres, Traced, trace};
 pub use relax::{RestWatch, Resting};
 pub use settings::{Relaxation, Settings};

@@ -9,7 +9,7 @@ use super::simulation::Simulation;
 use super::step::step_size::Paces;
 
 impl Simulation {
-    /// Lets forces of the caller's own act from now on; of two hooks the last one acts.
+    /// Lets forces of the caller's own act from now on; of two hooks the last one acts, and [`Hooks`](super::Hooks) are several.
     ///
     /// After [`Simulation::resume`] from the state of a run with a hook, attach it again before the first step.
     pub fn attach(&mut self, hook: Box<dyn Hook>) {
@@ -25,6 +25,13 @@ impl Simulation {
             ));
         }
         self.shorten_step();
+    }
+
+    /// What kept the hook from giving its forces when it was asked last, if something did.
+    pub fn hook_fault(&self) -> Option<SimError> {
+        let hook = &self.system.hook.as_ref()?.hook;
+        let at = self.moment(self.clock.next_step);
+        hook.fault().map(|reason| SimError::Hook { at, name: hook.name().to_owned(), reason })
     }
 
     pub(super) fn hook_name(&self) -> &str {

@@ -257,7 +257,9 @@ impl Simulation {
         let (dt, lands_on) = self.next_step();
         self.launch_due(dt)?;
         self.pulses.fly(&mut self.system, self.clock.time, dt, &mut self.warnings);
-        let step = self.try_step(dt)?;
+        let step = self.try_step(dt);
+        self.hook_fault().map_or(Ok(()), Err)?;
+        let step = step?;
         self.guard(&step)?;
         self.book(&step);
         self.system.commit();
@@ -416,7 +418,7 @@ impl Simulation {
         self.events.extend(made);
     }
 
-    fn moment(&self, dt: f64) -> Moment {
+    pub(super) fn moment(&self, dt: f64) -> Moment {
         Moment { step: self.clock.step + 1, time: self.clock.time, dt }
     }
 

@@ -15,7 +15,7 @@ pub use summary::HardSummary;
 use serde::{Deserialize, Serialize};
 
 use crate::engine::hard::{Clock, Simulation, SimulationState};
-use crate::engine::soft::RestWatch;
+use crate::engine::soft::{Hook, RestWatch};
 use crate::engine::{SimError, Start};
 use crate::folder::RunFolder;
 use crate::record::columns::{Declared, Table};
@@ -23,6 +23,7 @@ use crate::record::{RecordError, Series, columns};
 use crate::scenario::Scenario;
 
 use super::frames::Frames;
+use super::guests::Sight;
 use super::job::{AnySaved, Job, Saved};
 use super::summary::Summary;
 use super::tables::Tables;
@@ -83,6 +84,11 @@ impl Job for Hard {
         Ok(Self::with(scenario, simulation, state.memory))
     }
 
+    fn attach(&mut self, _: Box<dyn Hook>) -> Result<(), SimError> {
+        // Nobody comes here: forces are refused before a run of hard spheres begins.
+        Ok(())
+    }
+
     fn into_start(self) -> Start {
         self.simulation.into_start()
     }
@@ -106,6 +112,15 @@ impl Job for Hard {
 
     fn steps_are(&self) -> &'static str {
         self.steps_are
+    }
+
+    fn show<R>(&self, to: impl FnOnce(&Sight<'_>) -> R) -> R {
+        let now = self.simulation.snapshot();
+        to(&Sight { time: self.time(), grains: &now.grains, primaries: Some(&now.primaries) })
+    }
+
+    fn warn(&mut self, text: &str) {
+        self.simulation.system_mut().state.warnings.add(text);
     }
 
     fn fresh_warnings(&mut self) -> Vec<String> {

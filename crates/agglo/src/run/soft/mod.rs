@@ -19,13 +19,14 @@ pub use summary::{Clusters, EnergyQuantities, PulseQuantities, SoftSummary};
 
 use serde::{Deserialize, Serialize};
 
-use crate::engine::soft::{Clock, RestWatch, Simulation, SimulationState};
+use crate::engine::soft::{Clock, Hook, RestWatch, Simulation, SimulationState};
 use crate::engine::{SimError, Start};
 use crate::folder::RunFolder;
 use crate::record::{RecordError, columns};
 use crate::scenario::Scenario;
 
 use super::frames::Frames;
+use super::guests::Sight;
 use super::job::{AnySaved, Job, Saved};
 use super::summary::Summary;
 use super::tables::Tables;
@@ -85,6 +86,11 @@ impl Job for Soft {
         Ok(Self::with(scenario, Simulation::resume(scenario, state.simulation)?, state.start))
     }
 
+    fn attach(&mut self, forces: Box<dyn Hook>) -> Result<(), SimError> {
+        self.simulation.attach(forces);
+        self.simulation.hook_fault().map_or(Ok(()), Err)
+    }
+
     fn into_start(self) -> Start {
         self.simulation.into_start()
     }
@@ -112,6 +118,14 @@ impl Job for Soft {
 
     fn is_ray_flight(&self) -> bool {
         !self.simulation.pulses.flight().rays().is_empty()
+    }
+
+    fn show<R>(&self, to: impl FnOnce(&Sight<'_>) -> R) -> R {
+        to(&Sight { time: self.time(), grains: &self.simulation.system.grains, primaries: None })
+    }
+
+    fn warn(&mut self, text: &str) {
+        self.simulation.warnings.add(text);
     }
 
     fn fresh_warnings(&mut self) -> Vec<String> {
