@@ -41,9 +41,30 @@ impl Fallen {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).take().map_or(Ok(()), Err)
     }
 
+    /// What was raised, in words.
+    pub(crate) fn words(&self) -> Option<String> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).as_ref().map(ToString::to_string)
+    }
+
     pub(crate) fn keep(&self, error: PyErr) {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
     }
+}
+
+/// ω² [1/s²] and Γ [1/s] of a force, if one of them is given.
+pub(crate) fn pace_of(
+    stiffness_over_mass: Option<f64>,
+    damping_over_mass: Option<f64>,
+) -> PyResult<Option<(f64, f64)>> {
+    let pace = match (stiffness_over_mass, damping_over_mass) {
+        (None, None) => None,
+        (square, rate) => Some((square.unwrap_or(0.0), rate.unwrap_or(0.0))),
+    };
+    if pace.is_some_and(|(square, rate)| !(square >= 0.0 && rate >= 0.0 && (square + rate).is_finite())) {
+        let message = "stiffness_over_mass and damping_over_mass must be finite and not below 0";
+        return Err(InputError::new_err(message));
+    }
+    Ok(pace)
 }
 
 /// A function of time [s], positions [n, 3] [m], velocities [n, 3] [m/s] and angular velocities [n, 3] [rad/s], all in the order of
@@ -144,5 +165,9 @@ impl Hook for Callback {
 
     fn pace(&self, _: &Scene<'_>) -> Option<Pace> {
         self.pace.map(|(square, rate)| Pace { square, rate })
+    }
+
+    fn fault(&self) -> Option<String> {
+        self.fallen.words()
     }
 }

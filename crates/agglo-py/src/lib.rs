@@ -9,6 +9,7 @@
 mod arrays;
 mod campaign;
 mod error;
+mod guests;
 mod hook;
 mod json;
 mod laws;

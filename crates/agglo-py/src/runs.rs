@@ -17,6 +17,7 @@ use pyo3::types::PyDict;
 
 use crate::arrays;
 use crate::error::{InputError, RunError as Failed, raised};
+use crate::guests::{Functions, Invited};
 use crate::json::to_python;
 use crate::scenario::Scenario;
 use crate::watcher::Watcher;
@@ -28,41 +29,47 @@ pub(crate) fn act_on(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
     py.detach(|| agglo_cli::act_on(arguments))
 }
 
-/// Runs a scenario into a folder; gives its summary as JSON. `progress` is called about ten times a second.
+/// Runs a scenario into a folder, with functions that take part; gives its summary as JSON. `progress` is called about ten times a
+/// second.
 #[pyfunction]
-#[pyo3(signature = (scenario, folder, progress=None))]
+#[pyo3(signature = (scenario, folder, progress=None, functions=None))]
 pub(crate) fn run(
     py: Python<'_>,
     scenario: &Scenario,
     folder: PathBuf,
     progress: Option<Py<PyAny>>,
+    functions: Option<Functions>,
 ) -> PyResult<String> {
     let watcher = Watcher::new(progress);
-    let outcome = interruptible(py, |stop| {
-        agglo::run::run(&scenario.read, &scenario.base, &folder, &mut |now| watcher.see(of_run, now, stop))
+    let outcome = invited(py, functions, &watcher)?.take_part(py, |guests, stop| {
+        let mut observer = |now: &Progress| watcher.see(of_run, now, stop);
+        agglo::run::run_with(&scenario.read, &scenario.base, &folder, guests, &mut observer)
     })?;
     watcher.raise(py)?;
     told(py, outcome)
 }
 
-/// Goes on with the run in a folder, to another end where one is given ("40 s"); gives its summary as JSON.
+fn invited(py: Python<'_>, functions: Option<Functions>, watcher: &Watcher) -> PyResult<Invited> {
+    functions.map_or_else(|| Ok(Invited::default()), |functions| functions.invited(py, &watcher.fallen))
+}
+
+/// Goes on with the run in a folder and the functions that take part in it, to another end where one is given ("40 s"); gives its
+/// summary as JSON.
 #[pyfunction]
-#[pyo3(signature = (folder, until=None, progress=None))]
+#[pyo3(signature = (folder, until=None, progress=None, functions=None))]
 pub(crate) fn resume(
     py: Python<'_>,
     folder: PathBuf,
     until: Option<&str>,
     progress: Option<Py<PyAny>>,
+    functions: Option<Functions>,
 ) -> PyResult<String> {
     let watcher = Watcher::new(progress);
     let end = until.map(|until| parse_quantity(until, Time::DIMENSION)).transpose();
     let end = end.map_err(|error| InputError::new_err(format!("until: {error}")))?;
-    let outcome = interruptible(py, |stop| {
+    let outcome = invited(py, functions, &watcher)?.take_part(py, |guests, stop| {
         let mut observer = |now: &Progress| watcher.see(of_run, now, stop);
-        match end {
-            Some(end) => agglo::run::resume_until(&folder, Quantity(end), &mut observer),
-            None => agglo::run::resume(&folder, &mut observer),
-        }
+        agglo::run::resume_with(&folder, end.map(Quantity), guests, &mut observer)
     })?;
     watcher.raise(py)?;
     told(py, outcome)

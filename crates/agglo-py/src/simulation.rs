@@ -16,7 +16,7 @@ use pyo3::types::{PyBytes, PyDict, PyList};
 
 use crate::arrays;
 use crate::error::{InputError, raised};
-use crate::hook::{Callback, Fallen, refuse_within_a_force};
+use crate::hook::{Callback, Fallen, pace_of, refuse_within_a_force};
 use crate::scenario::Scenario;
 use crate::work::{briefly, interruptible};
 
@@ -306,14 +306,7 @@ impl Simulation {
         if !force.is_callable() {
             return Err(PyTypeError::new_err("the force must be callable"));
         }
-        let pace = match (stiffness_over_mass, damping_over_mass) {
-            (None, None) => None,
-            (square, rate) => Some((square.unwrap_or(0.0), rate.unwrap_or(0.0))),
-        };
-        if pace.is_some_and(|(square, rate)| !(square >= 0.0 && rate >= 0.0 && (square + rate).is_finite())) {
-            let message = "stiffness_over_mass and damping_over_mass must be finite and not below 0";
-            return Err(InputError::new_err(message));
-        }
+        let pace = pace_of(stiffness_over_mass, damping_over_mass)?;
         let callback = Callback::new(force.unbind(), pace, self.fallen.clone());
         let mut held = self.lock(py)?;
         let Kind::Soft(simulation) = &mut *held else { return Err(for_soft("attach")) };

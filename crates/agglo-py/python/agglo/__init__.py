@@ -28,6 +28,7 @@ from agglo._agglo import (
 )
 from agglo._errors import AggloError, InputError, PackageError, RunError, ScenarioError
 from agglo._fitness import Fitness
+from agglo._guests import Force
 from agglo._gaussian import GaussianProcess
 from agglo._pieces import Trace, contact, reflect, trace
 from agglo._plots import style as plot_style
@@ -43,6 +44,7 @@ __all__ = [
     "Campaign",
     "Evaluator",
     "Fitness",
+    "Force",
     "GaussianProcess",
     "InputError",
     "PackageError",

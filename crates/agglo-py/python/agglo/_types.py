@@ -18,7 +18,7 @@ Columns: TypeAlias = dict[str, npt.NDArray[Any]]
 Settings: TypeAlias = Union[Mapping[str, Any], Iterable[str], None]
 """Other values of a scenario's keys: {"time.end": "1 s"}, or ["time.end=1 s"]."""
 
-Force: TypeAlias = Callable[[float, Floats, Floats, Floats], Union[Floats, tuple[Floats, Floats]]]
+ForceFunction: TypeAlias = Callable[[float, Floats, Floats, Floats], Union[Floats, tuple[Floats, Floats]]]
 """Time [s], positions, velocities and angular velocities [n, 3] to forces [n, 3] [N], or to forces and torques [N m]."""
 
 Folder: TypeAlias = Union[str, "PathLike[str]"]

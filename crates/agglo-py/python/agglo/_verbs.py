@@ -12,10 +12,11 @@ from typing import Any
 from agglo import _agglo, _html
 from agglo._agglo import Scenario, Simulation
 from agglo._errors import InputError
+from agglo._guests import Force, Measure, Stop, functions_of
 from agglo._replicate import Function
 from agglo._results import Run
 from agglo._search import Method, Search, go_on
-from agglo._types import Columns, Folder, Progress
+from agglo._types import Columns, Folder, ForceFunction, Progress
 
 
 @dataclass(frozen=True)
@@ -54,24 +55,42 @@ def check(scenario: Scenario) -> Plan:
 
 
 def run(
-    scenario: Scenario, folder: Folder | None = None, *, progress: Callable[[Progress], object] | None = None
+    scenario: Scenario,
+    folder: Folder | None = None,
+    *,
+    force: Force | ForceFunction | None = None,
+    measures: Mapping[str, Measure] | None = None,
+    stop: Stop | None = None,
+    progress: Callable[[Progress], object] | None = None,
 ) -> Run | dict[str, Any]:
     """Runs a scenario into a folder, and gives what stands there. Without a folder nothing is written, and only the summary given.
 
     Args:
         scenario: What to run.
         folder: Where its files go; it must be empty, or not be there.
-        progress: Called about ten times a second with the time, the steps and the warnings that are new; what it raises
-            stops the run, which has a checkpoint then.
+        force: Acts on soft spheres besides the laws of the scenario: a function of the time [s], positions, velocities and
+            angular velocities [n, 3] that gives forces [n, 3] [N], as `Simulation.attach` takes it, or a `Force`, which
+            tells the automatic step how fast it is. It gives the same for the same arguments.
+        measures: Functions of the time [s] and the columns of the grains, in the order of ids, by their names, which end with
+            units ("spread_m"). They are asked for every row of the tables over time; what they give stands in the table
+            "own", not a number for None.
+        stop: A function of the same that says whether the run is to end at this row, as if its end were there.
+        progress: Called about ten times a second with the time, the steps and the warnings that are new.
+
+    What any of these functions raises stops the run and comes to the caller. The run has a checkpoint then, and `resume` goes on
+    with the same functions; where it had not begun there is no folder.
 
     Raises:
-        InputError: The folder is in use, or the grains cannot be placed.
+        InputError: The folder is in use, the grains cannot be placed, or a function cannot take part in such a run.
         RunError: A step failed, or a file could not be written.
         KeyboardInterrupt: At Ctrl-C; `resume` goes on from there.
     """
+    functions = functions_of(force, measures, stop)
     if folder is None:
+        if functions is not None:
+            raise InputError("force, measures and stop take part in runs that write a folder; name one")
         return dict(json.loads(_agglo.run_quietly(scenario)))
-    _agglo.run(scenario, Path(folder), progress)
+    _agglo.run(scenario, Path(folder), progress, functions)
     return Run(Path(folder))
 
 
@@ -79,6 +98,9 @@ def resume(
     folder: Folder,
     *,
     until: str | None = None,
+    force: Force | ForceFunction | None = None,
+    measures: Mapping[str, Measure] | None = None,
+    stop: Stop | None = None,
     executor: Executor | None = None,
     at_once: int | None = None,
     method: Method | None = None,
@@ -87,22 +109,24 @@ def resume(
 ) -> Run | Search:
     """Goes on with what is in a folder, wherever it was begun.
 
-    A run goes on from its newest whole checkpoint, to another end such as "40 s" where `until` is given. A search or study goes on
+    A run goes on from its newest whole checkpoint, to another end such as "40 s" where `until` is given. Where it began with a
+    force, measures or a rule to stop, it goes on with the same, which are given again. A search or study goes on
     with all simulations that ended; `executor`, `at_once`, `method` and `function` are those of `agglo.search`.
 
     Raises:
-        InputError: There is nothing to go on with, or it has come to that time already.
+        InputError: There is nothing to go on with, it has come to that time already, or what takes part in it is not given.
         RunError: A step failed, or a file could not be written.
     """
     place = Path(folder)
+    functions = functions_of(force, measures, stop)
     found = _agglo.what_is_in(place)
     if found is not None and found[0] == "campaign":
-        if until is not None:
-            raise InputError(f"{place} holds a search or study; until is for runs")
+        if until is not None or functions is not None:
+            raise InputError(f"{place} holds a search or study; until, force, measures and stop are for runs")
         return go_on(place, executor, at_once, method, function, progress)
     if executor is not None or at_once is not None or method is not None or function is not None:
         raise InputError(f"{place} holds no search or study; executor, at_once, method and function are for these")
-    _agglo.resume(place, until, progress)
+    _agglo.resume(place, until, progress, functions)
     return Run(place)
 
 
