@@ -5,7 +5,7 @@ import re
 
 import agglo
 import agglo._html
-import agglo._plots
+import agglo._search_plots
 import numpy as np
 import pytest
 from test_results import hard, soft  # noqa: F401  (fixtures)
@@ -46,17 +46,94 @@ def test_charts_show_the_tables(soft, hard, tmp_path):  # noqa: F811
         soft.plot("growth")
 
 
-def test_a_search_is_drawn_with_its_errors():
-    generations = agglo.Table(
-        evaluations=np.array([4.0, 8.0]), best_cost=np.array([0.5, 0.25]), best_cost_standard_error=np.array([0.1, np.nan])
-    )
-    evaluations = agglo.Table(evaluation=np.arange(8.0), cost=np.linspace(1, 0.25, 8))
-    axes = agglo._plots.search(generations, evaluations, "mine").axes[0]
-    assert np.array_equal(lines(axes)["candidates"].get_ydata(), evaluations["cost"])
-    assert (
-        lines(axes)["best so far, ± one standard error"].get_ydata().tolist() == [0.5, 0.25]
-        and axes.get_title(loc="left") == "mine"
-    )
+QUICK = {
+    "settings": ["time.end=1 ms", "grains.0.size.length_ratio.count=30", "grains.0.placement.fill.count=30"],
+    "ensemble.until": {"fixed": {"replicates": 2}},
+    "confirm": {"candidates": 2, "replicates": 2},
+}
+TWO = {
+    "objectives": [{"minimize": "growth_deficit"}, {"maximize": "n_f"}],
+    "method": {"genetic": {"population": 8, "generations": 2}},
+}
+
+
+def test_a_search_is_drawn_with_its_errors(tmp_path):
+    campaign = agglo.Campaign.template("search", QUICK | {"method": {"cma_es": {"evaluations": 20}}})
+    found = agglo.search(campaign, tmp_path / "search")
+    table, generations = found.table("evaluations"), found.table("generations")
+    searched = table["stage"] == "search"
+    (axes,) = found.plot().axes
+    assert np.array_equal(lines(axes)["candidates"].get_ydata(), table["cost"][searched])
+    best = lines(axes)["best so far, ± one standard error"]
+    lowest = [table["cost"][: int(count)].min() for count in best.get_xdata()]
+    assert best.get_ydata().tolist() == lowest and best.get_xdata()[-1] == 20
+    (fresh,) = axes.containers
+    assert fresh.lines[0].get_ydata() == pytest.approx(table["cost"][~searched])
+    low, high = fresh.lines[2][0].get_segments()[0][:, 1]
+    assert (high - low) / 2 == pytest.approx(table["cost_standard_error"][~searched][0])
+    assert axes.get_title(loc="left") == "growth_deficit, to be small" and len(generations["stage"]) > len(lowest)
+    with pytest.raises(agglo.InputError, match="quantities are for studies"):
+        found.plot("n_f")
+
+
+def test_two_objectives_are_drawn_against_one_another(tmp_path):
+    found = agglo.search(agglo.Campaign.template("search", QUICK | TWO), tmp_path / "search")
+    costs, front = found.plot().axes
+    table = found.table("evaluations")
+    deficit, filled = table["growth_deficit"], table["n_f"]
+    assert np.array_equal(lines(front)["candidates"].get_ydata(), filled) and "candidates" in lines(costs)
+    unbeaten = [
+        (x, y) for x, y in zip(deficit, filled)
+        if not any(a <= x and b >= y and (a < x or b > y) for a, b in zip(deficit, filled))
+    ]  # fmt: skip
+    drawn = lines(front)["no other is better in both"]
+    assert list(zip(*drawn.get_data())) == sorted(set(unbeaten))
+    made_up = np.array([[3.0, 1.0], [1.0, 3.0], [2.0, 2.0], [2.0, 2.5], [1.0, 4.0], [4.0, 1.0]])
+    assert agglo._search_plots._front_of(made_up).tolist() == [[1.0, 3.0], [2.0, 2.0], [3.0, 1.0]]
+
+
+def test_a_study_is_drawn_over_its_parameters(tmp_path):
+    one = agglo.search(agglo.Campaign.template("study", QUICK), tmp_path / "one")
+    figure, measures = one.plot(), one.table("measures")
+    assert [axes.get_title(loc="left") for axes in figure.axes][:2] == ["growth_deficit", "radius_ratio"]
+    means = figure.axes[1].containers[0]
+    assert np.array_equal(means.lines[0].get_ydata(), measures["radius_ratio"])
+    low, high = means.lines[2][0].get_segments()[0][:, 1]
+    assert (high - low) / 2 == pytest.approx(measures["radius_ratio_standard_error"][0])
+    assert len(one.plot("impacts").axes) == 1
+    with pytest.raises(agglo.InputError, match="no quantity 'cost'; there are growth_deficit, radius_ratio"):
+        one.plot(["cost"])
+    parameters = agglo.Campaign.template("search").to_dict()["parameters"][:2]
+    several = agglo.Campaign.template("study", QUICK | {"parameters": parameters, "plan": {"grid": {"levels": 2}}})
+    axes = agglo.search(several, tmp_path / "several").plot().axes
+    assert [part.get_xlabel() for part in axes] == ["v (m/s)", "length_ratio"]
+    assert sorted(axes[0].containers[0].lines[0].get_xdata()) == pytest.approx([20.0, 20.0, 200.0, 200.0])
+
+
+def test_notebooks_show_searches_with_their_report(tmp_path):
+    campaign = agglo.Campaign.template("search", QUICK | {"method": {"random": {"points": 4}}})
+    found = agglo.search(campaign, tmp_path / "search")
+    assert "search.report()" in found._repr_html_() and "srcdoc" not in found._repr_html_()
+    page = found.report().read_text(encoding="utf-8")
+    shown = found._repr_html_()
+    best = found.summary["best"]
+    assert html.unescape(re.search(r'srcdoc="([^"]*)"', shown)[1]) == page and "finished" in shown
+    assert f"{best['cost']:.6g} ± {best['cost_standard_error']:.6g}" in shown and f"{best['parameters']['v_m_s']:.6g}" in shown
+    study = agglo.search(agglo.Campaign.template("study", QUICK), tmp_path / "study")
+    assert "study.report()" in study._repr_html_() and "cost of the best" not in study._repr_html_()
+
+
+def test_what_has_not_begun_is_not_drawn(tmp_path):
+    def stop(now):
+        raise StopIteration
+
+    for name, told in (("search", "evaluated nothing yet"), ("study", "no table 'measures'")):
+        campaign = agglo.Campaign.template(name, {"ensemble.until": {"fixed": {"replicates": 2}}})
+        with pytest.raises(StopIteration):
+            agglo.search(campaign, tmp_path / name, progress=stop)
+        assert "not finished" in agglo.read(tmp_path / name)._repr_html_()
+        with pytest.raises(agglo.InputError, match=told):
+            agglo.read(tmp_path / name).plot()
 
 
 def test_notebooks_show_runs_with_their_replay(soft):  # noqa: F811

@@ -1,4 +1,4 @@
-"""What notebooks show of scenarios, plans, grains, tables and runs."""
+"""What notebooks show of scenarios, plans, grains, tables, runs and searches."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from agglo._types import Columns, Floats
 if TYPE_CHECKING:
     from agglo._agglo import Scenario, Simulation
     from agglo._results import Run
+    from agglo._search import Search
     from agglo._verbs import Plan
 
 # Rows of a table that are shown: the first and the last ones.
@@ -97,6 +98,24 @@ def run(found: Run) -> str:
     else:
         replay = page(report.read_text(encoding="utf-8"), str(report))
     return f"{_title(found.scenario.title)}{_facts(facts)}{replay}"
+
+
+def search(found: Search) -> str:
+    """What a search or study came to, with its best, and its report where that is there."""
+    summary, report, campaign = found.summary, found.folder / "report.html", found.campaign
+    facts = [("folder", str(found.folder)), ("state", "finished" if summary is not None else "not finished")]
+    if summary is not None:
+        facts += [(key, _cell(summary[key])) for key in ("evaluations", "runs", "failures", "wall_s") if key in summary]
+        best = None if campaign.is_study else summary.get("best")
+        if best is not None:
+            cost, error = best["cost"], best["cost_standard_error"]
+            facts.append(("cost of the best", f"{_cell(cost)} ± {_cell(error)}" if error is not None else _cell(cost)))
+            facts += [(name, _cell(value)) for name, value in best["parameters"].items()]
+    if not report.is_file():
+        shown = f"<p><code>{'study' if campaign.is_study else 'search'}.report()</code> makes the page that is shown here then.</p>"
+    else:
+        shown = page(report.read_text(encoding="utf-8"), str(report))
+    return f"{_title(campaign.title)}{_facts(facts)}{shown}"
 
 
 def page(text: str, name: str) -> str:

@@ -1,4 +1,4 @@
-"""Charts with matplotlib, in the look of the report."""
+"""Charts of runs with matplotlib, in the look of the report."""
 
 from __future__ import annotations
 
@@ -170,38 +170,6 @@ def run(found: Run, names: Sequence[str] | None = None) -> Any:
         chart, table = known[name], found.table(known[name].table)
         (_sizes if name == "sizes" else _lines)(figure, axes, chart, table)
     figure.suptitle(found.scenario.title, x=0.01, ha="left")
-    return figure
-
-
-def search(generations: Table, evaluations: Table, title: str = "") -> Any:
-    """How a search went: the best cost so far with its standard error, and the costs of all candidates.
-
-    Args:
-        generations: The table of generations.csv.
-        evaluations: The table of evaluations.csv; where it has several costs, the first is drawn.
-        title: What was searched.
-    """
-    figure, (axes,) = figure_of(1)
-    costs = [
-        name
-        for name in evaluations
-        if name == "cost" or name.startswith("cost_") and not name.endswith("standard_error")
-    ]
-    with need("matplotlib", "search.plot").rc_context(LOOK):
-        if costs:
-            axes.plot(
-                evaluations["evaluation"],
-                evaluations[costs[0]],
-                ".",
-                color=LINES[5][0],
-                markersize=3,
-                label="candidates",
-            )
-        at, best, error = generations["evaluations"], generations["best_cost"], generations["best_cost_standard_error"]
-        axes.fill_between(at, best - error, best + error, color=LINES[0][0], alpha=0.2, linewidth=0, step="post")
-        axes.step(at, best, where="post", color=LINES[0][0], label="best so far, ± one standard error")
-        axes.set(xlabel="evaluations", ylabel="cost", title=title or "The best so far")
-        axes.legend()
     return figure
 
 

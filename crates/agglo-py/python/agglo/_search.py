@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import queue
 import threading
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor, Future
 from pathlib import Path
 from types import TracebackType
@@ -14,7 +14,7 @@ from typing import Any, Protocol
 import numpy as np
 import numpy.typing as npt
 
-from agglo import _agglo
+from agglo import _agglo, _html, _search_plots
 from agglo._agglo import Campaign
 from agglo._batches import Batches, Outcome
 from agglo._errors import InputError
@@ -76,9 +76,29 @@ class Search:
         """
         return table_of(self.folder, name)
 
+    def plot(self, quantities: Sequence[str] | None = None) -> Any:
+        """Charts as a Figure of matplotlib, which the caller shows or saves.
+
+        Of a search: the costs of all candidates, and the best so far with its standard error; with two objectives one
+        against the other as well. Of a study: means with their standard errors over its parameters.
+
+        Args:
+            quantities: Which columns of a study's table "measures", in their order. If none are named, all where one
+                parameter varies, else the first.
+
+        Raises:
+            PackageError: matplotlib is not installed.
+            InputError: There is no such quantity, or nothing to draw: no candidate yet, a study that has not come to its
+                end or is a part.
+        """
+        return _search_plots.plot(self, quantities)
+
     def report(self) -> Path:
         """Writes report.html, and gives its path."""
         return report(self.folder)
+
+    def _repr_html_(self) -> str:
+        return _html.search(self)
 
     def __repr__(self) -> str:
         state = "finished" if self.summary is not None else "not finished"
