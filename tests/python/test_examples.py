@@ -3,6 +3,7 @@
 import importlib.util
 import os
 import re
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -10,6 +11,7 @@ from pathlib import Path
 import agglo
 import numpy as np
 import pytest
+from test_search import files
 
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "examples"
@@ -18,6 +20,8 @@ PICTURES = {
     "reacting_search": ["course.svg", "cloud.png"],
     "custom_force": ["standing-wave.svg"],
     "flow_coupling": ["jet.svg"],
+    "calibrate_optuna": ["calibration.svg"],
+    "study_dask": ["growth.svg"],
 }
 
 
@@ -118,3 +122,66 @@ def test_air_and_dust_keep_their_momentum(tmp_path):
     # Viscosity spreads the jet: the variance of the momentum grows by 2 ν t, a thousandth less for what the faces hold back.
     variance = [(profile * jet.z**2).sum() / profile.sum() for profile in profiles]
     assert variance[-1] - variance[0] == pytest.approx(2 * example.VISCOSITY_PA_S / example.AIR_KG_M3 * times[-1], rel=2e-3)
+
+
+def test_calibration_with_optuna_finds_what_was_planted(tmp_path):
+    pytest.importorskip("optuna")
+    said = short("calibrate_optuna", tmp_path)
+    example = module("calibrate_optuna")
+    # The energy of spin goes about with friction and scatters by 15 %, so four replicates tell friction to 8 %, 0.01.
+    # The best of some thirty points is besides not nearer than they are to one another near the bottom, about 0.02.
+    for name, near in (("restitution", 0.04), ("friction", 0.03)):
+        planted, found = re.search(rf"{name}: planted ([\d.]+), found ([\d.]+)", said).groups()
+        assert float(planted) == example.PLANTED[name] and float(found) == pytest.approx(float(planted), abs=near)
+    found = agglo.read(tmp_path / "search")
+    table = found.table("runs")
+    scenario = agglo.Scenario.from_file(tmp_path / "beads.toml")
+    measured, scatter = example.measure(scenario)
+    values = np.log(np.stack([table[name] for name in example.MEASURED], axis=1))
+    assert table["cost"] == pytest.approx((((values - measured) / scatter) ** 2).sum(axis=1))
+    # At the planted values, from random starts of the search, it is two squares of normal numbers: 2 ± 0.7 of eight runs.
+    asked = found.campaign
+    seeds = np.unique(table["seed"])[:8].astype(int)
+    planted = [agglo.run(scenario.seeded(seed))["energy"] for seed in seeds]
+    logs = np.log([[energy[name.removeprefix("energy.")] for name in example.MEASURED] for energy in planted])
+    assert 0.2 < (((logs - measured) / scatter) ** 2).sum(axis=1).mean() < 4.8
+    # Stopped half-way and led again, Optuna asks for the same points, and those that are known are not run again.
+    with pytest.raises(ZeroDivisionError), agglo.Evaluator(asked, tmp_path / "again") as evaluate:
+        evaluate(first_points(example, asked))
+        raise ZeroDivisionError
+    example.calibrate(asked, tmp_path / "again", 32)
+    assert files(tmp_path / "again") == files(tmp_path / "search")
+
+
+def first_points(example, asked):
+    """What Optuna asks for first, as parts of the ranges."""
+    optuna = pytest.importorskip("optuna")
+    sampler = optuna.samplers.TPESampler(seed=1, multivariate=True, constant_liar=True, n_startup_trials=8)
+    study = optuna.create_study(sampler=sampler)
+    box = {parameter["name"]: optuna.distributions.FloatDistribution(0.0, 1.0) for parameter in asked.parameters}
+    return [list(study.ask(box).params.values()) for _ in range(4)]
+
+
+def test_a_study_on_dask_has_the_bits_of_the_program_though_a_worker_is_killed(tmp_path, built):
+    distributed = pytest.importorskip("distributed")
+    short("study_dask", tmp_path)
+    example = module("study_dask")
+    asked = example.campaign(100, 8)
+    (tmp_path / "study.toml").write_text(asked.to_toml())
+    command = [built / "agglo", "study", tmp_path / "study.toml", "-o", tmp_path / "theirs", "--no-report"]
+    subprocess.run(command, check=True, capture_output=True)
+    whole = files(tmp_path / "theirs")
+    assert files(tmp_path / "study") == whole
+    killed = []
+
+    def kill(now):
+        if now["evaluations"] > 2 and not killed:
+            killed.append(min(pids.values()))
+            os.kill(killed[0], signal.SIGKILL)
+
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
+        with distributed.Client(cluster) as client:
+            pids = client.run(os.getpid)
+            example.conduct(asked, tmp_path / "killed", client, progress=kill)
+    assert killed
+    assert files(tmp_path / "killed") == whole
