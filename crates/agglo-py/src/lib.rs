@@ -10,6 +10,7 @@ mod arrays;
 mod campaign;
 mod error;
 mod guests;
+mod hand_over;
 mod hook;
 mod json;
 mod laws;
@@ -28,6 +29,8 @@ use pyo3::prelude::*;
 mod _agglo {
     #[pymodule_export]
     use super::campaign::Campaign;
+    #[pymodule_export]
+    use super::hand_over::hand_over;
     #[pymodule_export]
     use super::laws::{contact, reflect, trace};
     #[pymodule_export]

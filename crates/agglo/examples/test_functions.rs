@@ -59,7 +59,7 @@ fn nelder_mead(seed: u64) -> Method {
 
 fn value(row: &Row, noisy: Noisy) -> f64 {
     let (_, method, told) = row;
-    let mut search = method(noisy.seed).start(DIMENSIONS, 1, noisy.seed);
+    let Some(mut search) = method(noisy.seed).start(DIMENSIONS, 1, noisy.seed) else { return f64::NAN };
     let recommended = minimize(search.as_mut(), EVALUATIONS as u64, |point, number| {
         let fitness = noisy.fitness(point, number);
         if *told { fitness } else { Fitness::new(fitness.costs) }

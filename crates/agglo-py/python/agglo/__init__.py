@@ -30,6 +30,7 @@ from agglo._errors import AggloError, InputError, PackageError, RunError, Scenar
 from agglo._fitness import Fitness
 from agglo._guests import Force
 from agglo._gaussian import GaussianProcess
+from agglo._hand_over import HandOver, hand_over
 from agglo._pieces import Trace, contact, reflect, trace
 from agglo._plots import style as plot_style
 from agglo._results import Run, report
@@ -46,6 +47,7 @@ __all__ = [
     "Fitness",
     "Force",
     "GaussianProcess",
+    "HandOver",
     "InputError",
     "PackageError",
     "Plan",
@@ -64,6 +66,7 @@ __all__ = [
     "collide",
     "contact",
     "explain",
+    "hand_over",
     "laws",
     "pack",
     "plot_style",
