@@ -24,12 +24,11 @@ pub(crate) fn hand_over<'py>(
 ) -> PyResult<(Bound<'py, PyAny>, String)> {
     let grown = Grown::read(&grown).map_err(|error| raised(py, error))?;
     let usual = grown.usual_template();
-    let (with, name) = match scenario {
-        Some(scenario) => (scenario.read.clone(), "the scenario"),
-        None => {
-            let text = template(usual).map_or("", |template| template.text);
-            (Read::from_toml(text).map_err(|faults| raised(py, faults))?, usual)
-        }
+    let (with, name) = if let Some(scenario) = scenario {
+        (scenario.read.clone(), "the scenario")
+    } else {
+        let text = template(usual).map_or("", |template| template.text);
+        (Read::from_toml(text).map_err(|faults| raised(py, faults))?, usual)
     };
     let options = Options { with: (&with, name), porosity: porosity.unwrap_or(POROSITY), seed };
     let record = briefly(py, || grown.hand_over(&options, &to))?.map_err(|error| raised(py, error))?;

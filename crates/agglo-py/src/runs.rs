@@ -122,7 +122,7 @@ pub(crate) fn report(py: Python<'_>, folder: PathBuf) -> PyResult<(PathBuf, Vec<
 
 /// What the run, search or study in a folder came to; None where it has not come to its end.
 #[pyfunction]
-pub(crate) fn summary<'py>(py: Python<'py>, folder: PathBuf) -> PyResult<Option<Bound<'py, PyAny>>> {
+pub(crate) fn summary(py: Python<'_>, folder: PathBuf) -> PyResult<Option<Bound<'_, PyAny>>> {
     if campaign::is_one(&folder) {
         return campaign::finished(&folder).map(|summary| to_python(py, &summary)).transpose();
     }

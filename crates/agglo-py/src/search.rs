@@ -255,13 +255,12 @@ fn proposer(
     fallen: &Fallen,
 ) -> PyResult<Proposer> {
     let found;
-    let read = match campaign {
-        Some(campaign) => &campaign.read,
-        None => {
-            let file = CampaignFolder::at(folder).campaign();
-            found = agglo::search::Campaign::load(&file).map_err(|error| raised(py, error))?;
-            &found
-        }
+    let read = if let Some(campaign) = campaign {
+        &campaign.read
+    } else {
+        let file = CampaignFolder::at(folder).campaign();
+        found = agglo::search::Campaign::load(&file).map_err(|error| raised(py, error))?;
+        &found
     };
     let (dimensions, objectives) = (read.parameters.len(), read.objectives.len().max(1));
     Ok(Proposer { method, dimensions, objectives, fallen: fallen.clone() })

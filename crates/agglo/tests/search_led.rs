@@ -34,8 +34,8 @@ struct March {
 }
 
 impl March {
-    fn new(step: f64) -> Box<Self> {
-        Box::new(Self { step, at: 0, fails_after: usize::MAX })
+    fn new(step: f64) -> Self {
+        Self { step, at: 0, fails_after: usize::MAX }
     }
 }
 
@@ -80,19 +80,22 @@ fn led(dir: &Path, means: Means<'_>) -> Result<CampaignEnding, CampaignError> {
     campaign::run(&campaign, Path::new(""), dir, means, go_on)
 }
 
-fn by(proposer: Box<dyn Optimizer>) -> Means<'static> {
-    Means { proposer: Some(proposer), ..Means::threads(2) }
+fn by(proposer: March) -> Means<'static> {
+    Means { proposer: Some(Box::new(proposer)), ..Means::threads(2) }
 }
 
 /// All tables and the summary but for wall times.
 fn files(dir: &Path) -> BTreeMap<String, String> {
-    let texts = fs::read_dir(dir).unwrap().flatten().filter(|entry| entry.path().is_file());
+    let texts = fs::read_dir(dir).expect("a folder").flatten().filter(|entry| entry.path().is_file());
     let kept =
         |text: String| text.lines().filter(|line| !line.contains("wall_s")).collect::<Vec<_>>().join("\n");
     texts
         .filter(|entry| entry.file_name() != ".agglo.lock")
         .map(|entry| {
-            (entry.file_name().into_string().unwrap(), kept(fs::read_to_string(entry.path()).unwrap()))
+            (
+                entry.file_name().into_string().expect("text"),
+                kept(fs::read_to_string(entry.path()).expect("a text")),
+            )
         })
         .collect()
 }
@@ -106,8 +109,8 @@ fn a_campaign_that_a_program_leads_goes_on_with_the_same_bits_whoever_runs_it() 
     };
     assert_eq!(summary.stages[0].candidates, 7, "the last batch is cut to what the file allows");
 
-    let failing = March { fails_after: 3, ..*March::new(0.1) };
-    assert!(matches!(led(&broken, by(Box::new(failing))), Ok(CampaignEnding::Interrupted)));
+    let failing = March { fails_after: 3, ..March::new(0.1) };
+    assert!(matches!(led(&broken, by(failing)), Ok(CampaignEnding::Interrupted)));
     let error = led(&broken, by(March::new(0.11))).unwrap_err();
     assert!(matches!(error, CampaignError::OtherPoint { evaluation: 1 }), "{error}");
     led(&broken, by(March::new(0.1))).unwrap();

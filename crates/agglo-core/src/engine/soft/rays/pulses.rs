@@ -236,6 +236,9 @@ impl Pulses {
     }
 
     /// Launches a pulse of a beam now, which is not among those that the scenario has; its rays scatter as those of no other.
+    ///
+    /// # Errors
+    /// [`SimError::NoBeam`] where there is no such beam.
     pub fn launch_now(
         &mut self,
         beam: u32,
