@@ -120,7 +120,8 @@ pub fn run(
 /// As [`run`], with guests: forces, measures and a rule of the caller's own.
 ///
 /// # Errors
-/// As [`run`]; [`RunError::Guests`] where the guests cannot be those of such a run, [`RunError::Look`] where one could not measure.
+/// As [`run`]; [`RunError::Guests`] where the guests cannot be those of such a run, [`RunError::FirstLook`] and [`RunError::Look`]
+/// where one could not measure.
 pub fn run_with(
     scenario: &Scenario,
     base: &Path,

@@ -205,6 +205,26 @@ fn the_ledger_closes_with_a_force() {
     assert_below!(number("unexplained_largest"), 1e-3);
 }
 
+/// How far the grain is along x.
+struct Far;
+
+impl Onlooker for Far {
+    fn measures(&self) -> Vec<String> {
+        vec!["x_m".to_owned()]
+    }
+
+    fn look(&mut self, now: &Sight<'_>) -> Result<Look, String> {
+        Ok(Look { values: vec![now.grains.position[0].x], is_over: false })
+    }
+}
+
+/// Overwrites instead of adding: what it is given is its own.
+fn push(acceleration: f64) -> Box<dyn Hook> {
+    Box::new(move |now: &Scene<'_>, loads: &mut LoadViews<'_>| {
+        loads.force[0] = Vec3::new(acceleration * now.grains.mass[0], 0.0, 0.0);
+    })
+}
+
 /// Free grains under two constant accelerations: x = (a + b) t²/2, which velocity Verlet has to rounding; work m (a + b) x.
 #[test]
 fn forces_add_up_and_are_those_of_newton() {
@@ -212,22 +232,6 @@ fn forces_add_up_and_are_those_of_newton() {
                 output = { series = \"1 ms\" }\nmaterials.glass.density = \"2500 kg/m3\"\n[[grains]]\n\
                 material = \"glass\"\nsize.constant.radius = \"1 mm\"\n\
                 placement.list.positions = [[\"0 m\", \"0 m\", \"0 m\"]]\n";
-    struct Far;
-    impl Onlooker for Far {
-        fn measures(&self) -> Vec<String> {
-            vec!["x_m".to_owned()]
-        }
-
-        fn look(&mut self, now: &Sight<'_>) -> Result<Look, String> {
-            Ok(Look { values: vec![now.grains.position[0].x], is_over: false })
-        }
-    }
-    /// Overwrites instead of adding: what it is given is its own.
-    fn push(acceleration: f64) -> Box<dyn Hook> {
-        Box::new(move |now: &Scene<'_>, loads: &mut LoadViews<'_>| {
-            loads.force[0] = Vec3::new(acceleration * now.grains.mass[0], 0.0, 0.0);
-        })
-    }
     let place = tempfile::tempdir().unwrap();
     let dir = place.path().join("run");
     let mut far = Far;
@@ -343,7 +347,9 @@ fn a_run_goes_on_with_its_own_guests_alone() {
     let refused = |outcome: Result<Ending, RunError>, words: &[&str]| {
         let error = outcome.unwrap_err();
         assert_eq!(error.exit_code(), 2, "{error}");
-        words.iter().for_each(|words| assert!(error.to_string().contains(words), "{error}"));
+        for words in words {
+            assert!(error.to_string().contains(words), "{error}");
+        }
         assert!(files(&dir) == before, "files were changed by what was refused: {error}");
     };
     let began = "began with the force \"trap\", the measure farthest_m, the measure none, the measure Largest_1, a rule";
