@@ -10,6 +10,7 @@ import time
 from pathlib import Path
 
 import agglo
+import agglo._batches
 import numpy as np
 import pytest
 
@@ -201,6 +202,48 @@ def test_functions_of_ones_own_are_what_is_searched(tmp_path):
         agglo.search(campaign(), tmp_path / "fails", function=fails)
     with pytest.raises(agglo.RunError, match="the function gave no radius_ratio"):
         agglo.search(campaign(), tmp_path / "poor", function=lambda scenario: {"growth_deficit": 1.0})
+
+
+class Held:
+    """An executor whose work ends when it is told to, as if each simulation took a hundredth of a second."""
+
+    def __init__(self):
+        self.sent = []
+
+    def submit(self, work, function, packed):
+        self.sent.append((concurrent.futures.Future(), pickle.loads(packed)))
+        return self.sent[-1][0]
+
+    def end(self, batch):
+        future, jobs = self.sent[batch]
+        future.set_result(([[float(job.seed)] for job in jobs], 0.01 * len(jobs)))
+
+
+def test_short_simulations_travel_together():
+    """Two workers, at most forty under way: once it is known how long they take, about ten go at a time."""
+    held = Held()
+    batches = agglo._batches.Batches(held, 2, None)
+    given, begun = [], iter(range(1000))
+
+    def refill():
+        while sum(not future.done() for future in given) < 40:
+            seed = next(begun)
+            given.append(batches.submit("text", Path("."), seed, ["n"]))
+
+    refill()
+    assert [len(jobs) for _, jobs in held.sent] == [1, 1, 1, 1], "two for each worker, one by one while their time is not known"
+    for batch in range(30):
+        held.end(batch)
+        refill()
+    sizes = [len(jobs) for _, jobs in held.sent]
+    assert set(sizes[-15:]) <= {9, 10} and max(sizes) <= 10, sizes
+    # Nobody asks for more: what waits is sent as soon as workers are free, and all come to what they are.
+    batch = 30
+    while batch < len(held.sent):
+        held.end(batch)
+        batch += 1
+    assert [future.result() for future in given] == [[float(seed)] for seed in range(len(given))]
+    assert len({id(job.text) for job in held.sent[29][1]}) == 1, "replicates have their text in common"
 
 
 def killed(scenario):

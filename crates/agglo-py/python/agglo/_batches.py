@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import pickle
 import threading
 from collections import deque
 from concurrent.futures import Executor, Future
@@ -20,7 +21,7 @@ _BATCH_S = 0.1
 
 
 class Batches:
-    """Sends simulations to an executor: one by one while workers are free, else as many at a time as fill a tenth of a second."""
+    """Sends simulations to an executor: at once while workers are free, else as many at a time as fill a tenth of a second."""
 
     def __init__(self, executor: Executor, workers: int, function: Function | None) -> None:
         self._executor = executor
@@ -28,10 +29,11 @@ class Batches:
         self._function = function
         self._lock = threading.Lock()
         self._waiting: deque[tuple[Job, Future[Outcome]]] = deque()
+        # Batches that are sent, and simulations in them.
         self._under_way = 0
-        # Simulations that ended, and the time that they took [s].
-        self._ended = 0
-        self._took_s = 0.0
+        self._sent = 0
+        # How long a simulation takes [s], by the last ones: the very first ones wait for imports.
+        self._each_s = _BATCH_S
 
     def submit(self, text: str, base: Path, seed: int, columns: list[str]) -> Future[Outcome]:
         """What will come of a simulation."""
@@ -45,25 +47,34 @@ class Batches:
         """Sends what waits, as long as workers have less than two batches each."""
         while True:
             with self._lock:
-                if not self._waiting or self._under_way >= 2 * self._workers:
+                count = self._count()
+                if count == 0:
                     return
-                batch = [self._waiting.popleft() for _ in range(self._count())]
+                batch = [self._waiting.popleft() for _ in range(count)]
                 batch = [(job, future) for job, future in batch if future.set_running_or_notify_cancel()]
                 if not batch:
                     continue
                 self._under_way += 1
+                self._sent += len(batch)
             try:
-                sent = self._executor.submit(outcomes, self._function, [job for job, _ in batch])
+                sent = self._executor.submit(outcomes, self._function, _packed([job for job, _ in batch]))
             except BaseException as error:  # noqa: BLE001 - those who wait for the batch raise it
                 self._end(batch, error)
                 continue
             sent.add_done_callback(partial(self._take, batch))
 
     def _count(self) -> int:
-        """How many go together now."""
-        mean_s = self._took_s / self._ended if self._ended else _BATCH_S
-        fair = math.ceil(len(self._waiting) / self._workers)
-        return max(1, min(fair, int(_BATCH_S / max(mean_s, 1e-6))))
+        """How many go together now; 0 if they had better wait for others."""
+        waiting = len(self._waiting)
+        if waiting == 0 or self._under_way >= 2 * self._workers:
+            return 0
+        most = max(1, round(_BATCH_S / max(self._each_s, 1e-6)))
+        if self._under_way < self._workers:
+            return min(most, math.ceil(waiting / self._workers))
+        # All workers are busy. Those whose batch has ended ask for more one after another: they are sent when they fill a part
+        # of all that are under way, two parts for each worker, and not each by itself.
+        full = min(most, math.ceil((waiting + self._sent) / (2 * self._workers)))
+        return full if waiting >= full else 0
 
     def _take(self, batch: list[tuple[Job, Future[Outcome]]], done: Future[tuple[list[Outcome], float]]) -> None:
         try:
@@ -73,8 +84,8 @@ class Batches:
             return
         with self._lock:
             self._under_way -= 1
-            self._ended += len(batch)
-            self._took_s += took_s
+            self._sent -= len(batch)
+            self._each_s += 0.5 * (took_s / len(batch) - self._each_s)
         for (_, future), outcome in zip(batch, found):
             future.set_result(outcome)
         self._send()
@@ -82,5 +93,12 @@ class Batches:
     def _end(self, batch: list[tuple[Job, Future[Outcome]]], error: BaseException) -> None:
         with self._lock:
             self._under_way -= 1
+            self._sent -= len(batch)
         for _, future in batch:
             future.set_exception(error)
+
+
+def _packed(jobs: list[Job]) -> bytes:
+    """Jobs as bytes, for which executors have least to do; replicates of a candidate have their text in common."""
+    texts: dict[str, str] = {}
+    return pickle.dumps([job._replace(text=texts.setdefault(job.text, job.text)) for job in jobs])

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import pickle
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from functools import lru_cache
 from typing import NamedTuple, Union
 
@@ -31,10 +32,9 @@ class Job(NamedTuple):
     columns: tuple[str, ...]
 
 
-def outcomes(
-    function: Function | None, jobs: Sequence[Job]
-) -> tuple[list[Union[list[float], str]], float]:
-    """What came of simulations, and how long they took [s]."""
+def outcomes(function: Function | None, packed: bytes) -> tuple[list[Union[list[float], str]], float]:
+    """What came of simulations, and how long they took [s]; they are jobs, pickled."""
+    jobs: list[Job] = pickle.loads(packed)
     began = time.perf_counter()
     found = [outcome(function, job) for job in jobs]
     return found, time.perf_counter() - began
