@@ -83,15 +83,28 @@ def test_quantities_of_pint_and_numpy_are_understood():
 
         def __init__(self, magnitude, units):
             self.magnitude = magnitude
-            self.units = self
-            self._units = units
+            self.units = units
 
         def to_base_units(self):
             return self
 
+        def unit_items(self):
+            return self.units.items()
+
     end = Quantity(3e-3, {"second": 1})
     assert acoustic(time__end=end).end_s == 3e-3
     assert acoustic(grains__0__placement__random__count=np.int64(7)).to_dict()["grains"][0]["placement"]["random"]["count"] == 7
+
+
+def test_quantities_of_pint_itself():
+    unit = pytest.importorskip("pint").UnitRegistry()
+    for key, quantity, text in [
+        ("time__end", unit.Quantity(3, "ms"), "0.003 s"),
+        ("materials__ceramic__density", unit.Quantity(2000, "kg/m**3"), "2000 kg/m3"),
+        ("materials__ceramic__sound_speed", unit.Quantity(3, "km/s"), "3000 m/s"),
+        ("acoustics__beams__0__strength", {"pressure": unit.Quantity(2, "MPa")}, {"pressure": "2 MPa"}),
+    ]:
+        assert acoustic(**{key: quantity}) == acoustic(**{key: text}), key
 
 
 def test_a_simulation_goes_on_with_the_same_bits_from_what_it_saved():

@@ -35,6 +35,7 @@ from agglo._pieces import Trace, contact, reflect, trace
 from agglo._plots import style as plot_style
 from agglo._results import Run, report
 from agglo._search import Evaluator, Search, read, search
+from agglo._settings import scenario
 from agglo._shapes import to_ase, to_pyvista
 from agglo._start import start
 from agglo._tables import Table
@@ -75,6 +76,7 @@ __all__ = [
     "report",
     "resume",
     "run",
+    "scenario",
     "schema",
     "search",
     "set_threads",

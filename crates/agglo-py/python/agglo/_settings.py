@@ -7,6 +7,9 @@ import os
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from agglo._agglo import Scenario
+from agglo._types import Folder
+
 
 def plain(value: Any) -> Any:
     """The value as JSON knows it: quantities of pint as text, arrays and scalars of NumPy as lists and numbers."""
@@ -36,7 +39,7 @@ def quantity(value: Any) -> Any:
 def symbols(base: Any) -> dict[str, float]:
     """The base units of a quantity by their symbols, with their powers."""
     short = {"meter": "m", "kilogram": "kg", "second": "s", "kelvin": "K", "ampere": "A", "mole": "mol", "candela": "cd"}
-    powers = {str(name): float(power) for name, power in base.units._units.items()}
+    powers = {str(name): float(power) for name, power in base.unit_items()}
     return {short.get(name, name): power for name, power in powers.items() if name != "radian"}
 
 
@@ -58,6 +61,30 @@ def toml(value: Any) -> str:
     if isinstance(value, list):
         return "[" + ", ".join(toml(inner) for inner in value) + "]"
     return json.dumps(value)
+
+
+def scenario(*, base: Folder = "", **tables: Any) -> Scenario:
+    """A scenario from its tables as keywords; quantities are text with units, or quantities of pint.
+
+    >>> import agglo
+    >>> two = agglo.scenario(
+    ...     time={"end": "1 ms"},
+    ...     engine={"verlet": {}},
+    ...     materials={"glass": {"density": "2500 kg/m3"}},
+    ...     grains=[{"material": "glass", "size": {"constant": {"radius": "1 mm"}},
+    ...              "placement": {"list": {"positions": [["0 m", "0 m", "0 m"], ["1 cm", "0 m", "0 m"]]}}}],
+    ... )
+    >>> two.end_s
+    0.001
+
+    Args:
+        base: The folder that its files are relative to.
+        tables: Tables and keys of the scenario; `version` is 1 if left out.
+
+    Raises:
+        ScenarioError: With all faults at once.
+    """
+    return Scenario.from_dict({"version": 1} | tables, base)
 
 
 def tables(given: Mapping[str, Any]) -> str:
