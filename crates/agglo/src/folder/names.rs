@@ -16,7 +16,7 @@ pub const SERIES: &str = "series";
 pub const FRAMES: &str = "frames";
 /// Tables of grains that were placed from.
 pub const TABLES: &str = "tables";
-/// One of them that has no name of its own.
+/// One of them that has no name of its own; those of a hand-over end with it.
 pub const PLACED: &str = "grains.csv";
 /// Checkpoints.
 pub const CHECKPOINTS: &str = "checkpoints";
@@ -78,6 +78,11 @@ pub const REFINEMENT: &str = "refinement.csv";
 pub const DIFFERENCES: &str = "differences.csv";
 /// Of a study: what moves or scatters the outcome.
 pub const SENSITIVITY: &str = "sensitivity.csv";
+
+/// Beside a scenario that a run was handed over to, after the scenario's name: its agglomerates.
+pub const HANDED_CLUSTERS: &str = "clusters.csv";
+/// What was kept of the run and what was not, likewise.
+pub const HANDED_RECORD: &str = "hand-over.json";
 
 /// The name of a table over time.
 pub fn series(table: &str) -> String {

@@ -3,16 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use super::{HandOver, HandOverError};
+use crate::folder::names;
 use crate::math::Vec3;
 use crate::packing::{ConstantSize, GrainGroup, Placement, Size, Table};
 use crate::particles::Particles;
 use crate::record::{Cell, RecordError, Rows, atomic, json};
 use crate::scenario::Scenario;
 use crate::units::Quantity;
-
-const CLUSTERS: &str = "clusters.csv";
-const RECORD: &str = "hand-over.json";
-const GRAINS: &str = "grains.csv";
 
 /// The name of a file beside the scenario: soft.toml has soft-grains.csv.
 fn beside(to: &Path, name: &str) -> PathBuf {
@@ -22,7 +19,7 @@ fn beside(to: &Path, name: &str) -> PathBuf {
 
 /// Where the table of agglomerates and the record go.
 pub(super) fn places(to: &Path) -> [PathBuf; 2] {
-    [CLUSTERS, RECORD].map(|name| beside(to, name))
+    [names::HANDED_CLUSTERS, names::HANDED_RECORD].map(|name| beside(to, name))
 }
 
 /// Refuses a name that no scenario can have, and to write over what is there.
@@ -30,7 +27,7 @@ pub(super) fn refuse_existing(to: &Path) -> Result<(), HandOverError> {
     if to.extension().is_none_or(|end| end != "toml") {
         return Err(HandOverError::Name { path: to.to_owned() });
     }
-    let all = [to.to_owned()].into_iter().chain(places(to)).chain([beside(to, GRAINS)]);
+    let all = [to.to_owned()].into_iter().chain(places(to)).chain([beside(to, names::PLACED)]);
     match all.into_iter().find(|path| path.symlink_metadata().is_ok()) {
         Some(path) => Err(HandOverError::Exists { path }),
         None => Ok(()),
@@ -66,8 +63,10 @@ pub(super) fn groups(
         let own: Vec<usize> =
             (0..grains.len()).filter(|&at| grains.material[at] as usize == number).collect();
         let Some(&first) = own.first() else { continue };
-        let file =
-            beside(to, &if is_single { GRAINS.to_owned() } else { format!("{}-{GRAINS}", number + 1) });
+        let file = beside(
+            to,
+            &if is_single { names::PLACED.to_owned() } else { format!("{}-{}", number + 1, names::PLACED) },
+        );
         let text = table(grains, told, &own).map_err(RecordError::file("write", &file))?;
         let pattern = scenario.grains.first();
         let group = GrainGroup {
@@ -89,7 +88,7 @@ pub(super) fn groups(
 fn table(grains: &Particles, told: &[Told], own: &[usize]) -> std::io::Result<String> {
     let mut rows = Rows::in_memory();
     let has_primaries = told.iter().any(|told| told.primaries.is_some());
-    let names = [
+    let columns = [
         "x_m",
         "y_m",
         "z_m",
@@ -104,7 +103,7 @@ fn table(grains: &Particles, told: &[Told], own: &[usize]) -> std::io::Result<St
         "cluster",
     ];
     let last = if has_primaries { &["primaries"][..] } else { &[] };
-    rows.row(names.iter().chain(last).map(|name| Cell::Word(name)))?;
+    rows.row(columns.iter().chain(last).map(|name| Cell::Word(name)))?;
     for &at in own {
         let vector = |v: Vec3| v.to_array().map(Cell::Number);
         let told = &told[at];
@@ -151,7 +150,7 @@ impl Cluster {
 }
 
 fn clusters_table(clusters: &[Cluster]) -> std::io::Result<String> {
-    let names = [
+    let columns = [
         "cluster",
         "primaries",
         "mass_kg",
@@ -174,7 +173,7 @@ fn clusters_table(clusters: &[Cluster]) -> std::io::Result<String> {
         "kinetic_J",
     ];
     let mut rows = Rows::in_memory();
-    rows.row(names.map(Cell::Word))?;
+    rows.row(columns.map(Cell::Word))?;
     for cluster in clusters {
         let [before, after] = cluster.places;
         let counts = [Cell::Count(u64::from(cluster.id)), Cell::Count(cluster.primaries as u64)];

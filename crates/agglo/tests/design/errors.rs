@@ -5,6 +5,7 @@ use std::fs;
 use agglo::engine::SimError;
 use agglo::engine::hard::EmbeddedError;
 use agglo::folder::FolderError;
+use agglo::hand_over::HandOverError;
 use agglo::packing::{PackingError, StartError, TableError};
 use agglo::record::RecordError;
 use agglo::run::RunError;
@@ -30,6 +31,7 @@ fn every_error_becomes_one() {
         becomes::<RecordError>(),
         becomes::<FolderError>(),
         becomes::<RunError>(),
+        becomes::<HandOverError>(),
         becomes::<CampaignError>(),
     ];
     let mut files = Vec::new();
