@@ -368,6 +368,11 @@ def test_the_pages_say_what_happens():
         assert tried > 3 and failed == 0
 
 
+def test_the_list_of_all_functions_is_that_of_the_package():
+    done = subprocess.run([sys.executable, ROOT / "docs/book/api.py", "--check"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+
+
 def test_stubs_are_those_of_the_module():
     command = [sys.executable, "-m", "mypy.stubtest", "agglo", "--concise"]
     done = subprocess.run(command, capture_output=True, text=True)

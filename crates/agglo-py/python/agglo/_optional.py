@@ -8,7 +8,15 @@ from types import ModuleType
 from agglo._errors import PackageError
 
 # Which extra of the package brings which module; the others are asked for by name.
-_EXTRAS = {"matplotlib": "plots", "networkx": "plots", "pandas": "plots", "pyarrow": "plots", "pyvista": "plots"}
+_EXTRAS = {
+    "matplotlib": "plots",
+    "networkx": "plots",
+    "pandas": "plots",
+    "pyarrow": "plots",
+    "pyvista": "plots",
+    "scipy": "cluster",
+    "sklearn": "cluster",
+}
 
 
 def need(module: str, purpose: str) -> ModuleType:
