@@ -78,7 +78,7 @@ def page():
         thing = getattr(agglo, name)
         if isinstance(thing, str):
             continue
-        module = "_agglo" if hasattr(_agglo, name) else thing.__module__.rpartition(".")[2]
+        module = "_agglo" if getattr(_agglo, name, None) is thing else thing.__module__.rpartition(".")[2]
         node = known[module, thing.__name__]
         if isinstance(node, ast.FunctionDef):
             parts["Functions"].append(f"### `agglo.{signature(name, node)}`\n\n{docs(thing)}\n")

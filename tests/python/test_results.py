@@ -114,9 +114,9 @@ def test_events_and_kernels_are_tables(soft, hard):
     kernels = hard.kernels()
     assert kernels["kernels"]["merges"].sum() == hard.summary["merges"]
     assert kernels["breakage"]["breakages"].sum() == hard.summary["fragmentations"]
-    with pytest.raises(agglo.InputError, match="no kernels.csv; it is a run of soft spheres"):
+    with pytest.raises(agglo.InputError, match="no table 'kernels' in"):
         soft.kernels()
-    with pytest.raises(agglo.InputError, match="no genealogy.csv"):
+    with pytest.raises(agglo.InputError, match="no table 'genealogy'"):
         pytest.importorskip("networkx")
         soft.genealogy()
 

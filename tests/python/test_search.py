@@ -105,7 +105,7 @@ def test_results_are_read(tmp_path):
     assert agglo.resume(tmp_path / "search").summary == found.summary
     with pytest.raises(agglo.InputError, match="there are best, evaluations"):
         again.table("nothing")
-    with pytest.raises(agglo.InputError, match="until is for runs"):
+    with pytest.raises(agglo.InputError, match="a search or study; until"):
         agglo.resume(tmp_path / "search", until="1 s")
 
 

@@ -1,5 +1,8 @@
 //! Campaigns that a program leads and others run: the same bits, and nothing of one point told as another's.
 
+#[macro_use]
+extern crate agglo_testing;
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::ops::ControlFlow;
@@ -46,7 +49,7 @@ impl Optimizer for March {
     }
 
     fn tell(&mut self, fitnesses: &[Fitness]) {
-        assert!(fitnesses.iter().all(|fitness| fitness.costs.len() == 1 && fitness.cost().is_finite()));
+        assert_all!(fitnesses.iter(), |fitness| fitness.costs.len() == 1 && fitness.cost().is_finite());
     }
 
     fn recommended(&self) -> Option<Point> {
@@ -110,7 +113,7 @@ fn a_campaign_that_a_program_leads_goes_on_with_the_same_bits_whoever_runs_it() 
     assert_eq!(summary.stages[0].candidates, 7, "the last batch is cut to what the file allows");
 
     let failing = March { fails_after: 3, ..March::new(0.1) };
-    assert!(matches!(led(&broken, by(failing)), Ok(CampaignEnding::Interrupted)));
+    assert_matches!(led(&broken, by(failing)), Ok(CampaignEnding::Interrupted));
     let error = led(&broken, by(March::new(0.11))).unwrap_err();
     assert!(matches!(error, CampaignError::OtherPoint { evaluation: 1 }), "{error}");
     led(&broken, by(March::new(0.1))).unwrap();
@@ -133,11 +136,11 @@ fn without_a_program_nothing_is_begun() {
     let dir = folder.path().join("led");
     let error = led(&dir, Means::threads(1)).unwrap_err();
     assert!(matches!(error, CampaignError::NoProposer) && error.exit_code() == 2, "{error}");
-    assert!(!dir.exists());
+    assert_false!(dir.exists(), "a folder of a campaign that was refused");
     let own = LED.replace("[method.external]\nevaluations = 7", "[method.random]\npoints = 3");
     let own = Campaign::from_toml(&own).unwrap_or_else(|faults| panic!("{faults}"));
     let go_on = &mut |_: &CampaignProgress| ControlFlow::Continue(());
     let error = campaign::run(&own, Path::new(""), &dir, by(March::new(0.1)), go_on).unwrap_err();
     assert!(error.to_string().starts_with("found method.random; a campaign whose"), "{error}");
-    assert!(!dir.exists());
+    assert_false!(dir.exists(), "a folder of a campaign that was refused");
 }

@@ -163,7 +163,7 @@ fn a_pulse_that_is_asked_for_is_as_one_of_the_scenario() {
     let mut planned = common::start(&aimed(FLYING, "0 s", "0.1 ms"), |_| {});
     let silent = format!("{}pulses.count = 0\n", aimed(FLYING, "0 s", "0.1 ms"));
     let mut asked = common::start(&silent, |_| {});
-    assert!(matches!(asked.pulse(1), Err(SimError::NoBeam { beam: 1, beams: 1 })));
+    assert_matches!(asked.pulse(1), Err(SimError::NoBeam { beam: 1, beams: 1 }));
     asked.pulse(0).unwrap();
     until(&mut asked, 2e-5);
     let scenario = common::scenario(&silent);
@@ -189,7 +189,8 @@ fn a_traced_pulse_kicks_as_one_that_flies() {
     let grains = common::grains(&scenario, |_| {});
     let spheres = Spheres { position: &grains.position, radius: &grains.radius, material: &grains.material };
     let traced = trace(&settings, spheres, 0, 0).unwrap();
-    assert!(traced.are_impulses && traced.hits.len() as u64 == traced.count.reflections);
+    assert_true!(traced.are_impulses, "the scenario has impulses");
+    assert_eq!(traced.hits.len() as u64, traced.count.reflections);
     let mut impulse = vec![Vec3::ZERO; grains.len()];
     for (hit, load) in traced.hits.iter().zip(&traced.loads) {
         impulse[hit.grain as usize] += *load;
@@ -201,5 +202,5 @@ fn a_traced_pulse_kicks_as_one_that_flies() {
         // Sums of some hundred hits in another order.
         assert_near!((*impulse - *kick * mass).norm(), 0.0, 1e-12 * impulse.norm());
     }
-    assert!(matches!(trace(&settings, spheres, 4, 0), Err(SimError::NoBeam { beam: 4, beams: 1 })));
+    assert_matches!(trace(&settings, spheres, 4, 0), Err(SimError::NoBeam { beam: 4, beams: 1 }));
 }
