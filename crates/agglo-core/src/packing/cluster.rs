@@ -40,10 +40,10 @@ pub struct PackedCluster {
 /// use agglo::math::rng::{Purpose, Stream};
 /// use agglo::packing::pack_cluster;
 /// let mut stream = Stream::new(1, Purpose::Primaries, 0);
-/// // A hundred unit spheres fill half of a sphere of radius (100/0.5)^(1/3).
-/// let packed = pack_cluster(&[1.0; 100], &[1.0; 100], 200.0_f64.cbrt(), &mut stream);
+/// // A hundred unit spheres fill a third of a sphere of radius (100/(1/3))^(1/3).
+/// let packed = pack_cluster(&[1.0; 100], &[1.0; 100], 300.0_f64.cbrt(), &mut stream);
 /// assert_eq!(packed.positions.len(), 100);
-/// assert!(packed.envelope <= 200.0_f64.cbrt());
+/// assert!(packed.envelope <= 300.0_f64.cbrt());
 /// ```
 pub fn pack_cluster(radii: &[f64], masses: &[f64], reach: f64, stream: &mut Stream) -> PackedCluster {
     let order = shuffled(radii.len(), stream);
