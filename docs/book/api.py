@@ -57,10 +57,11 @@ def docs(thing):
     return re.sub(r"((?:^(?:>>>|\.\.\.).*\n?(?:^(?!>>>|\.\.\.|$).*\n?)*)+)", r"```python\n\1\n```\n", text, flags=re.MULTILINE)
 
 
-def members(name, node):
-    """Methods and properties of a class that are not private."""
+def members(name, node, known):
+    """Methods and properties of a class that are not private, those of the package's own classes above it as well."""
     thing = getattr(agglo, name)
-    for one in node.body:
+    above = [known[key] for base in node.bases for key in known if key[1] == ast.unparse(base)]
+    for one in [one for each in (node, *above) for one in each.body]:
         if not isinstance(one, ast.FunctionDef) or one.name.startswith("_") and one.name != "__call__":
             continue
         decorators = {ast.unparse(decorator) for decorator in one.decorator_list}
@@ -87,7 +88,7 @@ def page():
         call = signature(name, made, True).partition(" -> ")[0] if made else name
         text = f"### `agglo.{call}`\n\n{docs(thing)}\n"
         kind = "Errors" if issubclass(thing, Exception) else "Classes"
-        parts[kind].append("\n".join([text, *members(name, node)]) if kind == "Classes" else text)
+        parts[kind].append("\n".join([text, *members(name, node, known)]) if kind == "Classes" else text)
     listed = [f"## {kind}\n\n" + "\n".join(entries) for kind, entries in parts.items()]
     return re.sub(r"\n{3,}", "\n\n", "\n".join([HEAD, *listed])).rstrip() + "\n"
 

@@ -33,7 +33,8 @@ from agglo._gaussian import GaussianProcess
 from agglo._hand_over import HandOver, hand_over
 from agglo._pieces import Trace, contact, reflect, trace
 from agglo._plots import style as plot_style
-from agglo._results import Run, report
+from agglo._recorded import report
+from agglo._results import Run
 from agglo._search import Evaluator, Search, read, search
 from agglo._settings import scenario
 from agglo._shapes import to_ase, to_pyvista

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -10,43 +10,21 @@ from agglo import _agglo, _html, _plots
 from agglo._agglo import Scenario
 from agglo._errors import InputError
 from agglo._optional import need
+from agglo._recorded import Recorded
 from agglo._shapes import Graph, genealogy, sizes, to_ase
-from agglo._tables import Table, table_of
-from agglo._types import Columns, Folder
+from agglo._tables import Table
+from agglo._types import Columns
 
 
-class Run:
+class Run(Recorded):
     """The folder of a run: its scenario, summary, tables over time and frames."""
 
-    def __init__(self, folder: Folder) -> None:
-        self.folder = Path(folder)
-        found = _agglo.what_is_in(self.folder)
-        if found is None or found[0] != "run":
-            raise InputError(f"{self.folder} holds no run")
-        self._asked = Path(found[1])
+    _kind = ("run", "run")
 
     @property
     def scenario(self) -> Scenario:
         """What was run, with all defaults."""
         return Scenario.from_file(self._asked)
-
-    @property
-    def summary(self) -> Mapping[str, Any] | None:
-        """What the run came to; None as long as it has not reached its end."""
-        return _agglo.summary(self.folder)
-
-    @property
-    def tables(self) -> list[str]:
-        """Names of its tables: those over time, such as "energy", and those of what happened, such as "events"."""
-        return [name for name, _ in _agglo.tables(self.folder)]
-
-    def table(self, name: str) -> Table:
-        """A table, such as "energy".
-
-        Raises:
-            InputError: There is no such table.
-        """
-        return table_of(self.folder, name)
 
     def frames(self, kind: str = "grains") -> list[tuple[float, Path]]:
         """Times [s] and files of the frames of "grains", "bonds" or "rays"."""
@@ -160,10 +138,6 @@ class Run:
         """
         return _plots.run(self, charts)
 
-    def report(self) -> Path:
-        """Writes report.html, and gives its path."""
-        return report(self.folder)
-
     def _frame(self, frame: int, kind: str) -> tuple[float, Path]:
         frames = self.frames(kind)
         try:
@@ -173,16 +147,3 @@ class Run:
 
     def _repr_html_(self) -> str:
         return _html.run(self)
-
-    def __repr__(self) -> str:
-        state = "finished" if self.summary is not None else "not finished"
-        return f"<agglo.Run {str(self.folder)!r}, {state}>"
-
-
-def report(folder: Folder) -> Path:
-    """Writes report.html into the folder of a run, search or study, and gives its path.
-
-    Raises:
-        InputError: There is nothing to show.
-    """
-    return Path(_agglo.report(Path(folder))[0])

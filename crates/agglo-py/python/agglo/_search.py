@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import queue
 import threading
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import Executor, Future
 from pathlib import Path
 from types import TracebackType
@@ -20,8 +20,8 @@ from agglo._batches import Batches, Outcome
 from agglo._errors import InputError
 from agglo._fitness import Fitness
 from agglo._replicate import Function, Job, outcome
-from agglo._results import Run, report
-from agglo._tables import Table, table_of
+from agglo._recorded import Recorded
+from agglo._results import Run
 from agglo._types import Folder, Progress
 
 Told = Callable[[Progress], object]
@@ -37,15 +37,10 @@ class Method(Protocol):
         """How good the points are that were asked for last."""
 
 
-class Search:
+class Search(Recorded):
     """The folder of a search or study: what was asked for, summary, tables, and the run of the best."""
 
-    def __init__(self, folder: Folder) -> None:
-        self.folder = Path(folder)
-        found = _agglo.what_is_in(self.folder)
-        if found is None or found[0] != "campaign":
-            raise InputError(f"{self.folder} holds no search or study")
-        self._asked = Path(found[1])
+    _kind = ("campaign", "search or study")
 
     @property
     def campaign(self) -> Campaign:
@@ -53,28 +48,10 @@ class Search:
         return Campaign.from_file(self._asked)
 
     @property
-    def summary(self) -> Mapping[str, Any] | None:
-        """What it came to; None as long as it has not reached its end."""
-        return _agglo.summary(self.folder)
-
-    @property
     def best(self) -> Run | None:
         """The run of the best, with frames; None where there is none, as of a study."""
         folder = Path(_agglo.best_run(self.folder))
         return Run(folder) if _agglo.what_is_in(folder) is not None else None
-
-    @property
-    def tables(self) -> list[str]:
-        """Names of its tables, such as "evaluations" and "runs"."""
-        return [name for name, _ in _agglo.tables(self.folder)]
-
-    def table(self, name: str) -> Table:
-        """A table, such as "evaluations".
-
-        Raises:
-            InputError: There is no such table.
-        """
-        return table_of(self.folder, name)
 
     def plot(self, quantities: Sequence[str] | None = None) -> Any:
         """Charts as a Figure of matplotlib, which the caller shows or saves.
@@ -93,16 +70,8 @@ class Search:
         """
         return _search_plots.plot(self, quantities)
 
-    def report(self) -> Path:
-        """Writes report.html, and gives its path."""
-        return report(self.folder)
-
     def _repr_html_(self) -> str:
         return _html.search(self)
-
-    def __repr__(self) -> str:
-        state = "finished" if self.summary is not None else "not finished"
-        return f"<agglo.Search {str(self.folder)!r}, {state}>"
 
 
 def search(
