@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::{HandOver, HandOverError};
 use crate::folder::names;
 use crate::math::Vec3;
-use crate::packing::{ConstantSize, GrainGroup, Placement, Size, Table};
+use crate::packing::{ConstantSize, GrainGroup, Placement, QUANTITIES, Size, Table};
 use crate::particles::Particles;
 use crate::record::{Cell, RecordError, Rows, atomic, json};
 use crate::scenario::Scenario;
@@ -88,22 +88,8 @@ pub(super) fn groups(
 fn table(grains: &Particles, told: &[Told], own: &[usize]) -> std::io::Result<String> {
     let mut rows = Rows::in_memory();
     let has_primaries = told.iter().any(|told| told.primaries.is_some());
-    let columns = [
-        "x_m",
-        "y_m",
-        "z_m",
-        "radius_m",
-        "vx_m_s",
-        "vy_m_s",
-        "vz_m_s",
-        "wx_rad_s",
-        "wy_rad_s",
-        "wz_rad_s",
-        "temperature_K",
-        "cluster",
-    ];
-    let last = if has_primaries { &["primaries"][..] } else { &[] };
-    rows.row(columns.iter().chain(last).map(|name| Cell::Word(name)))?;
+    let last = if has_primaries { &["cluster", "primaries"][..] } else { &["cluster"] };
+    rows.row(QUANTITIES.iter().chain(last).map(|name| Cell::Word(name)))?;
     for &at in own {
         let vector = |v: Vec3| v.to_array().map(Cell::Number);
         let told = &told[at];

@@ -4,6 +4,7 @@
 //! What comes out is a scenario with the table of its grains, which is checked and run like any other, and a record of what
 //! was kept and what was not: momentum, angular momentum, energy, places.
 
+mod came_out;
 mod error;
 mod files;
 mod lineage;

@@ -9,8 +9,9 @@
 
 use std::path::Path;
 
+use super::came_out::{CameOut, titled};
 use super::files::{self, Cluster, Told};
-use super::record::{Cleared, ball};
+use super::record::Cleared;
 use super::{Grown, HandOver, HandOverError, Motion, Options, materials};
 use crate::domain::Volume;
 use crate::math::Vec3;
@@ -28,37 +29,16 @@ pub(super) fn hand_over(grown: &Grown, options: &Options<'_>, to: &Path) -> Resu
     let before = &grown.state.start.grains;
     let [of_before, of_after] = [&grown.state.past.materials, &scenario.materials]
         .map(|names| materials::capacities(names, &scenario.materials));
-    let (center, radius) = ball(&merged.grains);
+    let motions = [(before, &of_before), (&merged.grains, &of_after)]
+        .map(|(grains, capacities)| Motion::of(grains, materials::heat(grains, capacities)));
     let groups = files::groups(to, &scenario, &merged.grains, &merged.told)?;
-    let [clusters_table, record] = files::places(to);
-    let spins = merged.clusters.iter().map(|cluster| cluster.spin.norm());
     let record = HandOver {
-        to: "hard",
-        from: grown.shown.clone(),
-        time_s: grown.state.time,
-        with: options.with.1.to_owned(),
-        scenario: to.to_owned(),
-        tables: files::tables_of(&groups),
-        clusters_table,
-        record,
-        clusters: merged.clusters.len(),
-        single: merged.clusters.iter().filter(|cluster| cluster.primaries == 1).count(),
-        largest: merged.clusters.iter().map(|cluster| cluster.primaries).max().unwrap_or(0),
-        packing: None,
-        moved: merged.cleared.moved,
-        farthest_m: merged.cleared.farthest,
-        spread: merged.cleared.spread,
         volume_m: volume,
-        center_m: center.to_array(),
-        radius_m: radius,
-        before: Motion::of(before, materials::heat(before, &of_before)),
-        after: Motion::of(&merged.grains, materials::heat(&merged.grains, &of_after)),
-        spin_dropped_kg_m2_s: spins.sum(),
+        spin_dropped_kg_m2_s: merged.clusters.iter().map(|cluster| cluster.spin.norm()).sum(),
         notes: notes(grown),
+        ..merged.record((grown, options, to), files::tables_of(&groups), motions)
     };
-    let title = &grown.state.past.title;
-    let title = if title.is_empty() { "A run" } else { title };
-    scenario.title = format!("{title}, each cluster one grain");
+    scenario.title = format!("{}, each cluster one grain", titled(grown));
     files::write(&mut scenario, groups, &merged.clusters, &record)?;
     Ok(record)
 }
@@ -76,14 +56,7 @@ fn notes(grown: &Grown) -> Vec<String> {
 }
 
 /// The clusters of a run as grains.
-struct Merged {
-    grains: Particles,
-    told: Vec<Told>,
-    clusters: Vec<Cluster>,
-    cleared: Cleared,
-}
-
-fn merge(grown: &Grown, scenario: &Scenario) -> Result<Merged, HandOverError> {
+fn merge(grown: &Grown, scenario: &Scenario) -> Result<CameOut, HandOverError> {
     let (start, past) = (&grown.state.start, &grown.state.past);
     let grains = &start.grains;
     let mut edges: Vec<(u32, u32)> = start.bonds.iter().flatten().map(|bond| bond.grains.into()).collect();
@@ -107,15 +80,12 @@ fn merge(grown: &Grown, scenario: &Scenario) -> Result<Merged, HandOverError> {
         row.position = place;
         cluster.places[1] = place;
     }
-    let mut order: Vec<usize> = (0..rows.len()).collect();
-    order.sort_by_key(|&at| rows[at].material);
-    let mut merged = Merged { grains: Particles::default(), told: Vec::new(), clusters, cleared };
-    for (id, at) in (0..).zip(order) {
-        merged.grains.push(Row { id, ..rows[at] });
-        let primaries = Some(merged.clusters[at].primaries as u32);
-        merged.told.push(Told { cluster: rows[at].id, primaries });
-    }
-    Ok(merged)
+    let told = rows
+        .iter()
+        .zip(&clusters)
+        .map(|(row, cluster)| Told { cluster: row.id, primaries: Some(cluster.primaries as u32) });
+    let told: Vec<Told> = told.collect();
+    Ok(CameOut::new(rows.into_iter().zip(told).collect(), clusters, cleared))
 }
 
 /// One cluster as a grain.

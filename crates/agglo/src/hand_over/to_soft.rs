@@ -11,9 +11,10 @@
 
 use std::path::Path;
 
+use super::came_out::{CameOut, titled};
 use super::files::{self, Cluster, Told};
 use super::lineage::Lineage;
-use super::record::{Cleared, ball};
+use super::record::Cleared;
 use super::{Grown, HandOver, HandOverError, Motion, Options, Packing, materials};
 use crate::contact::Bonds;
 use crate::contact::closeness::TOUCHING;
@@ -93,15 +94,6 @@ impl Taker<'_> {
     }
 }
 
-/// All primaries where they go, group by group of the new scenario's materials, and the agglomerates.
-struct Apart {
-    grains: Particles,
-    told: Vec<Told>,
-    clusters: Vec<Cluster>,
-    cleared: Cleared,
-    equal: usize,
-}
-
 /// Hands hard spheres over to soft ones.
 pub(super) fn hand_over(grown: &Grown, options: &Options<'_>, to: &Path) -> Result<HandOver, HandOverError> {
     let porosity = options.porosity;
@@ -118,7 +110,7 @@ pub(super) fn hand_over(grown: &Grown, options: &Options<'_>, to: &Path) -> Resu
         scenario.soft().and_then(|soft| soft.bonds.as_ref()).and_then(Bonds::lasting).map(|law| law.gap);
     let numbers = materials::numbers(grown, &scenario);
     let taker = Taker { grown, lineage, scenario: &scenario, numbers };
-    let apart = taker.take_apart(porosity, gap, seed)?;
+    let (apart, equal_primaries) = taker.take_apart(porosity, gap, seed)?;
     let bonds = connected(&apart, gap)?;
     let several = || apart.clusters.iter().filter(|cluster| cluster.primaries > 1);
     let porosities = several().map(Cluster::porosity);
@@ -130,7 +122,7 @@ pub(super) fn hand_over(grown: &Grown, options: &Options<'_>, to: &Path) -> Resu
         porosities: (several().count() > 0)
             .then(|| [porosities.clone().fold(1.0, f64::min), porosities.clone().fold(0.0, f64::max)]),
         wider: several().filter(asked).count(),
-        equal_primaries: apart.equal,
+        equal_primaries,
         bonds: gap.map(|_| bonds),
         seed,
     };
@@ -143,40 +135,19 @@ pub(super) fn hand_over(grown: &Grown, options: &Options<'_>, to: &Path) -> Resu
         .map(|(heat, parts)| parts.heat_capacity * heat)
         .sum();
     let capacities = materials::capacities(&scenario.materials, &grown.state.past.materials);
-    let (center, radius) = ball(&apart.grains);
+    let motions = [
+        Motion::of(&before.grains, held),
+        Motion::of(&apart.grains, materials::heat(&apart.grains, &capacities)),
+    ];
     let groups = files::groups(to, &scenario, &apart.grains, &apart.told)?;
-    let [clusters_table, record] = files::places(to);
     let record = HandOver {
-        to: "soft",
-        from: grown.shown.clone(),
-        time_s: grown.state.time,
-        with: options.with.1.to_owned(),
-        scenario: to.to_owned(),
-        tables: files::tables_of(&groups),
-        clusters_table,
-        record,
-        clusters: apart.clusters.len(),
-        single: apart.clusters.iter().filter(|cluster| cluster.primaries == 1).count(),
-        largest: apart.clusters.iter().map(|cluster| cluster.primaries).max().unwrap_or(0),
         packing: Some(packing),
-        moved: apart.cleared.moved,
-        farthest_m: apart.cleared.farthest,
-        spread: apart.cleared.spread,
-        volume_m: None,
-        center_m: center.to_array(),
-        radius_m: radius,
-        before: Motion::of(&before.grains, held),
-        after: Motion::of(&apart.grains, materials::heat(&apart.grains, &capacities)),
-        spin_dropped_kg_m2_s: 0.0,
         notes: notes(grown, &scenario),
+        ..apart.record((grown, options, to), files::tables_of(&groups), motions)
     };
-    scenario.title = format!("{}, taken apart into primaries", titled(&grown.state.past.title, "A run"));
+    scenario.title = format!("{}, taken apart into primaries", titled(grown));
     files::write(&mut scenario, groups, &apart.clusters, &record)?;
     Ok(record)
-}
-
-fn titled<'a>(title: &'a str, other: &'a str) -> &'a str {
-    if title.is_empty() { other } else { title }
 }
 
 fn notes(grown: &Grown, scenario: &Scenario) -> Vec<String> {
@@ -194,8 +165,14 @@ fn notes(grown: &Grown, scenario: &Scenario) -> Vec<String> {
 }
 
 impl Taker<'_> {
-    /// Packs all agglomerates, moves them apart so that envelopes lie clear of one another, and puts their primaries there.
-    fn take_apart(&self, porosity: f64, gap: Option<f64>, seed: u64) -> Result<Apart, HandOverError> {
+    /// Packs all agglomerates, moves them apart so that envelopes lie clear of one another, and puts their primaries there; with
+    /// the number of agglomerates whose primaries are equal ones since their own are not known.
+    fn take_apart(
+        &self,
+        porosity: f64,
+        gap: Option<f64>,
+        seed: u64,
+    ) -> Result<(CameOut, usize), HandOverError> {
         let start = &self.grown.state.start;
         let closest = gap.unwrap_or(0.0).max(self.scenario.measures.cluster_gap).max(TOUCHING);
         let (mut packed, mut reaches, mut equal) = (Vec::new(), Vec::new(), 0);
@@ -217,12 +194,10 @@ impl Taker<'_> {
             let place = cleared.places[at];
             let placed = placed(&before, place, primaries, &found.positions, self.scenario);
             clusters.push(self.cluster(at, place, found.envelope, &placed));
-            rows.extend((0..placed.len()).map(|k| (placed.row(k), before.id)));
+            let told = |k| (placed.row(k), Told { cluster: before.id, primaries: None });
+            rows.extend((0..placed.len()).map(told));
         }
-        Ok(in_groups(
-            rows,
-            Apart { grains: Particles::default(), told: Vec::new(), clusters, cleared, equal },
-        ))
+        Ok((CameOut::new(rows, clusters, cleared), equal))
     }
 
     fn cluster(&self, at: usize, place: Vec3, envelope: f64, placed: &Particles) -> Cluster {
@@ -272,21 +247,11 @@ fn placed(grain: &Row, place: Vec3, primaries: &Primaries, about: &[Vec3], scena
     placed
 }
 
-/// Groups follow one another in a scenario, and ids their order.
-fn in_groups(mut rows: Vec<(Row, u32)>, mut apart: Apart) -> Apart {
-    rows.sort_by_key(|(row, _)| row.material);
-    for (id, (row, cluster)) in (0..).zip(rows) {
-        apart.grains.push(Row { id, ..row });
-        apart.told.push(Told { cluster, primaries: None });
-    }
-    apart
-}
-
 /// The number of pairs that the scenario bonds, or that touch where it has no law of bonds.
 ///
 /// # Errors
 /// [`HandOverError::Refused`] where an agglomerate is not one piece, or two are.
-fn connected(apart: &Apart, gap: Option<f64>) -> Result<usize, HandOverError> {
+fn connected(apart: &CameOut, gap: Option<f64>) -> Result<usize, HandOverError> {
     let (grains, part) = (&apart.grains, gap.unwrap_or(TOUCHING));
     let mut edges = Vec::new();
     close_pairs(&grains.position, &grains.radius, part, &mut |a, b| edges.push((a, b)));

@@ -9,4 +9,5 @@ pub use agglo_core::packing::*;
 
 pub use error::StartError;
 pub use place::{place, place_all, place_groups};
+pub(crate) use table::QUANTITIES;
 pub use table::TableError;

@@ -36,6 +36,8 @@ const DIMENSIONS: [Dimension; PRIMARIES] = {
     let heat = Temperature::DIMENSION;
     [length, length, length, length, velocity, velocity, velocity, turning, turning, turning, heat]
 };
+/// Names of the columns with quantities, for whoever writes such a table.
+pub(crate) const QUANTITIES: &[&str] = COLUMNS.split_at(PRIMARIES).0;
 /// Columns that every table has.
 const POSITION: Range<usize> = 0..3;
 const RADIUS: usize = 3;
