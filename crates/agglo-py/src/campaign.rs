@@ -1,6 +1,7 @@
 //! Searches and studies: what they vary, and what a point of theirs stands for.
 
 use std::path::PathBuf;
+use std::sync::{Arc, OnceLock};
 
 use agglo::scenario::template;
 use agglo::search::campaign::way_of;
@@ -8,24 +9,39 @@ use agglo::search::optimizer::{External, Method};
 use agglo::search::{Campaign as Read, Candidate, Model, Problem, Scale};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
-use serde_json::Value as Json;
 
 use crate::error::{InputError, raised};
 use crate::json::to_python;
-use crate::scenario::{Scenario, folder, helper, lines};
+use crate::scenario::{Scenario, folder, folder_of, lines, text_of};
 
 /// A checked search or study. It does not change: `replace` makes another one.
 #[pyclass(module = "agglo", frozen, eq, from_py_object)]
-#[derive(Clone, PartialEq)]
+#[derive(Clone)]
 pub(crate) struct Campaign {
     pub read: Read,
     /// The folder that its files are relative to.
     pub base: PathBuf,
+    /// What it evaluates, drawn up when that is asked for first: its base is read for it.
+    problem: Arc<OnceLock<Problem>>,
+}
+
+impl PartialEq for Campaign {
+    fn eq(&self, other: &Self) -> bool {
+        self.read == other.read && self.base == other.base
+    }
 }
 
 impl Campaign {
-    fn problem(&self, py: Python<'_>) -> PyResult<Problem> {
-        Problem::new(&self.read, &self.base).map_err(|faults| raised(py, faults))
+    fn of(read: Read, base: PathBuf) -> Self {
+        Self { read, base, problem: Arc::default() }
+    }
+
+    fn problem(&self, py: Python<'_>) -> PyResult<&Problem> {
+        if let Some(problem) = self.problem.get() {
+            return Ok(problem);
+        }
+        let problem = Problem::new(&self.read, &self.base).map_err(|faults| raised(py, faults))?;
+        Ok(self.problem.get_or_init(|| problem))
     }
 
     fn candidate(problem: &Problem, point: &[f64]) -> PyResult<Candidate> {
@@ -52,7 +68,7 @@ impl Campaign {
         let (settings, base) = (lines(py, settings)?, folder(base));
         let read = Read::from_source(text, &base, &settings);
         let read = read.map_err(|faults| crate::error::of_faults(py, &faults, "campaign"))?;
-        Ok(Self { read, base })
+        Ok(Self::of(read, base))
     }
 
     /// Reads a file.
@@ -61,21 +77,14 @@ impl Campaign {
     fn from_file(py: Python<'_>, path: PathBuf, settings: Option<Bound<'_, PyAny>>) -> PyResult<Self> {
         let settings = lines(py, settings)?;
         let read = Read::load_with_overrides(&path, &settings).map_err(|error| raised(py, error))?;
-        let base = std::path::absolute(path.parent().unwrap_or(std::path::Path::new("")).join("."))?;
-        Ok(Self { read, base })
+        Ok(Self::of(read, folder_of(&path)?))
     }
 
     /// Takes the tables of a search or study as dicts. Quantities are text with units, or quantities of pint.
     #[staticmethod]
     #[pyo3(signature = (tables, base=PathBuf::new()))]
     fn from_dict(py: Python<'_>, tables: &Bound<'_, PyAny>, base: PathBuf) -> PyResult<Self> {
-        let json: String = helper(py, "tables")?.call1((tables,))?.extract()?;
-        let bad = |error: &dyn std::fmt::Display| {
-            InputError::new_err(format!("no tables of a search or study: {error}"))
-        };
-        let tables: Json = serde_json::from_str(&json).map_err(|error| bad(&error))?;
-        let text = toml::to_string(&tables).map_err(|error| bad(&error))?;
-        Self::new(py, &text, None, base)
+        Self::new(py, &text_of(tables, "a search or study")?, None, base)
     }
 
     /// The shipped search or study of this name.
@@ -178,7 +187,7 @@ impl Campaign {
     /// What a point of the unit cube stands for: values by the names of the parameters in SI units, a choice by its label.
     fn values<'py>(&self, py: Python<'py>, point: Vec<f64>) -> PyResult<Bound<'py, PyDict>> {
         let problem = self.problem(py)?;
-        let candidate = Self::candidate(&problem, &point)?;
+        let candidate = Self::candidate(problem, &point)?;
         let table = PyDict::new(py);
         for (axis, value) in problem.axes().iter().zip(&candidate.values) {
             if matches!(axis.scale, Scale::Choices(_)) {
@@ -193,7 +202,7 @@ impl Campaign {
     /// The scenario of a point of the unit cube.
     fn scenario(&self, py: Python<'_>, point: Vec<f64>) -> PyResult<Scenario> {
         let problem = self.problem(py)?;
-        let candidate = Self::candidate(&problem, &point)?;
+        let candidate = Self::candidate(problem, &point)?;
         let read = problem.scenario(&candidate).map_err(|faults| raised(py, faults))?;
         Ok(Scenario { read, base: problem.folder().to_owned() })
     }

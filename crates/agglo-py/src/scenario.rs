@@ -31,7 +31,7 @@ impl Scenario {
 }
 
 /// A function that turns values of Python into values of a scenario.
-pub(crate) fn helper<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+fn helper<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
     py.import("agglo._settings")?.getattr(name)
 }
 
@@ -43,6 +43,19 @@ pub(crate) fn lines(py: Python<'_>, settings: Option<Bound<'_, PyAny>>) -> PyRes
 /// A folder as Python has it, which writes no path as ".".
 pub(crate) fn folder(given: PathBuf) -> PathBuf {
     if given == Path::new(".") { PathBuf::new() } else { given }
+}
+
+/// The folder of a file, wherever one is later.
+pub(crate) fn folder_of(file: &Path) -> PyResult<PathBuf> {
+    Ok(std::path::absolute(file.parent().unwrap_or(Path::new("")).join("."))?)
+}
+
+/// Tables in dicts as TOML; `what` they are of is for messages.
+pub(crate) fn text_of(tables: &Bound<'_, PyAny>, what: &str) -> PyResult<String> {
+    let json: String = helper(tables.py(), "tables")?.call1((tables,))?.extract()?;
+    let bad = |error: &dyn std::fmt::Display| InputError::new_err(format!("no tables of {what}: {error}"));
+    let tables: Json = serde_json::from_str(&json).map_err(|error| bad(&error))?;
+    toml::to_string(&tables).map_err(|error| bad(&error))
 }
 
 #[pymethods]
@@ -64,21 +77,14 @@ impl Scenario {
     fn from_file(py: Python<'_>, path: PathBuf, settings: Option<Bound<'_, PyAny>>) -> PyResult<Self> {
         let settings = lines(py, settings)?;
         let read = Read::load_with_overrides(&path, &settings).map_err(|error| raised(py, error))?;
-        let folder = path.parent().unwrap_or(Path::new(""));
-        let base = std::path::absolute(folder.join("."))?;
-        Ok(Self { read, base })
+        Ok(Self { read, base: folder_of(&path)? })
     }
 
     /// Takes the tables of a scenario as dicts. Quantities are text with units, or quantities of pint.
     #[staticmethod]
     #[pyo3(signature = (tables, base=PathBuf::new()))]
     fn from_dict(py: Python<'_>, tables: &Bound<'_, PyAny>, base: PathBuf) -> PyResult<Self> {
-        let json: String = helper(py, "tables")?.call1((tables,))?.extract()?;
-        let bad =
-            |error: &dyn std::fmt::Display| InputError::new_err(format!("no tables of a scenario: {error}"));
-        let tables: Json = serde_json::from_str(&json).map_err(|error| bad(&error))?;
-        let text = toml::to_string(&tables).map_err(|error| bad(&error))?;
-        Self::new(py, &text, None, base)
+        Self::new(py, &text_of(tables, "a scenario")?, None, base)
     }
 
     /// The shipped scenario of this name.
