@@ -11,6 +11,7 @@ ROOT = Path(__file__).resolve().parents[2]
 SLURM = ROOT / "examples/slurm"
 
 # `sbatch` runs a job at once, each task of an array beside the others, and again as long as it asks for that by `scontrol requeue`.
+# The first time it may be given less time than later ones: how much a session gets done in a given time is up to the machine.
 SBATCH = r"""#!/usr/bin/env bash
 set -euo pipefail
 array= parsable=
@@ -28,9 +29,11 @@ queue() {
     local name=$1 code
     shift
     export SLURM_JOB_ID=$name
+    local first=${FIRST_WALL_TIME:-}
     while true; do
         code=0
-        bash "$@" >>"$STATE/$name.log" 2>&1 || code=$?
+        ${first:+env "AGGLO_WALL_TIME=$first"} bash "$@" >>"$STATE/$name.log" 2>&1 || code=$?
+        first=
         echo "$code" >>"$STATE/$name.codes"
         [[ -e $STATE/$name.requeue ]] || return "$code"
         rm "$STATE/$name.requeue"
@@ -112,9 +115,8 @@ def test_a_job_array_gives_the_folder_of_one_process(slurm, built, tmp_path):
 
 def test_jobs_that_run_out_of_time_are_queued_again(slurm, built, tmp_path):
     small_study(tmp_path)
-    codes = slurm(SLURM / "submit-study.sh", "study.toml", "2", "out", AGGLO_WALL_TIME="0.03 s")
-    # A session ends after whole runs only, so that each one gets on.
-    assert all(3 in codes[task] and codes[task][-1] == 0 and set(codes[task]) == {0, 3} for task in ("77_1", "77_2")), codes
+    codes = slurm(SLURM / "submit-study.sh", "study.toml", "2", "out", FIRST_WALL_TIME="1 us")
+    assert codes == {"77_1": [3, 0], "77_2": [3, 0], "78": [0]}
     subprocess.run([built / "agglo", "study", "study.toml", "-o", "alone"], cwd=tmp_path, check=True, capture_output=True)
     assert without_times(tmp_path / "out/whole") == without_times(tmp_path / "alone")
 
@@ -130,8 +132,8 @@ def test_a_run_that_runs_out_of_time_goes_on(slurm, built, tmp_path):
         capture_output=True,
     )
     # The scenario of the first run has its settings.
-    codes = slurm("sbatch", SLURM / "run-requeue.sh", "run", "alone/scenario.toml", "out/run", AGGLO_WALL_TIME="0.3 s")
-    assert codes["78"][-1] == 0 and set(codes["78"]) == {0, 3} and len(codes["78"]) >= 2, codes
+    codes = slurm("sbatch", SLURM / "run-requeue.sh", "run", "alone/scenario.toml", "out/run", FIRST_WALL_TIME="1 us")
+    assert codes == {"78": [3, 0]}
     for table in sorted((tmp_path / "alone/series").glob("*.csv")):
         assert (tmp_path / "out/run/series" / table.name).read_bytes() == table.read_bytes(), table.name
 
