@@ -50,6 +50,10 @@ def pull(time_s, position, velocity, angular_velocity):
     return -1e-4 * position
 
 
+def push(time_s, position, velocity, angular_velocity):
+    return 1e-4 * position
+
+
 def nothing(time_s, grains):
     return None
 
@@ -143,9 +147,13 @@ def test_a_force_that_raises_makes_no_step(tmp_path):
             raise LookupError("no force")
         return pull(time_s, *motion)
 
+    # Once it is put right it has the same name.
+    breaks.__name__ = "pull"
     cut = tmp_path / "cut"
     with pytest.raises(LookupError, match="no force"):
         agglo.run(soft(), cut, force=agglo.Force(breaks, stiffness_over_mass=1e4))
+    with pytest.raises(agglo.InputError, match='the force "the function pull", and is to go on with the force "the function push"'):
+        agglo.resume(cut, force=push)
     agglo.resume(cut, force=FORCE)
     assert files(cut) == files(whole.folder)
 
@@ -155,7 +163,7 @@ def test_the_terminal_does_not_go_on_without_them(tmp_path):
         agglo.run(soft(), tmp_path / "run", force=FORCE, stop=lambda time_s, _: 1 / (time_s < 1e-3) < 0)
     done = subprocess.run([sys.executable, "-m", "agglo", "resume", str(tmp_path / "run")], capture_output=True, text=True)
     assert done.returncode == 2, done.stderr
-    assert 'began with the force "a function of Python", a rule that ends it, and is to go on with nothing' in done.stderr
+    assert 'began with the force "the function pull", a rule that ends it, and is to go on with nothing' in done.stderr
     assert "agglo.resume` with force, measures and stop" in done.stderr
 
 

@@ -1,6 +1,7 @@
 """Searches from Python: the program's bits wherever simulations run, methods of one's own, loops of one's own."""
 
 import concurrent.futures
+import functools
 import os
 import pickle
 import signal
@@ -246,15 +247,49 @@ def test_short_simulations_travel_together():
     assert len({id(job.text) for job in held.sent[29][1]}) == 1, "replicates have their text in common"
 
 
-def killed(scenario):
+def killed():
     os.kill(os.getpid(), signal.SIGKILL)
 
 
 def test_an_executor_that_breaks_is_no_failure_of_a_candidate(tmp_path, whole):
-    with concurrent.futures.ProcessPoolExecutor(1) as pool, pytest.raises(concurrent.futures.process.BrokenProcessPool):
-        agglo.search(campaign(), tmp_path / "search", executor=pool, function=killed)
+    with concurrent.futures.ProcessPoolExecutor(1) as pool:
+        with pytest.raises(concurrent.futures.process.BrokenProcessPool):
+            pool.submit(killed).result()
+        with pytest.raises(concurrent.futures.process.BrokenProcessPool):
+            agglo.search(campaign(), tmp_path / "search", executor=pool)
     agglo.resume(tmp_path / "search")
     assert files(tmp_path / "search") == whole
+
+
+def bowl_of_two(scenario):
+    """A bowl that asks to stop once it was called twice."""
+    if bowl_of_two.left == 0:
+        raise KeyboardInterrupt
+    bowl_of_two.left -= 1
+    return bowl(scenario)
+
+
+def test_a_search_goes_on_with_the_function_that_it_began_with(tmp_path):
+    folder, function = tmp_path / "search", functools.partial(bowl_of_two)
+    bowl_of_two.left = 2
+    with pytest.raises(KeyboardInterrupt):
+        agglo.search(campaign(confirm__candidates=0), folder, function=function, at_once=1)
+    bowl_of_two.left = 10_000
+    for other, whence in [(None, "runs of agglo"), (bowl, "the function bowl")]:
+        words = f"come from the function bowl_of_two, and this session's from {whence}; go on with what it began with"
+        with pytest.raises(agglo.InputError, match=words):
+            agglo.resume(folder, function=other)
+    found = agglo.resume(folder, function=bowl_of_two)
+    assert found.summary["function"] == "bowl_of_two" and found.summary["evaluations"] == 24
+    assert "function bowl_of_two instead of runs" in agglo.report(folder).read_text()
+    with pytest.raises(KeyboardInterrupt):
+        agglo.search(campaign(), tmp_path / "runs", progress=interrupted)
+    with pytest.raises(agglo.InputError, match="come from runs of agglo, and this session's from the function bowl"):
+        agglo.resume(tmp_path / "runs", function=bowl)
+
+
+def interrupted(progress):
+    raise KeyboardInterrupt
 
 
 CTRL_C = """

@@ -42,7 +42,7 @@ pub(crate) fn vectors(
     py: Python<'_>,
     values: impl IntoIterator<Item = [f64; 3]>,
 ) -> PyResult<Bound<'_, PyArray2<f64>>> {
-    let flat: Vec<f64> = values.into_iter().flatten().collect();
-    let count = flat.len() / 3;
-    flat.into_pyarray(py).reshape([count, 3])
+    let rows: Vec<[f64; 3]> = values.into_iter().collect();
+    let count = rows.len();
+    rows.into_flattened().into_pyarray(py).reshape([count, 3])
 }

@@ -18,6 +18,7 @@ use crate::work::{interruptible, interruptible_apart};
 #[pyo3(from_item_all)]
 pub(crate) struct Functions {
     force: Option<Py<PyAny>>,
+    force_name: Option<String>,
     stiffness_over_mass: Option<f64>,
     damping_over_mass: Option<f64>,
     measures: Vec<(String, Py<PyAny>)>,
@@ -36,7 +37,8 @@ impl Functions {
             }
         }
         let pace = pace_of(self.stiffness_over_mass, self.damping_over_mass)?;
-        let force = self.force.map(|function| Callback::new(function, pace, fallen.clone()));
+        let name = self.force_name.unwrap_or_default();
+        let force = self.force.map(|function| Callback::new(function, &name, pace, fallen.clone()));
         let looks = !self.measures.is_empty() || self.stop.is_some();
         let looker = Looker { measures: self.measures, stop: self.stop, fallen: fallen.clone() };
         Ok(Invited { force, looker: looks.then_some(looker) })

@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use crate::error::raised;
 use crate::json::to_python;
 use crate::scenario::Scenario;
-use crate::work::briefly;
+use crate::work::here;
 
 /// Hands the run in a folder over: writes a scenario with its tables; gives the record, and the same in words.
 #[pyfunction]
@@ -31,6 +31,6 @@ pub(crate) fn hand_over<'py>(
         (Read::from_toml(text).map_err(|faults| raised(py, faults))?, usual)
     };
     let options = Options { with: (&with, name), porosity: porosity.unwrap_or(POROSITY), seed };
-    let record = briefly(py, || grown.hand_over(&options, &to))?.map_err(|error| raised(py, error))?;
+    let record = here(py, || grown.hand_over(&options, &to))?.map_err(|error| raised(py, error))?;
     Ok((to_python(py, &record)?, record.to_string()))
 }

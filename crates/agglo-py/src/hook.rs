@@ -71,6 +71,8 @@ pub(crate) fn pace_of(
 /// ids, that gives forces [n, 3] [N], or forces and torques about the centers [n, 3] [N m].
 pub(crate) struct Callback {
     function: Py<PyAny>,
+    /// "the function breeze": what a run knows it by.
+    name: String,
     /// ω² [1/s²] and Γ [1/s], where they are given.
     pace: Option<(f64, f64)>,
     fallen: Fallen,
@@ -96,8 +98,8 @@ impl Places {
 }
 
 impl Callback {
-    pub(crate) fn new(function: Py<PyAny>, pace: Option<(f64, f64)>, fallen: Fallen) -> Self {
-        Self { function, pace, fallen, places: Mutex::default() }
+    pub(crate) fn new(function: Py<PyAny>, name: &str, pace: Option<(f64, f64)>, fallen: Fallen) -> Self {
+        Self { function, name: format!("the function {name}"), pace, fallen, places: Mutex::default() }
     }
 
     fn ask(&self, py: Python<'_>, now: &Scene<'_>, loads: &mut LoadViews<'_>) -> PyResult<()> {
@@ -149,8 +151,8 @@ fn put(given: &PyReadonlyArray2<'_, f64>, order: &[u32], loads: &mut [Vec3], wha
 }
 
 impl Hook for Callback {
-    fn name(&self) -> &'static str {
-        "a function of Python"
+    fn name(&self) -> &str {
+        &self.name
     }
 
     fn load(&self, now: &Scene<'_>, loads: &mut LoadViews<'_>) {

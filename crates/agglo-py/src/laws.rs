@@ -13,7 +13,7 @@ use crate::arrays;
 use crate::error::{InputError, raised};
 use crate::scenario::Scenario;
 use crate::simulation::in_dict;
-use crate::work::briefly;
+use crate::work::here;
 
 /// The contact laws of a scenario at overlaps [n] [m] and speeds [n] [m/s] at which two grains part: columns by their names.
 #[expect(non_snake_case, reason = "units keep their letters")]
@@ -149,7 +149,7 @@ pub(crate) fn trace<'py>(
         return Err(InputError::new_err(message));
     }
     let spheres = Spheres { position: &position, radius: &radius, material: &material };
-    let found = briefly(py, || traced(&settings, spheres, beam, pulse))?;
+    let found = here(py, || traced(&settings, spheres, beam, pulse))?;
     let found = found.map_err(|error| InputError::new_err(error.to_string()))?;
     let hits = PyDict::new(py);
     let vectors = |of: &dyn Fn(&agglo::acoustics::Hit) -> Vec3| {

@@ -31,6 +31,8 @@ const LOOK_EVERY: Duration = Duration::from_millis(50);
 /// Sends simulations to where a function of Python sends them.
 struct Sender {
     submit: Py<PyAny>,
+    /// The name of what gives the quantities there instead of runs.
+    function: Option<String>,
     fallen: Fallen,
 }
 
@@ -93,6 +95,10 @@ impl Runner for Sender {
                 Err(Trouble::Stopped)
             }
         }
+    }
+
+    fn function(&self) -> Option<&str> {
+        self.function.as_deref()
     }
 }
 
@@ -194,15 +200,16 @@ fn in_arrays<'py>(py: Python<'py>, fitnesses: &[Fitness], objectives: usize) -> 
 
 /// Conducts a search or study into a folder, or goes on with the one there where no campaign is given; gives its summary.
 ///
-/// `at_once` simulations are under way at once; `submit` sends one away and gives its future; `method` proposes the points.
+/// `at_once` simulations are under way at once; `sender` sends one away and gives its future, with the name of what gives the
+/// quantities there if that is no run; `method` proposes the points.
 #[pyfunction]
-#[pyo3(signature = (campaign, folder, at_once, submit=None, method=None, progress=None))]
+#[pyo3(signature = (campaign, folder, at_once, sender=None, method=None, progress=None))]
 pub(crate) fn conduct<'py>(
     py: Python<'py>,
     campaign: Option<&Campaign>,
     folder: PathBuf,
     at_once: usize,
-    submit: Option<Py<PyAny>>,
+    sender: Option<(Py<PyAny>, Option<String>)>,
     method: Option<Py<PyAny>>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
@@ -212,7 +219,7 @@ pub(crate) fn conduct<'py>(
     let watcher = Watcher::new(progress);
     let proposer =
         method.map(|method| proposer(py, campaign, &folder, method, &watcher.fallen)).transpose()?;
-    let sender = submit.map(|submit| Sender { submit, fallen: watcher.fallen.clone() });
+    let sender = sender.map(|(submit, function)| Sender { submit, function, fallen: watcher.fallen.clone() });
     let outcome = interruptible_apart(py, |stop| {
         let means = Means {
             threads: at_once,

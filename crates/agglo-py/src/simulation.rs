@@ -1,6 +1,5 @@
 //! Simulations, step by step.
 
-use std::sync::atomic::Ordering;
 use std::sync::{Mutex, MutexGuard, TryLockError};
 use std::time::Duration;
 
@@ -18,7 +17,7 @@ use crate::arrays;
 use crate::error::{InputError, raised};
 use crate::hook::{Callback, Fallen, pace_of, refuse_within_a_force};
 use crate::scenario::Scenario;
-use crate::work::{briefly, interruptible};
+use crate::work::{Signals, here, interruptible};
 
 /// How soon it is looked again whether another thread is done with a simulation.
 const LOOK_AGAIN: Duration = Duration::from_millis(2);
@@ -151,7 +150,7 @@ impl Simulation {
     fn step(&self, py: Python<'_>) -> PyResult<()> {
         let mut held = self.lock(py)?;
         let kind = &mut *held;
-        let outcome = briefly(py, || {
+        let outcome = here(py, || {
             each!(kind, simulation => {
                 let end = Engine::end(simulation.as_ref());
                 if Engine::is_finished(simulation.as_ref()) { Ok(()) } else { Engine::advance(simulation.as_mut(), end) }
@@ -168,14 +167,18 @@ impl Simulation {
         }
         let mut held = self.lock(py)?;
         let kind = &mut *held;
-        let outcome = interruptible(py, |stop| {
+        let outcome = here(py, || {
+            let mut signals = Signals::new();
             each!(kind, simulation => {
                 let simulation = simulation.as_mut();
                 while Engine::time(simulation) < time_s
                     && !Engine::is_finished(simulation)
-                    && !stop.load(Ordering::Relaxed)
                     && !self.fallen.is_there()
                 {
+                    if let Err(signal) = signals.ask() {
+                        self.fallen.keep(signal);
+                        break;
+                    }
                     Engine::advance(simulation, time_s)?;
                 }
             });
@@ -307,11 +310,12 @@ impl Simulation {
             return Err(PyTypeError::new_err("the force must be callable"));
         }
         let pace = pace_of(stiffness_over_mass, damping_over_mass)?;
-        let callback = Callback::new(force.unbind(), pace, self.fallen.clone());
+        let name: String = py.import("agglo._guests")?.getattr("name_of")?.call1((&force,))?.extract()?;
+        let callback = Callback::new(force.unbind(), &name, pace, self.fallen.clone());
         let mut held = self.lock(py)?;
         let Kind::Soft(simulation) = &mut *held else { return Err(for_soft("attach")) };
-        // It is asked at once, on a thread of the pool.
-        briefly(py, || simulation.attach(Box::new(callback)))?;
+        // It is asked at once, and takes the interpreter's lock itself.
+        here(py, || simulation.attach(Box::new(callback)))?;
         self.fallen.raise(py)
     }
 

@@ -1,13 +1,14 @@
-//! Work that takes time: on a pool of threads, without the interpreter's lock, and ended by Ctrl-C.
+//! Work: without the interpreter's lock; what takes time on a pool of threads and ended by Ctrl-C, what does not at once.
 
+use std::cell::RefCell;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use pyo3::prelude::*;
-use rayon::{ThreadPool, ThreadPoolBuilder};
+use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
 use crate::error::{InputError, RunError};
 
@@ -27,13 +28,31 @@ struct Pool {
 static POOL: Mutex<Option<Pool>> = Mutex::new(None);
 static WANTED: Mutex<usize> = Mutex::new(0);
 
+thread_local! {
+    /// The pool that a thread of Python is itself one of, for work that is soon done: to wake another would take longer. A thread is
+    /// of one pool as long as it lives.
+    static HERE: RefCell<Option<Pool>> = const { RefCell::new(None) };
+}
+
+impl Pool {
+    /// Its threads, if it is of this process and has as many as are wanted.
+    fn threads(&self, wanted: usize) -> Option<Arc<ThreadPool>> {
+        (self.process == std::process::id() && self.wanted == wanted).then(|| Arc::clone(&self.threads))
+    }
+}
+
+/// How many threads were asked for, 0 for all processors.
+fn wanted() -> usize {
+    *WANTED.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 /// The pool of this process, with as many threads as were asked for.
-pub(crate) fn pool(_: Python<'_>) -> PyResult<Arc<ThreadPool>> {
-    let wanted = *WANTED.lock().unwrap_or_else(PoisonError::into_inner);
+fn pool(_: Python<'_>) -> PyResult<Arc<ThreadPool>> {
+    let wanted = wanted();
     let mut held = POOL.lock().unwrap_or_else(PoisonError::into_inner);
     let process = std::process::id();
-    if let Some(found) = held.as_ref().filter(|found| found.process == process && found.wanted == wanted) {
-        return Ok(Arc::clone(&found.threads));
+    if let Some(threads) = held.as_ref().and_then(|pool| pool.threads(wanted)) {
+        return Ok(threads);
     }
     let pool = Arc::new(made(wanted)?);
     // A pool of the parent has no threads here that could end.
@@ -45,10 +64,29 @@ pub(crate) fn pool(_: Python<'_>) -> PyResult<Arc<ThreadPool>> {
     Ok(pool)
 }
 
+/// The pool that this thread is one of; that of the process where it is of another one already: one of a parent that was forked, one
+/// with another number of threads, or one that calls Python.
+fn pool_here(py: Python<'_>) -> PyResult<Arc<ThreadPool>> {
+    let wanted = wanted();
+    if let Some(threads) = HERE.with_borrow(|here| here.as_ref().and_then(|pool| pool.threads(wanted))) {
+        return Ok(threads);
+    }
+    if rayon::current_thread_index().is_some() {
+        return pool(py);
+    }
+    let built = ThreadPoolBuilder::new().num_threads(wanted).use_current_thread().build();
+    let threads = Arc::new(started(wanted, built)?);
+    HERE.set(Some(Pool { process: std::process::id(), wanted, threads: Arc::clone(&threads) }));
+    Ok(threads)
+}
+
 /// So many threads, or all processors with 0.
 fn made(wanted: usize) -> PyResult<ThreadPool> {
-    let made = ThreadPoolBuilder::new().num_threads(wanted).build();
-    made.map_err(|error| RunError::new_err(format!("cannot start {wanted} threads: {error}")))
+    started(wanted, ThreadPoolBuilder::new().num_threads(wanted).build())
+}
+
+fn started(wanted: usize, built: Result<ThreadPool, ThreadPoolBuildError>) -> PyResult<ThreadPool> {
+    built.map_err(|error| RunError::new_err(format!("cannot start {wanted} threads: {error}")))
 }
 
 /// How many threads simulations use from now on: all processors, or as many as RAYON_NUM_THREADS says, with None. Results have
@@ -71,10 +109,34 @@ pub(crate) fn unless(stop: &AtomicBool) -> ControlFlow<()> {
     if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }
 
-/// Does something that is soon done, on the pool and without the interpreter's lock.
-pub(crate) fn briefly<R: Send>(py: Python<'_>, work: impl FnOnce() -> R + Send) -> PyResult<R> {
-    let pool = pool(py)?;
+/// Does something on this thread and those that help it, without the interpreter's lock. Nobody asks for Ctrl-C meanwhile: it is soon
+/// done, or asks itself ([`Signals`]).
+pub(crate) fn here<R: Send>(py: Python<'_>, work: impl FnOnce() -> R + Send) -> PyResult<R> {
+    let pool = pool_here(py)?;
     Ok(py.detach(|| pool.install(work)))
+}
+
+/// Asks the interpreter for Ctrl-C now and then, from work that goes on in small pieces.
+pub(crate) struct Signals {
+    asked: Instant,
+}
+
+impl Signals {
+    pub(crate) fn new() -> Self {
+        Self { asked: Instant::now() }
+    }
+
+    /// Asks, if it was not done just before.
+    pub(crate) fn ask(&mut self) -> PyResult<()> {
+        if self.asked.elapsed() < LOOK_EVERY {
+            return Ok(());
+        }
+        self.asked = Instant::now();
+        Python::attach(|py| {
+            py.check_signals()?;
+            Ok(())
+        })
+    }
 }
 
 /// As [`interruptible`], on threads of its own: others find the pool free while it goes on and calls functions of Python, which may
@@ -83,9 +145,10 @@ pub(crate) fn interruptible_apart<R: Send>(
     py: Python<'_>,
     work: impl FnOnce(&AtomicBool) -> R + Send,
 ) -> PyResult<R> {
-    let wanted = *WANTED.lock().unwrap_or_else(PoisonError::into_inner);
-    let threads = made(wanted)?;
-    until_a_signal(py, |stop| threads.install(|| work(stop)))
+    let threads = made(wanted())?;
+    // The thread that calls functions of Python is known to the interpreter all the while, and not made known for each call.
+    let known = |stop: &_| Python::attach(|py| py.detach(|| work(stop)));
+    until_a_signal(py, |stop| threads.install(|| known(stop)))
 }
 
 /// Does something on the pool, without the interpreter's lock. At Ctrl-C the flag that it is given is set; what it comes to

@@ -65,6 +65,7 @@ fn campaign(threads: usize, replicates: u32) {
         parameters: (0..10).map(axis).collect(),
         objectives: vec![Goal { formula: "value".to_owned(), is_to_be_large: false }],
         ensemble: Ensemble::fixed(replicates),
+        function: None,
         is_led: false,
         optimizer: Box::new(method.start(10, 1)),
         planned: Vec::new(),

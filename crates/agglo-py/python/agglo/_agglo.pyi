@@ -159,7 +159,7 @@ def conduct(
     campaign: Campaign | None,
     folder: Folder,
     at_once: int,
-    submit: Callable[..., object] | None = None,
+    sender: tuple[Callable[..., object], str | None] | None = None,
     method: object | None = None,
     progress: Callable[[Progress], object] | None = None,
 ) -> dict[str, Any]: ...

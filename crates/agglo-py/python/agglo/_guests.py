@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Union
 
 from agglo._types import Columns, ForceFunction
@@ -31,6 +32,13 @@ class Force:
     damping_over_mass: float | None = None
 
 
+def name_of(function: Callable[..., object]) -> str:
+    """What a run or search knows a function by: what goes on with it must have the same name."""
+    if isinstance(function, partial):
+        return name_of(function.func)
+    return str(getattr(function, "__name__", type(function).__name__))
+
+
 def functions_of(
     force: Force | ForceFunction | None, measures: Mapping[str, Measure] | None, stop: Stop | None
 ) -> dict[str, Any] | None:
@@ -38,8 +46,10 @@ def functions_of(
     if force is None and not measures and stop is None:
         return None
     given = force if isinstance(force, Force) else None
+    function = force.function if isinstance(force, Force) else force
     return {
-        "force": force if given is None else given.function,
+        "force": function,
+        "force_name": None if function is None else name_of(function),
         "stiffness_over_mass": None if given is None else given.stiffness_over_mass,
         "damping_over_mass": None if given is None else given.damping_over_mass,
         "measures": list((measures or {}).items()),

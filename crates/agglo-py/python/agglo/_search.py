@@ -19,6 +19,7 @@ from agglo._agglo import Campaign
 from agglo._batches import Batches, Outcome
 from agglo._errors import InputError
 from agglo._fitness import Fitness
+from agglo._guests import name_of
 from agglo._replicate import Function, Job, outcome
 from agglo._recorded import Recorded
 from agglo._results import Run
@@ -96,7 +97,8 @@ def search(
             that take less than a tenth of a second travel to workers together where there are more, such as 20 for each.
         method: Proposes the points instead of the methods of agglo: `GaussianProcess`, or an object with `ask` and `tell`.
         function: Gives the quantities of a simulation from its scenario instead of a run. With a process pool or on a
-            cluster it must be one that can be pickled. What it raises is why a replicate failed.
+            cluster it must be one that can be pickled. What it raises is why a replicate failed. The search goes on with a
+            function of the same name alone.
         progress: Called about ten times a second; what it raises stops the search, and `resume` goes on from there.
 
     Raises:
@@ -105,8 +107,8 @@ def search(
         RunError: No candidate could be evaluated, or a file could not be written.
         KeyboardInterrupt: At Ctrl-C; `resume` goes on from there.
     """
-    submit, places = _sender(executor, function)
-    _agglo.conduct(campaign, Path(folder), at_once or places, submit, method, progress)
+    sender, places = _sender(executor, function)
+    _agglo.conduct(campaign, Path(folder), at_once or places, sender, method, progress)
     return Search(folder)
 
 
@@ -119,22 +121,26 @@ def go_on(
     progress: Told | None,
 ) -> Search:
     """Goes on with the search or study in a folder."""
-    submit, places = _sender(executor, function)
-    _agglo.conduct(None, folder, at_once or places, submit, method, progress)
+    sender, places = _sender(executor, function)
+    _agglo.conduct(None, folder, at_once or places, sender, method, progress)
     return Search(folder)
+
+
+_Submit = Callable[[str, Path, int, list[str]], "Future[Outcome]"]
 
 
 def _sender(
     executor: Executor | None, function: Function | None
-) -> tuple[Callable[[str, Path, int, list[str]], Future[Outcome]] | None, int]:
-    """What sends a simulation to the workers, and how many to have under way."""
-    if executor is None:
-        return None if function is None else _here(function), _agglo.processors()
-    workers = _workers(executor)
-    return Batches(executor, workers, function).submit, 2 * workers
+) -> tuple[tuple[_Submit, str | None] | None, int]:
+    """What sends a simulation to the workers, with the name of the function; and how many to have under way."""
+    name = None if function is None else name_of(function)
+    if executor is not None:
+        workers = _workers(executor)
+        return (Batches(executor, workers, function).submit, name), 2 * workers
+    return None if function is None else (_here(function), name), _agglo.processors()
 
 
-def _here(function: Function) -> Callable[[str, Path, int, list[str]], Future[Outcome]]:
+def _here(function: Function) -> _Submit:
     """Runs a function on the thread that asks for it."""
 
     def submit(text: str, base: Path, seed: int, columns: list[str]) -> Future[Outcome]:
@@ -216,11 +222,11 @@ class Evaluator:
         self.result: Search | None = None
         self._method = _Asked()
         self._failure: BaseException | None = None
-        submit, places = _sender(executor, function)
+        sender, places = _sender(executor, function)
 
         def conduct() -> None:
             try:
-                _agglo.conduct(campaign, self.folder, at_once or places, submit, self._method, progress)
+                _agglo.conduct(campaign, self.folder, at_once or places, sender, self._method, progress)
             except BaseException as error:  # noqa: BLE001 - whatever it is, the caller's thread raises it
                 self._failure = error
             self._method.found.put(None)

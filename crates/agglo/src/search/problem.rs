@@ -122,6 +122,11 @@ impl Problem {
         Self { runner, ..self }
     }
 
+    /// The name of what gives the quantities instead of runs.
+    pub fn function(&self) -> Option<&str> {
+        self.runner.function()
+    }
+
     /// The parameters as axes, in the order of a candidate's values.
     pub fn axes(&self) -> &[Axis] {
         &self.axes

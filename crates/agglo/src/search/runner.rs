@@ -22,7 +22,7 @@ pub struct Replicate<'a> {
 }
 
 /// Runs the simulations of a campaign: this process, or workers elsewhere. What a simulation comes to depends on its scenario
-/// and seed alone, not on who runs it.
+/// and seed alone, and on the [`function`](Self::function) if there is one, not on who runs it.
 pub trait Runner: fmt::Debug + Send + Sync {
     /// The quantities of one simulation, one for each column; not a number where it has none. It is called from as many threads as
     /// the campaign has, and ends early once `stop` is set.
@@ -31,6 +31,11 @@ pub trait Runner: fmt::Debug + Send + Sync {
     /// [`Trouble::Failed`] for a simulation that failed, which is written down as such; [`Trouble::Stopped`] where there is nothing
     /// to be written down.
     fn run(&self, replicate: &Replicate<'_>, stop: &AtomicBool) -> Result<Vec<f64>, Trouble>;
+
+    /// The name of what the quantities come from where they are not those of runs. A campaign goes on with this one alone.
+    fn function(&self) -> Option<&str> {
+        None
+    }
 }
 
 /// Runs simulations on the thread that asks for them.

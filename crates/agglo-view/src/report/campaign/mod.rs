@@ -62,6 +62,9 @@ fn story(folder: &Folder) -> String {
     if summary.infeasible > 0 {
         words.push(format!("{} of them miss the limits.", summary.infeasible));
     }
+    words.extend(summary.function.as_ref().map(|name| {
+        format!("Their quantities come from the function {name} instead of runs; the run of the best is agglo's own.")
+    }));
     words.extend(summary.best_in_words());
     if !summary.front.is_empty() {
         words.push(format!("{} candidates are beaten by no other in every cost.", summary.front.len()));

@@ -70,7 +70,7 @@ pub fn conduct<M: Model>(
 ) -> Result<CampaignEnding, CampaignError> {
     let began = Instant::now();
     let foreign = |reason| FolderError::NoCampaign { dir: folder.root().to_owned(), reason };
-    let (journal, past) = Journal::open(&folder.journal(), text)?.map_err(foreign)?;
+    let (journal, past) = Journal::open(&folder.journal(), &course.origin(text))?.map_err(foreign)?;
     let wall_before = past.wall_s;
     let wall_s = || wall_before + began.elapsed().as_secs_f64();
     let notebook = |finished: &Finished<'_>| journal.note(finished, wall_s());

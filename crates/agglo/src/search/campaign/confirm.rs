@@ -125,6 +125,7 @@ impl<M: Model> Conductor<'_, M> {
             objectives: course.objectives.clone(),
             is_study: course.is_study,
             part: course.part.as_ref().map(|(part, _)| *part),
+            function: course.function.clone(),
             best: best.filter(|_| !course.objectives.is_empty()).map(|best| self.best(course, best)),
             front: front.iter().map(point).collect(),
             generations: self.generations,

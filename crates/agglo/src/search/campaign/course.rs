@@ -4,6 +4,7 @@ use std::ops::{ControlFlow, Range};
 
 use super::CampaignError;
 use super::archive::{Evaluation, Stage};
+use super::journal::Origin;
 use super::part::Part;
 use super::summary::{CampaignSummary, Goal, LimitKept};
 use crate::folder::CampaignFolder;
@@ -38,6 +39,8 @@ pub struct Course<'a> {
     pub objectives: Vec<Goal>,
     /// How many random replicates a candidate gets.
     pub ensemble: Ensemble,
+    /// The name of what gives the quantities instead of runs.
+    pub function: Option<String>,
     /// Whether a program outside proposes the points.
     pub is_led: bool,
     /// What proposes the points.
@@ -61,6 +64,11 @@ pub struct Course<'a> {
 }
 
 impl Course<'_> {
+    /// What its replicates come from; `campaign` is its text.
+    pub(super) fn origin<'a>(&'a self, campaign: &'a str) -> Origin<'a> {
+        Origin { campaign, function: self.function.as_deref() }
+    }
+
     /// Number of the first evaluation that is its own.
     pub(super) fn first(&self) -> u64 {
         self.part.as_ref().map_or(0, |(_, own)| own.start)

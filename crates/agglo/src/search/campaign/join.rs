@@ -5,6 +5,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::journal::Origin;
 use super::part::Part;
 use super::verbs::{go_on, text_of};
 use super::{CampaignEnding, CampaignError, CampaignObserver, Means, finished, journal};
@@ -28,12 +29,13 @@ pub fn join(
     let parts = all_parts(parts)?;
     let Some((first, _)) = parts.first() else { return Err(refusal("there are no parts")) };
     let text = text_of(first)?;
-    let mut lines = journal::heading(&text).into_bytes();
+    let origin = Origin { campaign: &text, function: None };
+    let mut lines = origin.heading().into_bytes();
     for (folder, _) in &parts {
         refuse_other_study(first, folder)?;
-        let found = journal::lines(&folder.journal(), &text)?;
+        let found = journal::lines(&folder.journal(), &origin)?;
         let found = found.map_err(|reason| refusal(&format!("{}: {reason}", folder.root().display())))?;
-        lines.extend(found.iter().skip(journal::heading(&text).len()));
+        lines.extend(found.iter().skip(origin.heading().len()));
     }
     let read =
         |path: &Path| door::read_text(path, door::MOST_OF_A_TEXT).map_err(RecordError::file("read", path));

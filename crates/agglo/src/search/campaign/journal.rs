@@ -1,7 +1,8 @@
 //! Replicates that ended, one a line in the order in which they ended: what a campaign goes on from.
 //!
 //! ```text
-//! agglo 0.1.0,5a1f03c2                          version of the program and checksum of the campaign
+//! agglo 0.1.0,5a1f03c2                          version of the program and checksum of the campaign; the name of the function
+//!                                               that gives the quantities, if one does
 //! 17,0,5403271183612,12.3,ok,0.61,311.5,9e21ab04    evaluation, replicate, seed, wall time [s], quantities, checksum
 //! 18,0,5403271183612,12.4,failed,"reason",11ce0792
 //! budget,16,12.4,goes_on,8c31aa02                   what the clock decided once so many candidates were evaluated
@@ -69,16 +70,57 @@ pub struct Journal {
     open: Mutex<(File, String)>,
 }
 
-/// The first line of the journal of a campaign with this text.
-pub fn heading(campaign: &str) -> String {
-    format!("agglo {},{:08x}\n", env!("CARGO_PKG_VERSION"), crc32fast::hash(campaign.as_bytes()))
+/// What the replicates of a journal come from.
+pub struct Origin<'a> {
+    /// The text of the campaign.
+    pub campaign: &'a str,
+    /// The name of what gives the quantities instead of runs.
+    pub function: Option<&'a str>,
+}
+
+impl Origin<'_> {
+    /// The first line of their journal.
+    pub fn heading(&self) -> String {
+        let function = self.function.map(|name| format!(",{}", serde_json::Value::from(name)));
+        format!("{}{}\n", self.campaign(), function.unwrap_or_default())
+    }
+
+    fn campaign(&self) -> String {
+        format!("agglo {},{:08x}", env!("CARGO_PKG_VERSION"), crc32fast::hash(self.campaign.as_bytes()))
+    }
+
+    /// Why a journal with another first line is not theirs.
+    fn differs(&self, found: &str) -> String {
+        let rest = found.strip_prefix(&self.campaign());
+        let function = rest.and_then(|rest| match rest.strip_prefix(',') {
+            None => rest.is_empty().then_some(None),
+            Some(name) => serde_json::from_str(name).ok().map(Some),
+        });
+        let whence = |function: Option<String>| {
+            function.map_or("runs of agglo".to_owned(), |name| format!("the function {}", cell(&name)))
+        };
+        match function {
+            Some(function) => format!(
+                "its quantities come from {}, and this session's from {}; go on with what it began with, or begin anew",
+                whence(function),
+                whence(self.function.map(str::to_owned))
+            ),
+            None => {
+                format!(
+                    "its journal is of \"{}\" (version, campaign), this is \"{}\"",
+                    cell(found),
+                    self.campaign()
+                )
+            }
+        }
+    }
 }
 
 /// The whole lines of the journal at `path`, the heading included; nothing where there is none.
 ///
 /// # Errors
 /// [`RecordError::File`]; or the reason why the journal does not belong to this campaign and program.
-pub fn lines(path: &Path, campaign: &str) -> Result<Result<Vec<u8>, String>, RecordError> {
+pub fn lines(path: &Path, origin: &Origin<'_>) -> Result<Result<Vec<u8>, String>, RecordError> {
     let mut found = if path.symlink_metadata().is_ok() {
         files::read(path, door::MOST_OF_A_TABLE).map_err(RecordError::file("read", path))?
     } else {
@@ -86,22 +128,20 @@ pub fn lines(path: &Path, campaign: &str) -> Result<Result<Vec<u8>, String>, Rec
     };
     let whole = found.iter().rposition(|byte| *byte == b'\n').map_or(0, |last| last + 1);
     found.truncate(whole);
-    let wanted = heading(campaign);
-    if whole == 0 || found.starts_with(wanted.as_bytes()) {
+    if whole == 0 || found.starts_with(origin.heading().as_bytes()) {
         return Ok(Ok(found));
     }
     let text = String::from_utf8_lossy(&found);
-    let (other, wanted) = (cell(text.lines().next().unwrap_or_default()), wanted.trim_end());
-    Ok(Err(format!("its journal is of \"{other}\" (version, campaign), this is \"{wanted}\"")))
+    Ok(Err(origin.differs(text.lines().next().unwrap_or_default())))
 }
 
 impl Journal {
-    /// Goes on with the journal at `path`, or begins one; `campaign` is the text that its replicates belong to.
+    /// Goes on with the journal at `path`, or begins one; `origin` is what its replicates come from.
     ///
     /// # Errors
     /// [`RecordError::File`]; or the reason why the journal does not belong to this campaign and program.
-    pub fn open(path: &Path, campaign: &str) -> Result<Result<(Self, Past), String>, RecordError> {
-        let found = match lines(path, campaign)? {
+    pub fn open(path: &Path, origin: &Origin<'_>) -> Result<Result<(Self, Past), String>, RecordError> {
+        let found = match lines(path, origin)? {
             Ok(found) => found,
             Err(reason) => return Ok(Err(reason)),
         };
@@ -109,7 +149,7 @@ impl Journal {
         for line in String::from_utf8_lossy(&found).lines().skip(1) {
             past.take(line);
         }
-        let journal = Self::at(path, found.len() as u64, &heading(campaign))?;
+        let journal = Self::at(path, found.len() as u64, &origin.heading())?;
         Ok(Ok((journal, past)))
     }
 
@@ -262,10 +302,10 @@ fn replicate(content: &str) -> Option<Line> {
 mod tests {
     use super::*;
 
-    const CAMPAIGN: &str = "version = 1";
+    const CAMPAIGN: Origin<'static> = Origin { campaign: "version = 1", function: None };
 
     fn open(path: &Path) -> (Journal, Past) {
-        Journal::open(path, CAMPAIGN).unwrap().unwrap()
+        Journal::open(path, &CAMPAIGN).unwrap().unwrap()
     }
 
     fn written(path: &Path) -> BTreeMap<(u64, u32), Entry> {
@@ -387,10 +427,35 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("replicates.journal");
         written(&path);
-        let reason = Journal::open(&path, "version = 2").unwrap().unwrap_err();
+        let other = Origin { campaign: "version = 2", ..CAMPAIGN };
+        let reason = Journal::open(&path, &other).unwrap().unwrap_err();
         assert!(reason.contains("its journal is of \"agglo "), "{reason}");
         std::fs::write(&path, "\u{1b}[31magglo,1\n").unwrap();
-        let reason = Journal::open(&path, CAMPAIGN).unwrap().unwrap_err();
+        let reason = Journal::open(&path, &CAMPAIGN).unwrap().unwrap_err();
         assert!(reason.contains("its journal is of \"\\u{1b}[31magglo,1\""), "{reason}");
+    }
+
+    /// Outcomes of a function and of runs, or of two functions, never stand in one journal.
+    #[test]
+    fn a_journal_of_another_function_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let by = |name| Origin { function: Some(name), ..CAMPAIGN };
+        let [of_runs, of_bowl] = ["runs.journal", "bowl.journal"].map(|name| folder.path().join(name));
+        written(&of_runs);
+        drop(Journal::open(&of_bowl, &by("bowl, \"the\" first")).unwrap().unwrap());
+        drop(Journal::open(&of_bowl, &by("bowl, \"the\" first")).unwrap().unwrap());
+        let refused = |path, origin: &Origin<'_>| Journal::open(path, origin).unwrap().unwrap_err();
+        let reason = refused(&of_runs, &by("bowl"));
+        assert_contains!(reason, "come from runs of agglo, and this session's from the function bowl; go on");
+        let reason = refused(&of_bowl, &CAMPAIGN);
+        assert_contains!(
+            reason,
+            "come from the function bowl, \"the\" first, and this session's from runs of agglo"
+        );
+        let reason = refused(&of_bowl, &by("bowl"));
+        assert_contains!(
+            reason,
+            "come from the function bowl, \"the\" first, and this session's from the function bowl;"
+        );
     }
 }

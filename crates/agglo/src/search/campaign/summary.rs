@@ -27,6 +27,9 @@ pub struct CampaignSummary {
     /// Which part of a study it is; left out where it is the whole.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub part: Option<Part>,
+    /// The name of what gave the quantities instead of runs; left out where runs did.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub function: Option<String>,
     /// The best candidate; null where there is nothing to be small.
     pub best: Option<Best>,
     /// Candidates that no other beats in every cost, where there are several; empty with one.
@@ -197,6 +200,9 @@ impl CampaignSummary {
     pub fn table(&self) -> Vec<(String, String)> {
         let mut rows = Vec::new();
         rows.extend(self.part.map(|part| ("part".to_owned(), part.to_string())));
+        rows.extend(
+            self.function.as_ref().map(|name| ("quantities".to_owned(), format!("by the function {name}"))),
+        );
         if let Some(best) = &self.best {
             rows.push((self.best_is_called().to_owned(), self.best_row(best)));
             rows.extend(best.limits.iter().map(|limit| ("  limit".to_owned(), limit.in_words())));

@@ -81,6 +81,7 @@ pub(super) fn conducted_with(
         parameters: ["x", "y"].map(axis).to_vec(),
         objectives: vec![Goal { formula: "value".to_owned(), is_to_be_large: false }; goals],
         ensemble: setup.ensemble.clone(),
+        function: None,
         is_led: false,
         optimizer: method.start(2, goals, setup.seed).unwrap(),
         planned: vec![

@@ -212,6 +212,7 @@ pub(super) fn go_on(
         parameters: problem.axes().to_vec(),
         objectives: problem.objectives().map(|(formula, large)| goal(formula, large)).collect(),
         ensemble: campaign.ensemble.clone(),
+        function: problem.function().map(str::to_owned),
         is_led: proposer.is_some(),
         optimizer: optimizer(&campaign, &problem, proposer)?,
         planned: of_part.unwrap_or_else(|| planned(&campaign, &problem)),
