@@ -9,6 +9,7 @@ mod rigid_motion;
 mod shape;
 mod size_classes;
 mod size_rates;
+mod size_totals;
 
 pub use biot::{biot_number, is_uniform};
 pub use clusters::{Clusters, Joiner};
@@ -17,5 +18,6 @@ pub use nearest::mean_nearest_distance;
 pub use pairs::close_pairs;
 pub use rigid_motion::RigidMotion;
 pub use shape::{ClusterSummary, center_of_mass, fractal_dimension, radius_of_gyration, summarize};
-pub use size_classes::{SizeClass, size_classes};
+pub use size_classes::{SizeClass, SizeClasses, end_of_class};
 pub use size_rates::{BreakageRow, DaughterRow, KernelRow, SizeRates};
+pub use size_totals::SizeTotals;

@@ -6,6 +6,7 @@
 //! exposure  X_ab = integral of P_ab/V dt
 //! K_ab = collisions_ab/X_ab,   A_ab = merges_ab/X_ab,   B_ab = breaking collisions_ab/X_ab
 //! sticking probability = merges_ab/collisions_ab,   S_a = breakages_a/integral of N_a dt
+//! mean primaries of class a = integral of (sum of n) dt/integral of N_a dt
 //! ```
 //!
 //! # Source
@@ -16,7 +17,8 @@
 //! # Symbols
 //! | symbol | name in code                | unit  | meaning                                                   |
 //! |--------|-----------------------------|-------|-----------------------------------------------------------|
-//! | N_a    | `population`                | 1     | grains of class a: 2^a to 2^(a+1) - 1 primaries            |
+//! | N_a    | `population`                | 1     | grains of class a: 2^a to 2^(a+1) - 1 primaries, or others |
+//! | n      | `primaries`                 | 1     | primaries of a grain                                      |
 //! | P_ab   | `pairs`                     | 1     | pairs that could collide                                     |
 //! | X_ab   | `exposure`                  | s/m³  |                                                           |
 //! | K_ab   | `collision_kernel`          | m³/s  |                                                           |
@@ -35,8 +37,8 @@
 //! # Example
 //! ```
 //! # extern crate agglo_core as agglo;
-//! use agglo::measure::SizeRates;
-//! let mut rates = SizeRates::new([1, 1, 1].into_iter(), 2.0);
+//! use agglo::measure::{SizeClasses, SizeRates};
+//! let mut rates = SizeRates::new(SizeClasses::default(), [1, 1, 1].into_iter(), 2.0);
 //! rates.collide([1, 1], true);
 //! rates.merge([1, 1], 4.0);
 //! let rows = rates.kernel_rows(5.0);
@@ -47,17 +49,16 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::size_classes::{SizeClass, class_of};
+use super::size_classes::SizeClasses;
+use super::size_totals::SizeTotals;
 use crate::engine::validate::{Fault, MOST_COUNTED, ensure, finite, length};
 
-/// Numbers of primaries have 32 binary digits.
-const MOST_CLASSES: usize = 32;
-
-/// Collisions, merges and fragments by classes of primary grains: class k has 2^k to 2^(k+1) - 1 of them.
+/// Collisions, merges and fragments by classes of primary grains.
 ///
 /// Times must not go back. Nothing is allocated but where a class larger than all before appears.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SizeRates {
+    classes: SizeClasses,
     volume: f64,
     populations: Vec<Population>,
     /// Pairs (a, b) with b <= a, row by row.
@@ -73,6 +74,11 @@ struct Population {
     /// Integral of `grains` over time up to `updated_at` [s].
     grain_time: f64,
     updated_at: f64,
+    /// Primaries of all its grains.
+    primaries: u64,
+    /// Integral of `primaries` over time up to `counted_at` [s].
+    primaries_time: f64,
+    counted_at: f64,
     breakages: u64,
     /// Primaries of all parents that broke.
     broken: u64,
@@ -97,7 +103,7 @@ struct Daughters {
 }
 
 /// Place of the pair (a, b) in a triangle that grows by rows.
-fn place(a: usize, b: usize) -> usize {
+pub(super) fn place(a: usize, b: usize) -> usize {
     let (row, column) = if a >= b { (a, b) } else { (b, a) };
     row * (row + 1) / 2 + column
 }
@@ -107,36 +113,49 @@ impl SizeRates {
     ///
     /// # Errors
     /// What is wrong with them.
-    pub(crate) fn validate(&self, primaries: impl Iterator<Item = u32>) -> Result<(), Fault> {
+    pub(crate) fn validate(
+        &self,
+        classes: &SizeClasses,
+        primaries: impl Iterator<Item = u32>,
+    ) -> Result<(), Fault> {
         let n = self.populations.len();
-        ensure(n > 0 && n <= MOST_CLASSES, || format!("sizes: {n} classes"))?;
+        ensure(self.classes == *classes, || "sizes: other classes".to_owned())?;
+        ensure(n > 0 && n <= SizeClasses::MOST, || format!("sizes: {n} classes"))?;
         length("sizes: pairs", self.pairs.len(), n * (n + 1) / 2)?;
         length("sizes: daughters", self.daughters.len(), n * (n + 1) / 2)?;
         finite("sizes", self)?;
         let small = |counts: &[u64]| counts.iter().all(|count| *count < MOST_COUNTED);
         let counted = self.pairs.iter().all(|pair| small(&[pair.collisions, pair.merges, pair.breaking]))
             && self.daughters.iter().all(|daughters| small(&[daughters.fragments, daughters.primaries]))
-            && self.populations.iter().all(|one| small(&[one.breakages, one.broken]));
+            && self.populations.iter().all(|one| small(&[one.breakages, one.broken, one.primaries]));
         ensure(counted && self.volume > 0.0, || "sizes: a count is too large".to_owned())?;
-        let mut grains = vec![0_u64; n];
-        for class in primaries.map(class_of) {
+        let mut counts = vec![(0_u64, 0_u64); n];
+        for primaries in primaries {
+            let class = self.classes.class_of(primaries);
             ensure(class < n, || "sizes: a class is missing".to_owned())?;
-            grains[class] += 1;
+            let (grains, sum) = counts[class];
+            counts[class] = (grains + 1, sum + u64::from(primaries));
         }
-        let same =
-            self.populations.iter().zip(&grains).all(|(population, grains)| population.grains == *grains);
-        ensure(same, || "sizes: a class has another number of grains".to_owned())
+        let found = self.populations.iter().map(|population| (population.grains, population.primaries));
+        ensure(found.eq(counts), || "sizes: a class has other grains".to_owned())
     }
 
     /// Starts with grains of these numbers of primaries at time zero, in a volume [m³].
-    pub fn new(primaries: impl Iterator<Item = u32>, volume: f64) -> Self {
-        let mut rates = Self { volume, ..Self::default() };
+    pub fn new(classes: SizeClasses, primaries: impl Iterator<Item = u32>, volume: f64) -> Self {
+        let most = classes.count();
+        let mut rates = Self { classes, volume, ..Self::default() };
+        if let Some(classes) = most {
+            rates.make_room(classes.saturating_sub(1));
+        }
         for primaries in primaries {
-            let class = class_of(primaries);
-            rates.make_room(class);
-            rates.populations[class].grains += 1;
+            rates.enter(primaries, 0.0);
         }
         rates
+    }
+
+    /// The classes of sizes.
+    pub fn classes(&self) -> &SizeClasses {
+        &self.classes
     }
 
     /// Counts a collision of two grains of these numbers of primaries, and whether they stuck.
@@ -155,19 +174,22 @@ impl SizeRates {
     }
 
     fn pair(&mut self, primaries: [u32; 2]) -> &mut Pair {
-        let [a, b] = primaries.map(class_of);
+        let [a, b] = primaries.map(|primaries| self.classes.class_of(primaries));
         self.make_room(a.max(b));
         &mut self.pairs[place(a, b)]
     }
 
     /// Two grains become one at `time` [s].
     pub fn merge(&mut self, primaries: [u32; 2], time: f64) {
-        let [a, b] = primaries.map(class_of);
-        let (small, large) = (a.min(b), a.max(b));
-        let both = class_of(primaries[0].saturating_add(primaries[1]));
+        let (small, large) = (primaries[0].min(primaries[1]), primaries[0].max(primaries[1]));
+        let both = small.saturating_add(large);
         self.leave(small, time);
-        // Mostly a small grain joins a large one, which stays in its class.
-        if both != large {
+        let class = self.classes.class_of(large);
+        if self.classes.class_of(both) == class {
+            // Mostly a small grain joins a large one, which stays in its class: no pair is lost or made but those of the small one.
+            self.count_primaries(class, time);
+            self.populations[class].primaries += u64::from(both - large);
+        } else {
             self.leave(large, time);
             self.enter(both, time);
         }
@@ -175,29 +197,28 @@ impl SizeRates {
 
     /// A grain becomes fragments at `time` [s].
     pub fn shatter(&mut self, parent: u32, fragments: &[u32], time: f64) {
-        let class = class_of(parent);
-        self.leave(class, time);
+        let class = self.classes.class_of(parent);
+        self.leave(parent, time);
         self.populations[class].breakages += 1;
         self.populations[class].broken += u64::from(parent);
         for &primaries in fragments {
-            let fragment = class_of(primaries);
-            self.enter(fragment, time);
-            let daughters = &mut self.daughters[place(class, fragment)];
+            self.enter(primaries, time);
+            let daughters = &mut self.daughters[place(class, self.classes.class_of(primaries))];
             daughters.fragments += 1;
             daughters.primaries += u64::from(primaries);
         }
     }
 
-    fn leave(&mut self, class: usize, time: f64) {
-        self.make_room(class);
-        self.bring_up(class, time);
-        self.populations[class].grains = self.populations[class].grains.saturating_sub(1);
+    fn leave(&mut self, primaries: u32, time: f64) {
+        let population = self.brought_up(primaries, time);
+        population.grains = population.grains.saturating_sub(1);
+        population.primaries = population.primaries.saturating_sub(u64::from(primaries));
     }
 
-    fn enter(&mut self, class: usize, time: f64) {
-        self.make_room(class);
-        self.bring_up(class, time);
-        self.populations[class].grains += 1;
+    fn enter(&mut self, primaries: u32, time: f64) {
+        let population = self.brought_up(primaries, time);
+        population.grains += 1;
+        population.primaries += u64::from(primaries);
     }
 
     #[inline]
@@ -209,8 +230,10 @@ impl SizeRates {
         }
     }
 
-    /// Brings all integrals with a class up to a time, before its population changes.
-    fn bring_up(&mut self, class: usize, time: f64) {
+    /// The class of a grain with all integrals up to a time, before its population changes.
+    fn brought_up(&mut self, primaries: u32, time: f64) -> &mut Population {
+        let class = self.classes.class_of(primaries);
+        self.make_room(class);
         for other in 0..self.populations.len() {
             let pair_time = self.pair_time(class, other, time);
             let pair = &mut self.pairs[place(class, other)];
@@ -219,6 +242,14 @@ impl SizeRates {
         }
         self.populations[class].grain_time = self.grain_time(class, time);
         self.populations[class].updated_at = time;
+        self.count_primaries(class, time);
+        &mut self.populations[class]
+    }
+
+    /// Brings the integral of a class's primaries up to a time, before they change.
+    fn count_primaries(&mut self, class: usize, time: f64) {
+        self.populations[class].primaries_time = self.primaries_time(class, time);
+        self.populations[class].counted_at = time;
     }
 
     /// Integral of the number of pairs up to a time [s].
@@ -233,6 +264,38 @@ impl SizeRates {
     fn grain_time(&self, class: usize, time: f64) -> f64 {
         let population = &self.populations[class];
         population.grain_time + population.grains as f64 * (time - population.updated_at)
+    }
+
+    /// Integral of the primaries of a class up to a time [s].
+    fn primaries_time(&self, class: usize, time: f64) -> f64 {
+        let population = &self.populations[class];
+        population.primaries_time + population.primaries as f64 * (time - population.counted_at)
+    }
+
+    /// All counts and integrals up to `time` [s], to be put together with those of other simulations. None where there is no end to
+    /// the number of classes.
+    pub fn totals(&self, time: f64) -> Option<SizeTotals> {
+        let mut totals = SizeTotals::none(self.classes.count()?);
+        for class in 0..totals.classes() {
+            let Population { breakages, broken, .. } = self.populations[class];
+            let times = [self.grain_time(class, time), self.primaries_time(class, time)];
+            *totals.class_mut(class) = [times[0], times[1], breakages as f64, broken as f64];
+            for other in 0..=class {
+                let (pair, daughters) =
+                    (&self.pairs[place(class, other)], &self.daughters[place(class, other)]);
+                let exposure = self.exposure(class, other, time);
+                let counts = [pair.collisions, pair.merges, pair.breaking].map(|count| count as f64);
+                *totals.pair_mut(class, other) = [exposure, counts[0], counts[1], counts[2]];
+                *totals.daughters_mut(class, other) =
+                    [daughters.fragments as f64, daughters.primaries as f64];
+            }
+        }
+        Some(totals)
+    }
+
+    /// Integral of the number of pairs over the volume up to a time [s/m³].
+    fn exposure(&self, a: usize, b: usize, time: f64) -> f64 {
+        if self.volume > 0.0 { self.pair_time(a, b, time) / self.volume } else { 0.0 }
     }
 
     /// Grains of each class now, class 0 first.
@@ -252,11 +315,11 @@ impl SizeRates {
 
     fn kernel_row(&self, a: usize, b: usize, time: f64) -> KernelRow {
         let pair = &self.pairs[place(a, b)];
-        let exposure = if self.volume > 0.0 { self.pair_time(a, b, time) / self.volume } else { 0.0 };
+        let exposure = self.exposure(a, b, time);
         let kernel = |events: u64| (exposure > 0.0).then(|| events as f64 / exposure);
         KernelRow {
-            a: SizeClass::bounds(a),
-            b: SizeClass::bounds(b),
+            a: self.classes.bounds(a),
+            b: self.classes.bounds(b),
             collisions: pair.collisions,
             merges: pair.merges,
             breaking: pair.breaking,
@@ -274,9 +337,10 @@ impl SizeRates {
             let population = &self.populations[class];
             let grain_time = self.grain_time(class, time);
             BreakageRow {
-                class: SizeClass::bounds(class),
+                class: self.classes.bounds(class),
                 grains: population.grains,
                 grain_time,
+                mean_primaries: (grain_time > 0.0).then(|| self.primaries_time(class, time) / grain_time),
                 breakages: population.breakages,
                 breakage_rate: (grain_time > 0.0).then(|| population.breakages as f64 / grain_time),
             }
@@ -292,8 +356,8 @@ impl SizeRates {
         all.filter_map(|(parent, daughter)| {
             let (found, parents) = (self.daughters[place(parent, daughter)], &self.populations[parent]);
             (found.fragments > 0).then(|| DaughterRow {
-                parent: SizeClass::bounds(parent),
-                daughter: SizeClass::bounds(daughter),
+                parent: self.classes.bounds(parent),
+                daughter: self.classes.bounds(daughter),
                 breakages: parents.breakages,
                 fragments: found.fragments,
                 primaries: found.primaries,
@@ -339,6 +403,8 @@ pub struct BreakageRow {
     pub grains: u64,
     /// Integral of their number over time [s].
     pub grain_time: f64,
+    /// Primaries of a grain of the class in the mean over time.
+    pub mean_primaries: Option<f64>,
     /// Grains that broke.
     pub breakages: u64,
     /// Breakages over the integral of the number [1/s].

@@ -11,7 +11,7 @@ fn row(rates: &SizeRates, a: u32, b: u32, time: f64) -> KernelRow {
 /// 10 singles, 4 of class 2 in 3 m³ for 6 s: 45, 40 and 6 pairs.
 #[test]
 fn constant_populations() {
-    let mut rates = SizeRates::new([1; 10].into_iter().chain([4, 5, 6, 7]), 3.0);
+    let mut rates = SizeRates::new(SizeClasses::default(), [1; 10].into_iter().chain([4, 5, 6, 7]), 3.0);
     for _ in 0..9 {
         rates.collide([1, 1], false);
     }
@@ -30,7 +30,7 @@ fn constant_populations() {
 /// 4 s the triple takes the last one. All numbers are dyadic, so the sums are exact.
 #[test]
 fn merges_by_hand() {
-    let mut rates = SizeRates::new([1; 4].into_iter(), 1.0);
+    let mut rates = SizeRates::new(SizeClasses::default(), [1; 4].into_iter(), 1.0);
     for (primaries, time) in [([1, 1], 1.0), ([2, 1], 3.0), ([1, 3], 4.0)] {
         rates.collide(primaries, true);
         rates.merge(primaries, time);
@@ -53,7 +53,7 @@ fn merges_by_hand() {
 /// Sixteen become 8 + 7 + 1 at 2 s, then 12 become 6 + 6 at 4 s; read at 8 s.
 #[test]
 fn fragments_by_hand() {
-    let mut rates = SizeRates::new([16, 12].into_iter(), 1.0);
+    let mut rates = SizeRates::new(SizeClasses::default(), [16, 12].into_iter(), 1.0);
     rates.collide_and_break([16, 12]);
     rates.shatter(16, &[8, 7, 1], 2.0);
     rates.collide([8, 12], false);
@@ -98,7 +98,7 @@ const VOLUME: f64 = 7.0;
 fn smoluchowski(grains: usize, least: usize) -> Smoluchowski {
     let mut stream = Stream::new(3, Purpose::Sampling, 1);
     let mut sizes = vec![1_u32; grains];
-    let mut rates = SizeRates::new(sizes.iter().copied(), VOLUME);
+    let mut rates = SizeRates::new(SizeClasses::default(), sizes.iter().copied(), VOLUME);
     let (mut time, mut pair_time) = (0.0, 0.0);
     while sizes.len() > least {
         let n = sizes.len() as f64;
@@ -139,7 +139,7 @@ fn a_constant_kernel_is_found_again() {
     let counted: Vec<u64> = rates.populations().collect();
     let mut expected = vec![0; counted.len()];
     for &size in &sizes {
-        expected[class_of(size)] += 1;
+        expected[rates.classes.class_of(size)] += 1;
     }
     assert_eq!(counted, expected);
 }
@@ -169,4 +169,42 @@ fn a_restart_changes_no_bit() {
         rates.shatter(3, &[2, 1], 1.1e3);
     }
     assert_eq!(whole, again);
+}
+
+/// Classes of one, of two, and of more. Singles: 4 for 1 s, 2 for 2 s, 1 for 1 s, read at 9 s. A grain of 2 from 1 to 3 s. In the
+/// last class 3 primaries from 3 to 4 s, then 4.
+#[test]
+fn classes_of_ones_own() {
+    let classes = SizeClasses::from_bounds(&[1, 2, 3]);
+    let mut rates = SizeRates::new(classes, [1; 4].into_iter(), 1.0);
+    for (primaries, time) in [([1, 1], 1.0), ([2, 1], 3.0), ([1, 3], 4.0)] {
+        rates.collide(primaries, true);
+        rates.merge(primaries, time);
+    }
+    assert_eq!(rates.populations().collect::<Vec<_>>(), [0, 0, 1]);
+    assert_eq!(row(&rates, 2, 1, 9.0).exposure, 2.0 * 2.0);
+    assert_eq!(row(&rates, 3, 1, 9.0).exposure, 1.0);
+    assert_eq!(row(&rates, 3, 1, 9.0).a, [3, u32::MAX]);
+    let means: Vec<_> = rates.breakage_rows(9.0).iter().map(|row| row.mean_primaries).collect();
+    assert_eq!(means, [Some(1.0), Some(2.0), Some((3.0 + 4.0 * 5.0) / 6.0)]);
+    let totals = rates.totals(9.0).unwrap();
+    assert_eq!((totals.class(0), totals.class(2)), ([9.0, 9.0, 0.0, 0.0], [6.0, 23.0, 0.0, 0.0]));
+    assert_eq!((totals.pair(1, 0), totals.pair(0, 2)), ([4.0, 1.0, 1.0, 0.0], [1.0, 1.0, 1.0, 0.0]));
+    let row = totals.to_vec();
+    assert_eq!(row.len(), SizeTotals::len_of(3));
+    assert_eq!(SizeTotals::from_slice(3, &row), Some(totals));
+    assert_none!(SizeTotals::from_slice(3, &row[1..]));
+    assert_none!(SizeTotals::from_slice(2, &row));
+    rates.shatter(4, &[1, 3], 9.0);
+    let totals = rates.totals(10.0).unwrap();
+    assert_eq!((totals.class(2), totals.daughters(2, 0)), ([7.0, 26.0, 1.0, 4.0], [1.0, 1.0]));
+    assert_eq!(totals.daughters(2, 2), [1.0, 3.0]);
+    assert_none!(SizeRates::new(SizeClasses::default(), [1].into_iter(), 1.0).totals(1.0));
+    let living = [1, 3];
+    assert_none!(rates.validate(&SizeClasses::from_bounds(&[1, 2, 3]), living.into_iter()).err());
+    for (classes, living) in
+        [(SizeClasses::default(), [1, 3]), (SizeClasses::from_bounds(&[1, 2, 3]), [1, 4])]
+    {
+        assert!(rates.validate(&classes, living.into_iter()).is_err(), "{classes:?} with {living:?}");
+    }
 }

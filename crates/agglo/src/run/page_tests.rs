@@ -63,7 +63,8 @@ fn the_page_of_files_has_every_column() {
 
 #[test]
 fn the_page_of_searches_has_every_column_that_all_campaigns_have() {
-    let blocks: Vec<Block> = campaign::TABLES.iter().map(|table| columns(*table, "", "empty")).collect();
+    let blocks: Vec<Block> =
+        campaign::TABLES.iter().chain(campaign::RATES).map(|table| columns(*table, "", "empty")).collect();
     assert_page("search.md", &blocks);
 }
 
@@ -98,7 +99,7 @@ fn the_page_of_the_dashboard_has_every_quantity() {
 #[test]
 fn columns_are_named_by_their_units_and_have_labels() {
     let of_runs = [false, true].map(|is_hard| tables(is_hard).iter().chain(tables_at_the_end(is_hard)));
-    for table in of_runs.into_iter().flatten().chain(campaign::TABLES) {
+    for table in of_runs.into_iter().flatten().chain(campaign::TABLES).chain(campaign::RATES) {
         let names = table.names();
         for (at, column) in table.columns().into_iter().enumerate() {
             let place = format!("{}: {}", table.file(), column.name);

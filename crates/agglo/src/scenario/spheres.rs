@@ -52,6 +52,7 @@ impl TryFrom<&Scenario> for hard::Settings {
             materials: scenario.materials.clone(),
             mixtures: scenario.mixtures.clone(),
             impact: hard.impact.clone(),
+            classes: scenario.output.classes(),
         })
     }
 }

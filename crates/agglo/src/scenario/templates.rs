@@ -81,6 +81,12 @@ pub const TEMPLATES: &[Template] = &[
         text: include_str!("../../../../scenarios/study-rays.toml"),
         is_campaign: true,
     },
+    Template {
+        name: "study-kernels",
+        title: "a study of how often grains of two sizes meet and stick, for a population balance",
+        text: include_str!("../../../../scenarios/study-kernels.toml"),
+        is_campaign: true,
+    },
 ];
 
 /// All templates that are scenarios.

@@ -15,6 +15,7 @@ use crate::engine::hard::Driver;
 use crate::engine::soft::{Limits, Relaxation, Scheme};
 use crate::fields::Fields;
 use crate::impact::Impact;
+use crate::measure::SizeClasses;
 use crate::packing::GrainGroup;
 use crate::particles::{Material, Mixture};
 use crate::units::Time;
@@ -197,6 +198,17 @@ pub struct Output {
     /// Checkpoints; a twentieth of the run if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub checkpoints: Option<Time>,
+    /// Of hard spheres: the fewest primaries of each class by which sizes, kernels and breakage are counted, such as [1, 2, 5, 20];
+    /// the last class has no end. Powers of two if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub size_classes: Option<Vec<u32>>,
+}
+
+impl Output {
+    /// The classes of sizes.
+    pub fn classes(&self) -> SizeClasses {
+        self.size_classes.as_deref().map(SizeClasses::from_bounds).unwrap_or_default()
+    }
 }
 
 /// How often besides, while rays fly; counted from each launch.
@@ -217,6 +229,14 @@ fn yes() -> bool {
 
 impl Default for Output {
     fn default() -> Self {
-        Self { series: None, frames: None, pulses: None, bonds: true, rays: true, checkpoints: None }
+        Self {
+            series: None,
+            frames: None,
+            pulses: None,
+            bonds: true,
+            rays: true,
+            checkpoints: None,
+            size_classes: None,
+        }
     }
 }

@@ -3,6 +3,7 @@
 use serde_json::Value as Json;
 
 use crate::ledger::{Balance, Entries};
+use crate::measure::{SizeClasses, SizeTotals};
 use crate::run::{HardSummary, PulseQuantities, SoftSummary, Summary};
 
 /// Quantities that are not the same on another machine or with another number of threads.
@@ -32,10 +33,27 @@ pub fn is_known(name: &str, known: &[String]) -> bool {
     known.contains(&first.join("."))
 }
 
+/// The first word of the columns that no summary shows: numbers that rates by size are worked out from.
+const TOTALS: &str = "size_totals";
+
+/// Names of the numbers that rates by these classes are worked out from; none for classes without an end.
+pub fn of_totals(classes: &SizeClasses) -> impl Iterator<Item = String> + use<> {
+    (0..SizeTotals::len_of(classes.count().unwrap_or(0))).map(|at| format!("{TOTALS}.{at}"))
+}
+
 /// The quantities of a summary in the order of `names`; not a number where it has none.
 pub fn pick(summary: &Summary, names: &[String]) -> Vec<f64> {
     let tree = tree(summary);
-    names.iter().map(|name| quantity(&tree, name).unwrap_or(f64::NAN)).collect()
+    let totals = match summary {
+        Summary::Hard(hard) => hard.size_totals.as_ref().map(SizeTotals::to_vec),
+        Summary::Soft(_) => None,
+    };
+    let total = |at: &str| totals.as_ref()?.get(at.parse::<usize>().ok()?).copied();
+    let of = |name: &str| match name.strip_prefix(TOTALS).and_then(|rest| rest.strip_prefix('.')) {
+        Some(at) => total(at),
+        None => quantity(&tree, name),
+    };
+    names.iter().map(|name| of(name).unwrap_or(f64::NAN)).collect()
 }
 
 fn quantity(tree: &Json, name: &str) -> Option<f64> {

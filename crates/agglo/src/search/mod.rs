@@ -15,6 +15,7 @@ mod forecast;
 mod formula;
 mod formulas;
 pub mod functions;
+pub mod kernels;
 mod model;
 pub mod optimizer;
 mod plan;

@@ -32,6 +32,11 @@ pub trait Model: Sync {
     /// Names of the quantities, with their units: `growth_deficit`, `temperature_mean_K`.
     fn columns(&self) -> &[String];
 
+    /// Those of them that tables, summaries and pages show, which come first.
+    fn shown(&self) -> &[String] {
+        self.columns()
+    }
+
     /// What a point stands for.
     fn candidate(&self, point: &[f64]) -> Candidate;
 

@@ -17,7 +17,8 @@ use super::formulas::{Corridor, Cost, Reader};
 use super::runner::{Here, Replicate, Runner};
 use super::setter::Setter;
 use super::space::{self, Axis};
-use super::{Candidate, Fitness, Model, Trouble, columns};
+use super::{Candidate, Fitness, Model, Trouble, columns, kernels};
+use crate::measure::SizeClasses;
 use crate::scenario::{Fault, Faults, Scenario};
 
 /// What a campaign evaluates: its scenario, with values for its parameters.
@@ -31,6 +32,10 @@ pub struct Problem {
     objectives: Vec<Cost>,
     limits: Vec<Corridor>,
     columns: Vec<String>,
+    /// How many of the columns are shown; the others are what rates by size are worked out from.
+    shown: usize,
+    /// Classes of sizes, where rates by size are wanted.
+    classes: Option<SizeClasses>,
     /// Whether the file has objectives; a study without any is judged by its first column.
     has_objectives: bool,
     runner: Arc<dyn Runner>,
@@ -95,7 +100,10 @@ impl Problem {
         let objectives = reader.objectives(campaign);
         let limits = reader.limits(campaign);
         reader.columns(&campaign.columns);
-        let Reader { columns, faults, .. } = reader;
+        let Reader { mut columns, mut faults, .. } = reader;
+        faults.extend(kernels::fault(campaign, &base.scenario));
+        let (shown, classes) = (columns.len(), kernels::classes(campaign, &base.scenario));
+        columns.extend(classes.iter().flat_map(columns::of_totals));
         if !faults.is_empty() {
             return Err(Faults::new(faults));
         }
@@ -111,6 +119,8 @@ impl Problem {
             objectives,
             limits,
             columns,
+            shown,
+            classes,
             has_objectives,
             runner,
         })
@@ -120,6 +130,11 @@ impl Problem {
     #[must_use]
     pub fn run_by(self, runner: Arc<dyn Runner>) -> Self {
         Self { runner, ..self }
+    }
+
+    /// Classes of sizes, where rates by size are wanted.
+    pub fn classes(&self) -> Option<&SizeClasses> {
+        self.classes.as_ref()
     }
 
     /// The name of what gives the quantities instead of runs.
@@ -271,6 +286,10 @@ impl Model for Problem {
 
     fn columns(&self) -> &[String] {
         &self.columns
+    }
+
+    fn shown(&self) -> &[String] {
+        &self.columns[..self.shown]
     }
 
     fn candidate(&self, point: &[f64]) -> Candidate {

@@ -6,7 +6,7 @@
 use std::f64::consts::PI;
 
 use agglo::engine::hard::Simulation;
-use agglo::measure::SizeRates;
+use agglo::measure::{SizeClasses, SizeRates};
 
 use crate::common;
 use crate::support::{self, EVENTS, Mean};
@@ -56,7 +56,8 @@ fn start(seed: u64) -> Simulation {
         let kind = usize::from(state.spheres.motion[at].radius > RADII[0]);
         state.spheres.bulk[at].primaries = PRIMARIES[kind];
     }
-    state.rates = SizeRates::new(state.spheres.bulk.iter().map(|bulk| bulk.primaries), volume);
+    state.rates =
+        SizeRates::new(SizeClasses::default(), state.spheres.bulk.iter().map(|bulk| bulk.primaries), volume);
     simulation
 }
 

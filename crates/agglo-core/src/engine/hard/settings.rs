@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::domain::Volume;
 use crate::impact::Impact;
+use crate::measure::SizeClasses;
 use crate::particles::{Material, Mixture};
 
 use super::types::{EventDriven, TimeStepped};
@@ -25,6 +26,8 @@ pub struct Settings {
     pub mixtures: Vec<Mixture>,
     /// Laws of impact.
     pub impact: Impact,
+    /// Classes by which collisions and breakages are counted.
+    pub classes: SizeClasses,
 }
 
 /// What drives time.

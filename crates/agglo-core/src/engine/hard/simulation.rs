@@ -68,7 +68,7 @@ impl SimulationState<'_> {
         ensure(primaries == self.primaries_at_start && self.grains_at_start <= primaries, || {
             "there are other grains than at the start".to_owned()
         })?;
-        system.rates.validate(living)?;
+        system.rates.validate(&settings.classes, living)?;
         system.collapse.validate()?;
         finite("ledger", &system.ledger)?;
         finite("counts", &system.counts)?;
@@ -132,7 +132,11 @@ impl Simulation {
         let state = HardSystemState {
             ledger: Ledger::of_hard(record::opening(&spheres)),
             counts: Counts::default(),
-            rates: SizeRates::new(spheres.bulk.iter().map(|bulk| bulk.primaries), volume),
+            rates: SizeRates::new(
+                settings.classes.clone(),
+                spheres.bulk.iter().map(|bulk| bulk.primaries),
+                volume,
+            ),
             warnings: Warnings::default(),
             collapse: Collapse::default(),
             spheres,

@@ -158,7 +158,9 @@ impl Job for Hard {
         let row = Now::of(&self.simulation, growth, mean_radius_at_start, &last_row);
         tables::OVER_TIME.into_iter().try_for_each(|table| to.put(table, &row))?;
         self.memory.last_row = LastRow::of(&self.simulation);
-        now::classes(self.time(), &now, &growth).try_for_each(|class| to.put(&tables::SIZES, &class))
+        let classes = self.simulation.system().state.rates.classes();
+        now::classes(self.time(), &now, (classes, &growth))
+            .try_for_each(|class| to.put(&tables::SIZES, &class))
     }
 
     fn record_frame(&self, frames: &mut Frames) -> Result<(), RecordError> {

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::engine::hard::{Clock, Counts, Simulation, Snapshot};
 use crate::ledger::{Balance, Momentum};
 use crate::math::Vec3;
-use crate::measure::{SizeClass, size_classes};
+use crate::measure::{SizeClass, SizeClasses};
 
 use super::growth::Growth;
 
@@ -90,9 +90,13 @@ pub struct ClassNow {
 }
 
 /// The size distribution at `time` [s], class by class.
-pub fn classes(time: f64, now: &Snapshot, growth: &Growth) -> impl Iterator<Item = ClassNow> {
+pub fn classes(
+    time: f64,
+    now: &Snapshot,
+    (classes, growth): (&SizeClasses, &Growth),
+) -> impl Iterator<Item = ClassNow> {
     let mass_of_all = growth.mass;
-    let classes = size_classes(&now.primaries, &now.grains.mass);
+    let classes = classes.distribution(&now.primaries, &now.grains.mass);
     classes.into_iter().map(move |class| ClassNow { time, class, mass_of_all })
 }
 

@@ -3,7 +3,7 @@
 use super::distinct_tests::{distinct, scenario};
 use super::*;
 use crate::constants::STEFAN_BOLTZMANN;
-use crate::measure::{BreakageRow, DaughterRow, KernelRow, SizeRates};
+use crate::measure::{BreakageRow, DaughterRow, KernelRow, SizeClasses, SizeRates};
 use crate::record::columns::{Cell, Column};
 use crate::run::distinct::{Named, assert_columns, tables as tables_in};
 
@@ -82,13 +82,20 @@ fn values_stand_under_their_columns() {
         ("sticking_probability", 0.125),
     ];
     assert_row(&tables::KERNELS, &kernel, &wanted);
-    let breakage =
-        BreakageRow { class: [8, 15], grains: 3, grain_time: 2.5, breakages: 5, breakage_rate: Some(0.75) };
+    let breakage = BreakageRow {
+        class: [8, 15],
+        grains: 3,
+        grain_time: 2.5,
+        mean_primaries: Some(11.5),
+        breakages: 5,
+        breakage_rate: Some(0.75),
+    };
     let wanted = [
         ("lower_primaries", 8.0),
         ("upper_primaries", 15.0),
         ("grains", 3.0),
         ("grain_time_s", 2.5),
+        ("mean_primaries", 11.5),
         ("breakages", 5.0),
         ("breakage_rate_1_s", 0.75),
     ];
@@ -119,7 +126,7 @@ fn values_stand_under_their_columns() {
 /// Two singles that never met in 1 s have no sticking probability, and a kernel of 0.
 #[test]
 fn what_nothing_can_be_said_of_is_unknown() {
-    let row = SizeRates::new([1, 1].into_iter(), 1.0).kernel_rows(1.0).remove(0);
+    let row = SizeRates::new(SizeClasses::default(), [1, 1].into_iter(), 1.0).kernel_rows(1.0).remove(0);
     let column =
         |name: &str| tables::KERNELS.columns.iter().find(|column| column.about.name == name).unwrap();
     assert_eq!(column("sticking_probability").cell(&row), Cell::Unknown);

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::engine::hard::Simulation;
 use crate::engine::soft::Limits;
 use crate::ledger::Balance;
-use crate::measure::is_uniform;
+use crate::measure::{SizeTotals, is_uniform};
 use crate::run::summary::{time_row, wall_row, warnings_row};
 use crate::scenario::Scenario;
 use crate::text::readable;
@@ -51,6 +51,9 @@ pub struct HardSummary {
     pub momentum_drift_relative: f64,
     /// Warnings, with how often each came up.
     pub warnings: BTreeMap<String, u64>,
+    /// What rates by size are worked out from, where classes of one's own are given. The tables have it, not the file.
+    #[serde(skip)]
+    pub size_totals: Option<SizeTotals>,
 }
 
 impl HardSummary {
@@ -75,6 +78,7 @@ impl HardSummary {
             energy: simulation.balance(),
             momentum_drift_relative: simulation.momentum_drift_relative(),
             warnings: state.warnings.counts().clone(),
+            size_totals: state.rates.totals(simulation.clock().time),
         }
         .with_tc_warning()
     }

@@ -3,8 +3,10 @@
 use crate::engine::hard::{Descent, EventKind, GrainEvent};
 use crate::folder::names;
 use crate::ledger::{Entry, entry::hard as told};
-use crate::measure::{BreakageRow, DaughterRow, KernelRow};
-use crate::record::columns::{Column, Table, Tables, count, entry, number, number_or_none, word};
+use crate::measure::{BreakageRow, DaughterRow, KernelRow, end_of_class as end};
+use crate::record::columns::{
+    Column, Table, Tables, count, count_or_none, entry, number, number_or_none, word,
+};
 
 use super::now::{ClassNow, Now};
 use super::panels;
@@ -102,8 +104,8 @@ pub static STEPS: Table<Now> = Table { file: names::STEPS, columns: &[
 #[rustfmt::skip]
 pub static SIZES: Table<ClassNow> = Table { file: names::SIZES, columns: &[
     number("time_s", "s", "time", "simulated", |now: &ClassNow| now.time),
-    count("lower_primaries", "fewest primaries", "of the class: 1, 2 to 3, 4 to 7, ...", |now: &ClassNow| u64::from(now.class.lower)),
-    count("upper_primaries", "most primaries", "of the class", |now: &ClassNow| u64::from(now.class.upper)),
+    count("lower_primaries", "fewest primaries", "of the class: 1, 2, 4, ... or those of `output.size_classes`", |now: &ClassNow| u64::from(now.class.lower)),
+    count_or_none("upper_primaries", "most primaries", "of the class; none if it has no end", |now: &ClassNow| end(now.class.upper)),
     count("grains", "grains", "in the class", |now: &ClassNow| now.class.grains),
     number("mass_kg", "kg", "mass", "of the class", |now: &ClassNow| now.class.mass),
     number("mass_fraction", "", "part of the mass", "of all grains", |now: &ClassNow| now.class.mass / now.mass_of_all).part(),
@@ -149,9 +151,9 @@ pub static GENEALOGY: Table<Descent> = Table { file: names::GENEALOGY, columns: 
 #[rustfmt::skip]
 pub static KERNELS: Table<KernelRow> = Table { file: names::KERNELS, columns: &[
     count("a_lower_primaries", "fewest primaries of the larger class", "", |row: &KernelRow| u64::from(row.a[0])),
-    count("a_upper_primaries", "most primaries of the larger class", "", |row: &KernelRow| u64::from(row.a[1])),
+    count_or_none("a_upper_primaries", "most primaries of the larger class", "none if it has no end", |row: &KernelRow| end(row.a[1])),
     count("b_lower_primaries", "fewest primaries of the smaller class", "", |row: &KernelRow| u64::from(row.b[0])),
-    count("b_upper_primaries", "most primaries of the smaller class", "", |row: &KernelRow| u64::from(row.b[1])),
+    count_or_none("b_upper_primaries", "most primaries of the smaller class", "none if it has no end", |row: &KernelRow| end(row.b[1])),
     count("collisions", "collisions", "between the two since the start", |row: &KernelRow| row.collisions),
     count("merges", "merges", "", |row: &KernelRow| row.merges),
     count("breaking_collisions", "collisions that broke a grain", "", |row: &KernelRow| row.breaking),
@@ -166,9 +168,10 @@ pub static KERNELS: Table<KernelRow> = Table { file: names::KERNELS, columns: &[
 #[rustfmt::skip]
 pub static BREAKAGE: Table<BreakageRow> = Table { file: names::BREAKAGE, columns: &[
     count("lower_primaries", "fewest primaries", "of the class", |row: &BreakageRow| u64::from(row.class[0])),
-    count("upper_primaries", "most primaries", "of the class", |row: &BreakageRow| u64::from(row.class[1])),
+    count_or_none("upper_primaries", "most primaries", "of the class; none if it has no end", |row: &BreakageRow| end(row.class[1])),
     count("grains", "grains", "in the class now", |row: &BreakageRow| row.grains),
     number("grain_time_s", "s", "grain time", "their number, integrated over time", |row: &BreakageRow| row.grain_time),
+    number_or_none("mean_primaries", "", "mean primaries", "of a grain of the class, over time", |row: &BreakageRow| row.mean_primaries),
     count("breakages", "breakages", "grains of the class that broke", |row: &BreakageRow| row.breakages),
     number_or_none("breakage_rate_1_s", "1/s", "breakage rate", "breakages over the grain time", |row: &BreakageRow| row.breakage_rate),
 ] };
@@ -177,9 +180,9 @@ pub static BREAKAGE: Table<BreakageRow> = Table { file: names::BREAKAGE, columns
 #[rustfmt::skip]
 pub static DAUGHTERS: Table<DaughterRow> = Table { file: names::DAUGHTERS, columns: &[
     count("parent_lower_primaries", "fewest primaries of the parents", "", |row: &DaughterRow| u64::from(row.parent[0])),
-    count("parent_upper_primaries", "most primaries of the parents", "", |row: &DaughterRow| u64::from(row.parent[1])),
+    count_or_none("parent_upper_primaries", "most primaries of the parents", "none if it has no end", |row: &DaughterRow| end(row.parent[1])),
     count("daughter_lower_primaries", "fewest primaries of the daughters", "", |row: &DaughterRow| u64::from(row.daughter[0])),
-    count("daughter_upper_primaries", "most primaries of the daughters", "", |row: &DaughterRow| u64::from(row.daughter[1])),
+    count_or_none("daughter_upper_primaries", "most primaries of the daughters", "none if it has no end", |row: &DaughterRow| end(row.daughter[1])),
     count("breakages", "breakages", "of parents of the class, whatever into", |row: &DaughterRow| row.breakages),
     count("fragments", "fragments", "of the daughters' class", |row: &DaughterRow| row.fragments),
     count("primaries", "primaries", "in these fragments", |row: &DaughterRow| row.primaries),

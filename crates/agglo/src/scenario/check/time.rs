@@ -2,6 +2,7 @@
 
 use super::Check;
 use crate::engine::hard::TimeStepped;
+use crate::measure::SizeClasses;
 use crate::scenario::file::{EngineTable, ScenarioFile};
 use crate::text::told_apart;
 
@@ -60,6 +61,28 @@ fn output(check: &mut Check, scenario: &ScenarioFile) {
     if output.pulses.is_some() && scenario.acoustics.is_none() {
         let message = "is for rays, and there are none".to_owned();
         check.fail_with("output.pulses", message, "give [acoustics], or leave out [output.pulses]");
+    }
+    if let Some(classes) = &output.size_classes {
+        size_classes(check, classes, scenario.engine.is_hard());
+    }
+}
+
+fn size_classes(check: &mut Check, lower: &[u32], is_hard: bool) {
+    let key = "output.size_classes";
+    if !is_hard {
+        let message = "is for hard spheres, whose merges and breakages are counted".to_owned();
+        return check.fail_with(key, message, "leave it out");
+    }
+    let help = "give the fewest primaries of each class, such as [1, 2, 5, 20]";
+    if lower.first() != Some(&1) {
+        let found = lower.first().map_or("an empty list".to_owned(), |first| format!("{first} first"));
+        check.fail_with(key, format!("found {found}; the first class begins at 1"), help);
+    } else if let Some((before, next)) = lower.iter().zip(&lower[1..]).find(|(before, next)| before >= next) {
+        let message = format!("found {next} after {before}; each class begins above the one before");
+        check.fail_with(key, message, help);
+    } else if lower.len() > SizeClasses::MOST {
+        let message = format!("found {} classes; at most {} are allowed", lower.len(), SizeClasses::MOST);
+        check.fail_with(key, message, help);
     }
 }
 

@@ -151,7 +151,7 @@ impl<'a, M: Model> Conductor<'a, M> {
         let (seen, unseen, last, seed) = (ensemble.clone(), fresh.clone(), fresh.clone(), *seed);
         let chosen_by = confirm.replicates;
         let records =
-            Records::create(folder.root(), &course.parameters, course.objectives.len(), model.columns())?;
+            Records::create(folder.root(), &course.parameters, course.objectives.len(), model.shown())?;
         Ok(Self {
             model,
             pool,
@@ -208,7 +208,7 @@ impl<'a, M: Model> Conductor<'a, M> {
             summary: &summary,
             best: best.map(|best| &self.archive.evaluations[best.at].candidate),
             evaluations: &self.archive.evaluations,
-            columns: self.model.columns(),
+            columns: self.model.shown(),
         };
         let (watch, pool, generations) = (&mut self.watch, self.pool, self.generations);
         let now = || Now { stage: Stage::Close, generations, decided: 0, replicates: pool.replicates() };
@@ -353,7 +353,7 @@ impl<'a, M: Model> Conductor<'a, M> {
             self.records.failure(number, 0, seeds(number, 0), &reason)?;
         }
         let evaluation = Evaluation { number, stage, generation, candidate, repeats, ..known };
-        self.records.evaluation(&evaluation, self.model.columns().len())?;
+        self.records.evaluation(&evaluation)?;
         self.archive.add(evaluation);
         Ok(())
     }
@@ -416,7 +416,7 @@ impl<'a, M: Model> Conductor<'a, M> {
             quantities: replicates,
             costs,
         };
-        self.records.evaluation(&evaluation, self.model.columns().len())?;
+        self.records.evaluation(&evaluation)?;
         self.archive.add(evaluation);
         Ok(())
     }
@@ -467,7 +467,7 @@ impl<'a, M: Model> Conductor<'a, M> {
     }
 
     pub(super) fn columns(&self) -> &[String] {
-        self.model.columns()
+        self.model.shown()
     }
 
     pub(super) fn candidate(&self, point: &[f64]) -> Candidate {

@@ -64,7 +64,7 @@ fn evaluations(campaign: &Campaign, problem: &Problem, known: &[Evaluation]) -> 
         title: campaign.title.clone(),
         parameters: problem.axes().iter().map(parameter_axis).collect(),
         objectives: problem.objectives().map(objective).collect(),
-        measures: problem.columns().iter().map(|name| plain(name)).collect(),
+        measures: problem.shown().iter().map(|name| plain(name)).collect(),
         replicates: if campaign.ensemble.common_random_numbers {
             Replicates::Shared
         } else {

@@ -15,6 +15,8 @@ use crate::search::Axis;
 pub struct Records {
     parameters: Vec<Axis>,
     objectives: usize,
+    /// How many quantities are shown.
+    shown: usize,
     evaluations: Table,
     runs: Table,
     generations: Table,
@@ -72,6 +74,7 @@ impl Records {
         Ok(Self {
             parameters: parameters.to_vec(),
             objectives,
+            shown: columns.len(),
             evaluations: begin(&EVALUATIONS, of_candidates.chain(columns.iter().cloned()).collect())?,
             runs: begin(&RUNS, costs.iter().chain(columns).cloned().collect())?,
             generations: begin(&GENERATIONS, Vec::new())?,
@@ -83,7 +86,7 @@ impl Records {
     ///
     /// # Errors
     /// [`RecordError::File`].
-    pub fn evaluation(&mut self, evaluation: &Evaluation, columns: usize) -> Result<(), RecordError> {
+    pub fn evaluation(&mut self, evaluation: &Evaluation) -> Result<(), RecordError> {
         let (quantities, errors) = (evaluation.mean_quantities(), evaluation.standard_errors());
         let known = |quantities: &[f64], k: usize| number(quantities.get(k).copied());
         let mut more = Vec::new();
@@ -92,7 +95,7 @@ impl Records {
         }
         let values = parameters(&self.parameters, &evaluation.candidate.values);
         more.extend(values.iter().map(Value::cell));
-        more.extend((0..columns).map(|k| known(&quantities, k)));
+        more.extend((0..self.shown).map(|k| known(&quantities, k)));
         self.evaluations.put(EVALUATIONS.columns, evaluation, more)
     }
 
@@ -102,7 +105,7 @@ impl Records {
     /// [`RecordError::File`].
     pub fn replicate(&mut self, evaluation: u64, replicate: &Replicate<'_>) -> Result<(), RecordError> {
         let costs = replicate.costs.iter().take(self.objectives).map(|cost| Cell::Number(*cost));
-        let quantities = replicate.quantities.iter().map(|quantity| number(Some(*quantity)));
+        let quantities = replicate.quantities.iter().take(self.shown).map(|quantity| number(Some(*quantity)));
         let row = ReplicateRow { evaluation, replicate: replicate.number, seed: replicate.seed };
         self.runs.put(RUNS.columns, &row, costs.chain(quantities))
     }
@@ -190,13 +193,13 @@ fn number(value: Option<f64>) -> Cell<'static> {
 }
 
 /// The value of a parameter.
-enum Value {
+pub(super) enum Value {
     Number(f64),
     Word(String),
 }
 
 impl Value {
-    fn cell(&self) -> Cell<'_> {
+    pub(super) fn cell(&self) -> Cell<'_> {
         match self {
             Self::Number(value) => Cell::Number(*value),
             Self::Word(word) => Cell::Word(word),
@@ -204,7 +207,7 @@ impl Value {
     }
 }
 
-fn parameters(axes: &[Axis], values: &[f64]) -> Vec<Value> {
+pub(super) fn parameters(axes: &[Axis], values: &[f64]) -> Vec<Value> {
     let value = |(axis, value): (&Axis, &f64)| {
         if axis.is_numeric() { Value::Number(axis.number(*value)) } else { Value::Word(axis.label(*value)) }
     };

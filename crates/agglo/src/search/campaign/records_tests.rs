@@ -72,14 +72,14 @@ fn evaluations_stand_under_their_columns() {
     let mut records = records(folder.path(), 2);
     let mut one = evaluation(5, (Stage::Polish, Status::Infeasible), &[16.0, -32.0]);
     one.repeats = Some(2);
-    records.evaluation(&one, 2).unwrap();
+    records.evaluation(&one).unwrap();
     let failed = Evaluation {
         fitness: Fitness::failed(),
         quantities: Vec::new(),
         replicates: 0,
         ..evaluation(6, (Stage::Search, Status::Failed), &[])
     };
-    records.evaluation(&failed, 2).unwrap();
+    records.evaluation(&failed).unwrap();
     records.flush().unwrap();
     let rows = rows(folder.path(), "evaluations.csv");
     let wanted = [

@@ -10,7 +10,7 @@ use super::course::{Ask, Course, Polish, Results};
 use super::part::Part;
 use super::progress::CampaignObserver;
 use super::summary::Goal;
-use super::{CampaignEnding, CampaignError, Draw, pictures};
+use super::{CampaignEnding, CampaignError, Draw, kernels, pictures};
 use crate::engine::SimError;
 use crate::folder::{CampaignFolder, FolderError, names};
 use crate::record::{RecordError, door};
@@ -225,6 +225,7 @@ pub(super) fn go_on(
         closing: &mut |results, ask| {
             pictures::clear(&results.folder.pictures())?;
             pictures::write(&campaign, &problem, results, draw)?;
+            kernels::write(results.folder, &problem, results.evaluations)?;
             if is_search { run_best(&problem, results, ask) } else { Ok(ControlFlow::Continue(())) }
         },
     };

@@ -49,6 +49,10 @@ pub struct Campaign {
     /// Further columns of the summary that the tables show.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub columns: Vec<String>,
+    /// Of a study of hard spheres: whether kernels and breakage by size are wanted, over all replicates of a candidate. The base
+    /// says by which classes: `output.size_classes`.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub kernels: bool,
     /// How many random replicates a candidate gets.
     #[serde(default)]
     pub ensemble: Ensemble,
