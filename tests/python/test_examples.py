@@ -22,6 +22,7 @@ PICTURES = {
     "flow_coupling": ["jet.svg"],
     "calibrate_optuna": ["calibration.svg"],
     "study_dask": ["growth.svg"],
+    "form_disperse": ["clouds.png", "course.svg"],
 }
 
 
@@ -185,3 +186,72 @@ def test_a_study_on_dask_has_the_bits_of_the_program_though_a_worker_is_killed(t
             example.conduct(asked, tmp_path / "killed", client, progress=kill)
     assert killed
     assert files(tmp_path / "killed") == whole
+
+
+def pieces(grains):
+    """Primaries, masses and momenta of the grains or clusters of a frame, the lightest first."""
+    mass, momentum = grains["mass_kg"], grains["mass_kg"][:, None] * grains["velocity_m_s"]
+    count = grains.get("primaries", np.ones(len(mass)))
+    _, piece = np.unique(grains.get("cluster", grains["id"]), return_inverse=True)
+    sums = [np.bincount(piece, weights=of) for of in (count, mass, *momentum.T)]
+    order = np.argsort(sums[1])
+    return sums[0][order].astype(int).tolist(), sums[1][order], np.stack(sums[2:], axis=1)[order]
+
+
+def meetings(grown):
+    """How often grains are to meet in a run: a cylinder of π (r + r')² |v - v'| for each pair, over the volume and time."""
+    faces = grown.scenario.to_dict()["volume"]
+    lower, upper = (np.array([float(face.removesuffix(" m")) for face in faces[side]]) for side in ("lower", "upper"))
+    times, rates = [], []
+    for frame in range(len(grown.frames())):
+        time_s, grains = grown.grains(frame)
+        i, j = np.triu_indices(len(grains["id"]), 1)
+        across = np.pi * (grains["radius_m"][i] + grains["radius_m"][j]) ** 2
+        speed = np.linalg.norm(grains["velocity_m_s"][i] - grains["velocity_m_s"][j], axis=1)
+        times.append(time_s)
+        rates.append((across * speed).sum() / np.prod(upper - lower))
+    return np.trapezoid(rates, times)
+
+
+def test_agglomerates_form_are_dispersed_and_form_again(tmp_path):
+    said = short("form_disperse", tmp_path)
+    formed, dispersed, again = (agglo.read(tmp_path / name) for name in ("formed", "dispersed", "again"))
+    # Both hand-overs keep every piece: how many primaries it has, its mass and its momentum, to round-off of sums over a hundred.
+    for before, after in ((formed.grains(-1), dispersed.grains(0)), (dispersed.grains(-1), again.grains(0))):
+        counts, masses, momenta = pieces(before[1])
+        now = pieces(after[1])
+        assert now[0] == counts and sum(counts) == 100 and after[0] == 0.0
+        assert now[1] == pytest.approx(masses, rel=1e-12)
+        assert now[2] == pytest.approx(momenta, rel=1e-9, abs=1e-12 * np.abs(momenta).max())
+    assert f"{len(pieces(dispersed.grains(-1)[1])[0])} clusters" in said
+    told = re.findall(r"mass kept to (\S+), momentum to ([\de.-]+)", said)
+    assert len(told) == 2 and all(float(part) < 1e-12 for parts in told for part in parts)
+    # Packings begin with their bonds at rest and without overlaps; what moves is what moved before.
+    energy = dispersed.table("energy")
+    assert energy["bonds_J"][0] == 0.0 and energy["elastic_J"][0] < 1e-12 * energy["kinetic_J"][0]
+    # Sound breaks bonds, each of which is an event, and pushes along x. What scatters sideways cancels but for chance.
+    clusters, kinds = dispersed.table("clusters"), dispersed.events()["event"]
+    assert clusters["bonds"][0] - clusters["bonds"][-1] == sum(kind.startswith("broken") for kind in kinds.tolist()) > 0
+    assert clusters["dispersion_degree"][-1] > clusters["dispersion_degree"][0]
+    assert clusters["clusters"][-1] > 2 * clusters["clusters"][0] == 2 * formed.summary["grains_end"]
+    push = pieces(dispersed.grains(-1)[1])[2].sum(axis=0)
+    assert push[0] > 5 * np.hypot(*push[1:])
+    # Of the energy the motion of centers is left, P²/2M at least; shaking and spin are dropped.
+    kept = float(re.search(r"(\d+)% of the energy of motion and spin left", said)[1]) / 100
+    grains = again.grains(0)[1]
+    motion = 0.5 * (grains["mass_kg"] * (grains["velocity_m_s"] ** 2).sum(axis=1)).sum()
+    final = {name: dispersed.summary["energy"][name] for name in ("kinetic_J", "rotational_J")}
+    # The ledger's energy of motion has the water that grains drag along, half of what they displace.
+    before = final["kinetic_J"] / (1 + 0.5 * 1000 / 4000) + final["rotational_J"]
+    assert kept == pytest.approx(motion / before, abs=0.006) and (push**2).sum() / (2 * grains["mass_kg"].sum()) < motion < before
+    # The second growth: every merge is one grain less, until there are as few as before; momentum stays.
+    end = again.grains(-1)[1]
+    assert again.summary["grains_end"] == again.summary["grains_start"] - again.summary["merges"] <= formed.summary["grains_end"]
+    assert end["primaries"].sum() == 100
+    assert pieces(end)[2].sum(axis=0) == pytest.approx(push, rel=1e-9, abs=1e-12 * push[0])
+    # Both times grains meet as often as the kinetic theory of gases has it, to the chance of so many impacts.
+    for grown in (formed, again):
+        met = meetings(grown)
+        assert grown.summary["merges"] == pytest.approx(met, abs=3 * np.sqrt(met))
+    # Started again it says the same of what is there.
+    assert short("form_disperse", tmp_path) == said
