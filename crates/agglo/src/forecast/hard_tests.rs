@@ -12,13 +12,13 @@ use crate::packing::place_groups;
 use crate::run::{Ending, Summary, quiet};
 use crate::scenario::Scenario;
 
-const SET_1: &str = include_str!("../../../../scenarios/reacting-agglomeration.toml");
-const SET_2: &str = include_str!("../../../../scenarios/reacting-set-2.toml");
-const SET_3: &str = include_str!("../../../../scenarios/reacting-set-3.toml");
-const SET_4: &str = include_str!("../../../../scenarios/reacting-set-4.toml");
-const SET_5: &str = include_str!("../../../../scenarios/reacting-set-5.toml");
-const SET_6: &str = include_str!("../../../../scenarios/reacting-set-6.toml");
-const PUBLISHED: &str = include_str!("../../../../scenarios/reacting-agglomeration-published.toml");
+const SET_1: &str = include_str!("../../scenarios/reacting-agglomeration.toml");
+const SET_2: &str = include_str!("../../scenarios/reacting-set-2.toml");
+const SET_3: &str = include_str!("../../scenarios/reacting-set-3.toml");
+const SET_4: &str = include_str!("../../scenarios/reacting-set-4.toml");
+const SET_5: &str = include_str!("../../scenarios/reacting-set-5.toml");
+const SET_6: &str = include_str!("../../scenarios/reacting-set-6.toml");
+const PUBLISHED: &str = include_str!("../../scenarios/reacting-agglomeration-published.toml");
 
 /// 1000 grains of radius 1 mm in a box of 10 cm, so that φ = 4.18879e-3; velocities as asked for.
 fn gas_of(velocities: &str, restitution: &str) -> String {

@@ -2,7 +2,7 @@ use super::*;
 use crate::math::rng::{Purpose, Stream};
 use crate::run::{self, Ending};
 
-const SHIPPED: &str = include_str!("../../../../scenarios/search-agglomeration.toml");
+const SHIPPED: &str = include_str!("../../scenarios/search-agglomeration.toml");
 
 fn problem(text: &str) -> (Campaign, Problem) {
     let campaign = Campaign::from_toml(text).unwrap_or_else(|faults| panic!("{faults}"));
