@@ -3,7 +3,7 @@
 //! A tried allocation proves nothing: Linux promises memory that it does not have, and kills whoever then uses it. So what a
 //! run will ask for is reckoned before anything is placed, and held to what is there.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::counts;
 use crate::engine::hard::Driver;
@@ -236,7 +236,7 @@ fn left_by(group: &Path, [limit, usage, remembered]: [&str; 3]) -> Option<f64> {
 /// Disk that is free [B] at a place, or at the nearest folder above it that is there.
 #[cfg(unix)]
 fn disk(place: &Path) -> Option<f64> {
-    let whole: PathBuf = std::path::absolute(place).ok()?;
+    let whole = std::path::absolute(place).ok()?;
     let found = whole.ancestors().find_map(|folder| rustix::fs::statvfs(folder).ok())?;
     Some(found.f_bavail as f64 * found.f_frsize as f64)
 }

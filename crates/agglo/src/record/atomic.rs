@@ -15,7 +15,8 @@ use tempfile::{NamedTempFile, TempPath};
 
 use super::RecordError;
 #[cfg(unix)]
-use crate::folder::{Mark, Marked, files};
+use crate::folder::files;
+use crate::folder::{Mark, Marked};
 
 /// Temporary files begin with this and end with [`SUFFIX`].
 const PREFIX: &str = ".agglo-";
