@@ -9,13 +9,15 @@
 # hostile files. It runs the long cases of validation, which cargo ignores otherwise, and measures every figure of README.md again.
 # --mutants runs no such tests: it puts small mistakes into the physics for an hour and says which of them no test notices; see
 # tests/mutants/check.py. AGGLO_MUTANTS_MINUTES asks for more or less than 60.
+# --wheel runs no such tests either: it builds the wheel for Python as it is given out, which takes minutes, and tries it on an
+# emulated processor without AVX; see tests/wheel/check.py.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 case ${1:-} in
-'' | --mutants) ;;
+'' | --mutants | --wheel) ;;
 --long) export AGGLO_STORMS=500 AGGLO_CASES=30 ;;
 *)
-    echo "error: $1 is not known; test.sh takes --long, --mutants or nothing" >&2
+    echo "error: $1 is not known; test.sh takes --long, --mutants, --wheel or nothing" >&2
     exit 2
     ;;
 esac
@@ -122,6 +124,14 @@ try_mutants() {
     exec python3 tests/mutants/check.py
 }
 
+# Builds the wheel that is given out, and tries it.
+try_wheel() {
+    command -v qemu-x86_64 >/dev/null || install_debian qemu-user
+    command -v objdump >/dev/null || install_debian binutils
+    say "wheel"
+    exec "$venv/bin/python" tests/wheel/check.py
+}
+
 # Runs a command and keeps what it says, for the closing lines.
 run() {
     say "$*"
@@ -133,6 +143,9 @@ if [[ ${1:-} == --mutants ]]; then
     try_mutants
 fi
 prepare
+if [[ ${1:-} == --wheel ]]; then
+    try_wheel
+fi
 prepare_browser
 prepare_ffmpeg
 : >"$log"
