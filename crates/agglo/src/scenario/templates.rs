@@ -84,7 +84,7 @@ pub const TEMPLATES: &[Template] = &[
     Template {
         name: "study-kernels",
         title: "a study of how often grains of two sizes meet and stick, for a population balance",
-        text: include_str!("../../../../scenarios/study-kernels.toml"),
+        text: include_str!("../../scenarios/study-kernels.toml"),
         is_campaign: true,
     },
 ];
