@@ -175,8 +175,7 @@ def test_atoms_have_their_unit_and_come_back(soft, tmp_path):
     atoms, (time_s, grains) = soft.ase(length_unit_m=1e-3), soft.grains()
     assert atoms.get_positions() == pytest.approx(1e3 * grains["position_m"], rel=1e-14)
     assert np.array_equal(atoms.arrays["velocity_m_s"], grains["velocity_m_s"]) and atoms.info["time_s"] == time_s
-    with pytest.warns(UserWarning, match="angular_velocity_rad_s is left out"):
-        again = agglo.pack(agglo.start(atoms, tmp_path / "start", soft.scenario))
+    again = agglo.pack(agglo.start(atoms, tmp_path / "start", soft.scenario))
     assert again["position_m"] == pytest.approx(grains["position_m"], rel=1e-14)
     with pytest.raises(agglo.InputError, match="above 0"):
         agglo.to_ase(grains, length_unit_m=0.0)
@@ -184,17 +183,53 @@ def test_atoms_have_their_unit_and_come_back(soft, tmp_path):
 
 def test_a_start_from_arrays_has_their_bits(soft, tmp_path):
     _, grains = soft.grains()
-    del grains["angular_velocity_rad_s"]
     mixed = {name: values[::-1] for name, values in grains.items()}
     scenario = agglo.start(mixed, tmp_path / "start", soft.scenario)
     packed = agglo.pack(scenario)
-    for name in ("id", "position_m", "velocity_m_s", "radius_m", "temperature_K", "material"):
+    for name in ("id", "position_m", "velocity_m_s", "angular_velocity_rad_s", "radius_m", "temperature_K", "material"):
         assert np.array_equal(packed[name], grains[name]), name
     with pytest.raises(agglo.InputError, match="grains-0.csv is there already"):
         agglo.start(mixed, tmp_path / "start", soft.scenario)
     run = agglo.run(scenario, tmp_path / "run")
     assert np.array_equal(run.grains(0)[1]["position_m"], grains["position_m"])
     assert (tmp_path / "run/tables").is_dir()
+
+
+def test_bonds_are_those_that_are_given(soft, tmp_path):
+    """Bonds by the ids of a column, by places, and none at all; a run has them, and breaks no other."""
+    simulation = agglo.Simulation(soft.scenario)
+    grains, bonds = simulation.grains(), simulation.bonds()
+    assert len(bonds) > 10
+    # The same bonds by other names of the same grains.
+    names = 7 + 3 * grains["id"]
+    mixed = {name: values[::-1] for name, values in {**grains, "id": names}.items()}
+    for number, (columns, given) in enumerate([(grains, bonds), (mixed, 7 + 3 * bonds.astype(np.int64))]):
+        again = agglo.Simulation(agglo.start(columns, tmp_path / str(number), soft.scenario, bonds=given))
+        assert np.array_equal(again.bonds(), bonds)
+        again.run_until(1e-5)
+    some = agglo.start(grains, tmp_path / "some", soft.scenario, bonds=bonds[::3])
+    assert len(agglo.Simulation(some).bonds()) == len(bonds[::3])
+    assert len(agglo.Simulation(agglo.start(grains, tmp_path / "none", some, bonds=[])).bonds()) == 0
+    # Without any the law bonds neighbors, and the table of another start is not kept.
+    assert np.array_equal(agglo.Simulation(agglo.start(grains, tmp_path / "law", some)).bonds(), bonds)
+    for given, told in [([[0, 9999]], r"there is no grain 9999"), ([0, 1], "found int64 of the shape"), ([[0.0, 1.0]], "found float64")]:
+        with pytest.raises(agglo.InputError, match=told):
+            agglo.start(grains, tmp_path / "bad", soft.scenario, bonds=given)
+    with pytest.raises(agglo.InputError, match="a scenario is wanted"):
+        agglo.start(grains, tmp_path / "bad", bonds=bonds)
+    with pytest.raises(agglo.InputError, match="two grains have the same"):
+        agglo.start({**grains, "id": np.zeros(len(names))}, tmp_path / "bad", soft.scenario)
+
+
+def test_bonds_of_two_materials_find_their_grains(tmp_path):
+    """Tables are written material by material, so that grains get other ids."""
+    place = np.array([[2e-3 * at, 0.0, 0.0] for at in range(4)])
+    columns = {"position_m": place, "radius_m": np.full(4, 1e-3), "material": ["steel", "glass", "steel", "glass"]}
+    hold = {"bonds.beam": {"youngs_modulus": "1 MPa", "tensile_strength": "1 MPa", "shear_strength": "1 MPa", "gap": 0.1}}
+    scenario = agglo.Scenario(TWO).replace(hold)
+    simulation = agglo.Simulation(agglo.start(columns, tmp_path / "start", scenario, bonds=[[0, 1], [3, 2]]))
+    ends = simulation.grains()["position_m"][simulation.bonds()][:, :, 0]
+    assert sorted(map(sorted, ends.tolist())) == [[0.0, 2e-3], [4e-3, 6e-3]]
 
 
 TWO = """

@@ -37,6 +37,11 @@ pub struct BondEvent {
     pub energy: f64,
 }
 
+/// Bonds that are made now between pairs of grains, which are named by their places; at rest as they are.
+pub fn bonds_between(law: &Beam, grains: &Particles, pairs: &[[u32; 2]]) -> Vec<Bond> {
+    pairs.iter().map(|&[a, b]| bond_between(law, grains, a, b)).collect()
+}
+
 /// All bonds, sorted by the grains' names.
 #[derive(Clone, Debug, Default)]
 pub struct Network {

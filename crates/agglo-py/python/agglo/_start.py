@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, overload
 
@@ -20,7 +20,6 @@ _VECTORS = ("position_m", "velocity_m_s", "angular_velocity_rad_s")
 _SCALARS = ("radius_m", "temperature_K", "charge_C", "polarity")
 # What a table cannot hold for each grain, but an entry of a scenario for all of its grains: the column, the key, the unit.
 _SHARED = [
-    ("angular_velocity_rad_s", "angular_velocity", "rad/s"),
     ("charge_C", "charge", "C"),
     ("polarity", "polarity", ""),
 ]
@@ -28,7 +27,13 @@ _SHARED = [
 
 @overload
 def start(
-    grains: Any, folder: Folder, scenario: Scenario, *, material: str | None = None, length_unit_m: float | None = None
+    grains: Any,
+    folder: Folder,
+    scenario: Scenario,
+    *,
+    material: str | None = None,
+    bonds: npt.ArrayLike | None = None,
+    length_unit_m: float | None = None,
 ) -> Scenario: ...
 
 
@@ -39,6 +44,7 @@ def start(
     scenario: None = None,
     *,
     material: str | None = None,
+    bonds: None = None,
     length_unit_m: float | None = None,
 ) -> list[dict[str, Any]]: ...
 
@@ -49,32 +55,41 @@ def start(
     scenario: Scenario | None = None,
     *,
     material: str | None = None,
+    bonds: npt.ArrayLike | None = None,
     length_unit_m: float | None = None,
 ) -> Scenario | list[dict[str, Any]]:
     """A start from grains that are there already, in place of a scenario's own; without one, the entries of `[[grains]]`.
 
     Grains are written as tables `grains-0.csv` ..., one for each material, into the folder, which the scenario names from
     then on (a run copies them). Their ids are new: 0, 1, ... in the given order, or in that of a column `id`, material by
-    material. Bonds are made as the scenario says.
+    material.
 
     Args:
         grains: Columns by their names, as `Simulation.grains()` and `Run.grains()` give them: `position_m` [n, 3] and
-            `radius_m` [n], and, if wanted, `velocity_m_s` [n, 3], `temperature_K` [n], `material` [n] (names, or their places
-            in alphabetical order) and `id` [n]; `Atoms` of ASE or a PolyData of PyVista with such arrays besides the
-            positions. Angular velocities, charges and polarities are taken where all of a material have the same, and left
-            out with a warning where they differ.
+            `radius_m` [n], and, if wanted, `velocity_m_s` [n, 3], `angular_velocity_rad_s` [n, 3], `temperature_K` [n],
+            `material` [n] (names, or their places in alphabetical order) and `id` [n]; `Atoms` of ASE or a PolyData of
+            PyVista with such arrays besides the positions. Charges and polarities are taken where all of a material have the
+            same, and left out with a warning where they differ.
         folder: Where the tables go; it may be there, but not hold any yet.
         scenario: What the grains are put into. Keys that they do not set come from its first grains of the same material.
+        bonds: Pairs [n, 2] of grains that are bonded, by the column `id`, or by their places where there is none; as
+            `Simulation.bonds()` gives them. Bonds are at rest as the grains are. The scenario has `[bonds.beam]`, which bonds
+            neighbors if they are not given.
         material: The name of the material of all; not needed where the scenario has one alone, or there is a column.
         length_unit_m: The unit [m] of the positions of `Atoms` or a PolyData; if not given, meters or what `agglo.to_ase`
             noted.
 
     Raises:
-        InputError: A column is missing, of another shape or not finite, a material is not known, or the folder holds tables.
+        InputError: A column is missing, of another shape or not finite, a material or a bonded grain is not known, or the
+            folder holds tables.
         ScenarioError: The scenario does not take the grains.
     """
+    if bonds is not None and scenario is None:
+        raise InputError("bonds: a scenario is wanted that says how they hold, in [bonds.beam]")
     columns = _columns(grains, length_unit_m)
+    ids = columns.pop("id")
     names = _materials(columns, scenario, material)
+    pairs = None if bonds is None else _renamed(bonds, ids, names)
     place = Path(folder).absolute()
     place.mkdir(parents=True, exist_ok=True)
     known = scenario.to_dict() if scenario is not None else {}
@@ -90,11 +105,37 @@ def start(
         entries.append(_entry(entry, of_name, file))
     if scenario is None:
         return entries
-    return Scenario.from_dict({**known, "grains": entries}, base=scenario.base)
+    begin = {key: value for key, value in known.get("start", {}).items() if key != "bonds"}
+    if pairs is not None:
+        file = place / "bonds.csv"
+        _put(file, ["grain_i", "grain_j"], pairs.tolist())
+        begin["bonds"] = str(file)
+    return Scenario.from_dict({**known, "start": begin, "grains": entries}, base=scenario.base)
+
+
+def _renamed(
+    bonds: npt.ArrayLike, ids: npt.NDArray[np.int64], names: npt.NDArray[np.str_]
+) -> npt.NDArray[np.int64]:
+    """Bonds by the new ids of their grains: those of a material follow one another."""
+    pairs = np.asarray(bonds)
+    if pairs.size == 0:
+        return np.empty((0, 2), dtype=np.int64)
+    if pairs.ndim != 2 or pairs.shape[1] != 2 or pairs.dtype.kind not in "iu":
+        raise InputError(f"bonds: found {pairs.dtype} of the shape {pairs.shape}; whole numbers [n, 2] are wanted")
+    # Names as they come first have numbers, by which grains are sorted and stay in their order besides.
+    numbers = {name: number for number, name in enumerate(dict.fromkeys(names.tolist()))}
+    order = np.argsort([numbers[name] for name in names.tolist()], kind="stable")
+    new = np.empty(len(ids), dtype=np.int64)
+    new[order] = np.arange(len(ids))
+    places = np.minimum(np.searchsorted(ids, pairs), len(ids) - 1)
+    strange = pairs[ids[places] != pairs]
+    if len(strange):
+        raise InputError(f"bonds: there is no grain {strange[0]}")
+    return np.asarray(new[places])
 
 
 def _columns(grains: Any, length_unit_m: float | None) -> Columns:
-    """The columns of grains of any kind that is taken, in the order of ids."""
+    """The columns of grains of any kind that is taken, in the order of ids; ids are their places where there are none."""
     if hasattr(grains, "get_positions") and hasattr(grains, "arrays"):
         unit = grains.info.get("length_unit_m", 1.0) if length_unit_m is None else length_unit_m
         given = {**grains.arrays, "position_m": grains.get_positions() * unit}
@@ -118,9 +159,11 @@ def _columns(grains: Any, length_unit_m: float | None) -> Columns:
     for name in ("material", "id"):
         if name in columns and columns[name].shape != (count,):
             raise InputError(f"{name}: found the shape {columns[name].shape}; ({count},) is wanted")
-    if "id" in columns:
-        order = np.argsort(columns.pop("id"), kind="stable")
-        columns = {name: values[order] for name, values in columns.items()}
+    columns.setdefault("id", np.arange(count))
+    order = np.argsort(columns["id"], kind="stable")
+    columns = {name: values[order] for name, values in columns.items()}
+    if len(np.unique(columns["id"])) < count:
+        raise InputError("id: two grains have the same one")
     return columns
 
 
@@ -167,16 +210,21 @@ def _materials(columns: Columns, scenario: Scenario | None, material: str | None
 def _write(columns: Columns, file: Path) -> None:
     parts = [(f"{axis}_m", columns["position_m"][:, at]) for at, axis in enumerate("xyz")]
     parts.append(("radius_m", columns["radius_m"]))
-    if "velocity_m_s" in columns:
-        parts += [(f"v{axis}_m_s", columns["velocity_m_s"][:, at]) for at, axis in enumerate("xyz")]
+    for column, letter, unit in [("velocity_m_s", "v", "m_s"), ("angular_velocity_rad_s", "w", "rad_s")]:
+        if column in columns:
+            parts += [(f"{letter}{axis}_{unit}", columns[column][:, at]) for at, axis in enumerate("xyz")]
     if "temperature_K" in columns:
         parts.append(("temperature_K", columns["temperature_K"]))
+    # Python writes the digits that bring back the same double.
+    _put(file, [name for name, _ in parts], zip(*(values.tolist() for _, values in parts)))
+
+
+def _put(file: Path, names: Sequence[str], rows: Iterable[Iterable[Any]]) -> None:
     try:
         with file.open("x", encoding="utf-8", newline="") as lines:
             table = csv.writer(lines, lineterminator="\n")
-            table.writerow([name for name, _ in parts])
-            # Python writes the digits that bring back the same double.
-            table.writerows(zip(*(values.tolist() for _, values in parts)))
+            table.writerow(names)
+            table.writerows(rows)
     except FileExistsError:
         raise InputError(f"{file} is there already; name another folder, or move it away") from None
 
@@ -199,7 +247,11 @@ def _entry(entry: dict[str, Any], columns: Columns, file: Path) -> dict[str, Any
 
 
 # Keys that have no meaning beside a column of the table.
-_OVERRIDDEN = {"velocity_m_s": ["velocity", "velocity_spread"], "temperature_K": ["temperature"]}
+_OVERRIDDEN = {
+    "velocity_m_s": ["velocity", "velocity_spread"],
+    "angular_velocity_rad_s": ["angular_velocity"],
+    "temperature_K": ["temperature"],
+}
 
 
 def _quantity(value: Any, unit: str) -> Any:

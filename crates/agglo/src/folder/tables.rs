@@ -33,6 +33,9 @@ impl<'a> Tables<'a> {
                 table.file = self.adopt(&base.join(&table.file))?;
             }
         }
+        if let Some(bonded) = scenario.soft_mut().and_then(|soft| soft.bonded.as_mut()) {
+            *bonded = self.adopt(&base.join(&*bonded))?;
+        }
         if let Some(from) = &mut scenario.from {
             *from = self.adopt_state(&base.join(&*from))?;
         }

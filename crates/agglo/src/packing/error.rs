@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use super::PackingError;
+use super::{PackingError, TableError};
 use crate::text::{readable, two_digits};
 
 /// Why a run has no grains to start with, or the machine no room for it.
@@ -30,6 +30,9 @@ pub enum StartError {
         /// What to do.
         help: &'static str,
     },
+    /// A table of bonds that cannot be made.
+    #[error("start.bonds: {0}")]
+    Bonds(TableError),
     /// A run whose state cannot be the start.
     #[error("start.from: {path}: {reason}", path = .path.display())]
     Earlier {

@@ -92,8 +92,7 @@ pub fn read(file: &Path) -> Result<Vec<TableGrain>, TableError> {
 fn parse(text: &str, file: &Path) -> Result<Vec<TableGrain>, TableError> {
     let fault =
         |line, column: String, reason| Err(TableError::Table { file: file.to_owned(), line, column, reason });
-    let lines = text.trim_start_matches('\u{feff}').lines().zip(1_u64..);
-    let mut lines = lines.filter(|(line, _)| !line.trim().is_empty() && !line.starts_with('#'));
+    let mut lines = lines(text);
     let Some((header, line)) = lines.next() else {
         return fault(1, "x_m".to_owned(), "the table is empty".to_owned());
     };
@@ -114,7 +113,14 @@ fn parse(text: &str, file: &Path) -> Result<Vec<TableGrain>, TableError> {
     Ok(grains)
 }
 
-fn entries(line: &str) -> Vec<&str> {
+/// Lines that say something, each with its number from 1.
+pub(super) fn lines(text: &str) -> impl Iterator<Item = (&str, u64)> {
+    let lines = text.trim_start_matches('\u{feff}').lines().zip(1_u64..);
+    lines.filter(|(line, _)| !line.trim().is_empty() && !line.starts_with('#'))
+}
+
+/// What stands between the commas of a line.
+pub(super) fn entries(line: &str) -> Vec<&str> {
     line.split(',').map(|entry| entry.trim().trim_matches('"')).collect()
 }
 

@@ -6,13 +6,14 @@ use std::path::{Path, PathBuf};
 use super::hard::Hard;
 use super::job::{AnySaved, Job};
 use super::soft::Soft;
+use crate::contact::network::{Bond, bonds_between};
 use crate::contact::{Bonds, Friction};
 use crate::engine::hard::Grown;
 use crate::engine::{SimError, Start};
 use crate::folder::RunFolder;
 use crate::packing::{
     ConstantSize, GrainGroup, Groups, PackingError, PlaceWatch, Placed, Placement, Size, StartError, Table,
-    UniformSize, make_ready, place_all,
+    UniformSize, make_ready, pairs, place_all,
 };
 use crate::particles::{Material, Particles};
 use crate::record::checkpoint;
@@ -56,7 +57,8 @@ impl Origin {
         }
         let Placed { grains, counts, primaries } = place_all(scenario, base, watch)?;
         let grown = if scenario.is_hard() { grown(&grains, &primaries, scenario) } else { Vec::new() };
-        Ok(Self { start: Start { grown, ..grains.into() }, counts, earlier: None })
+        let bonds = bonded(scenario, &grains, base)?;
+        Ok(Self { start: Start { grown, bonds, ..grains.into() }, counts, earlier: None })
     }
 
     /// The grains group by group, as they were placed; those of another run are brought into that order.
@@ -71,6 +73,15 @@ impl Origin {
         grains.reorder(&order);
         Cow::Owned(grains)
     }
+}
+
+/// The bonds of the scenario's table, if it names one.
+fn bonded(scenario: &Scenario, grains: &Particles, base: &Path) -> Result<Option<Vec<Bond>>, StartError> {
+    let soft = scenario.soft();
+    let law = soft.and_then(|soft| soft.bonds.as_ref()).and_then(Bonds::lasting);
+    let Some((file, law)) = soft.and_then(|soft| soft.bonded.as_ref()).zip(law) else { return Ok(None) };
+    let pairs = pairs(&base.join(file), grains.len()).map_err(StartError::Bonds)?;
+    Ok(Some(bonds_between(law, grains, &pairs)))
 }
 
 /// What grains of a table keep of their parts; nothing where all are primary grains. They are of their material throughout.

@@ -110,6 +110,10 @@ pub(crate) struct StartTable {
     /// bonds and names. The clock starts at zero.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub from: Option<PathBuf>,
+    /// A CSV table of the grains that are bonded, relative to the scenario's folder: columns `grain_i` and `grain_j`, in which
+    /// grains are 0, 1, ... in the order of their groups. It needs `[bonds.beam]`, which bonds neighbors if this is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bonds: Option<PathBuf>,
     /// Lets the grains come to rest first; soft spheres only. Not if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub relax: Option<Relaxation>,
@@ -123,12 +127,13 @@ impl TryFrom<ScenarioFile> for Scenario {
     /// # Errors
     /// For hard spheres without a control volume or laws of impact.
     fn try_from(file: ScenarioFile) -> Result<Self, &'static str> {
-        let StartTable { from, relax } = file.start;
+        let StartTable { from, bonds: bonded, relax } = file.start;
         let soft = |scheme| {
             Engine::Soft(Box::new(SoftSpheres {
                 scheme,
                 limits: file.limits.unwrap_or_default(),
                 relax,
+                bonded,
                 contact: file.contact,
                 bonds: file.bonds,
                 fields: file.fields.unwrap_or_default(),
@@ -176,7 +181,7 @@ impl From<Scenario> for ScenarioFile {
             materials: scenario.materials,
             mixtures: scenario.mixtures,
             grains: scenario.grains,
-            start: StartTable { from: scenario.from, relax: None },
+            start: StartTable { from: scenario.from, bonds: None, relax: None },
             volume: None,
             impact: None,
             contact: None,
@@ -192,7 +197,7 @@ impl From<Scenario> for ScenarioFile {
                     Scheme::Staggered(scheme) => EngineTable::Staggered(scheme),
                     Scheme::Verlet(scheme) => EngineTable::Verlet(scheme),
                 });
-                file.start.relax = soft.relax;
+                (file.start.relax, file.start.bonds) = (soft.relax, soft.bonded);
                 let (limits, fields) = (Some(soft.limits), Some(soft.fields));
                 Self {
                     limits,

@@ -72,6 +72,8 @@ pub struct SoftSpheres {
     pub limits: Limits,
     /// Lets the grains come to rest before the clock starts; not if left out.
     pub relax: Option<Relaxation>,
+    /// A table of the grains that are bonded, relative to the scenario's folder; neighbors are if left out.
+    pub bonded: Option<PathBuf>,
     /// Laws of contact; grains pass through one another without them.
     pub contact: Option<ContactLaws>,
     /// What holds grains together.

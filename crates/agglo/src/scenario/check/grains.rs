@@ -7,6 +7,7 @@ use super::materials::named;
 use super::{Check, placement};
 use crate::domain::Volume;
 use crate::folder::RunFolder;
+use crate::contact::Bonds;
 use crate::packing::{GrainGroup, GrainList, LengthRatio, Placement, Size, VelocitySpread};
 use crate::record::door;
 use crate::scenario::file::ScenarioFile;
@@ -30,6 +31,7 @@ pub(super) fn check(check: &mut Check, scenario: &ScenarioFile) {
         ),
         _ => {}
     }
+    bonded(check, scenario);
     let mut places = BTreeMap::new();
     for (index, group) in scenario.grains.iter().enumerate() {
         let key = format!("grains.{index}");
@@ -69,8 +71,29 @@ pub(super) fn earlier_run(check: &mut Check, scenario: &ScenarioFile, base: &Pat
     }
 }
 
-/// Tables of grains must be files that can be opened.
+/// A table of bonds is for grains that are placed and for a law that holds them.
+fn bonded(check: &mut Check, scenario: &ScenarioFile) {
+    let key = "start.bonds";
+    if scenario.start.bonds.is_none() || scenario.engine.is_hard() {
+        return;
+    }
+    if scenario.start.from.is_some() {
+        let message = "is given, but start.from takes the bonds of another run".to_owned();
+        check.fail_with(key, message, "remove one of them");
+    } else if scenario.bonds.as_ref().and_then(Bonds::lasting).is_none() {
+        let message = "is given, and there is no [bonds.beam] that says how bonds hold".to_owned();
+        check.fail_with(key, message, "add [bonds.beam], or remove it");
+    }
+}
+
+/// Tables of grains and of bonds must be files that can be opened.
 pub(super) fn tables(check: &mut Check, scenario: &ScenarioFile, base: &Path) {
+    if let Some(file) = &scenario.start.bonds
+        && let Err(error) = door::open(&base.join(file))
+    {
+        let message = format!("cannot open \"{}\": {error}", file.display());
+        check.fail_with("start.bonds", message, "the path is relative to the scenario's folder");
+    }
     for (index, group) in scenario.grains.iter().enumerate() {
         let Placement::Table(table) = &group.placement else { continue };
         if let Err(error) = door::open(&base.join(&table.file)) {

@@ -46,6 +46,7 @@ fn of_hard_spheres(check: &mut Check, scenario: &ScenarioFile) {
         ("bonds", scenario.bonds.is_some()),
         ("acoustics", scenario.acoustics.is_some()),
         ("start.relax", scenario.start.relax.is_some()),
+        ("start.bonds", scenario.start.bonds.is_some()),
         ("limits", scenario.limits.as_ref().is_some_and(|limits| *limits != Limits::default())),
         ("fields.gravity", fields.gravity.is_some()),
         ("fields.drag", fields.drag.is_some()),

@@ -140,7 +140,8 @@ fn with_tables(
     let scenario = tables.adopt_all(problem.base(), base)?;
     for parameter in &mut campaign.parameters {
         let key = parameter.key.as_deref().unwrap_or_default();
-        let (is_table, is_state) = (key.ends_with(".placement.table.file"), key == "start.from");
+        let is_table = key.ends_with(".placement.table.file") || key == "start.bonds";
+        let is_state = key == "start.from";
         let Range::Choices(choices) = &mut parameter.range else { continue };
         for choice in choices.iter_mut().filter(|_| is_table || is_state) {
             if let Scalar::Text(file) = choice {
