@@ -13,7 +13,7 @@ use agglo::engine::soft::Simulation;
 use agglo::run::{self, Ending, Progress};
 use agglo::scenario::Scenario;
 
-/// Twelve grains in a row of two, bonded to their neighbors, that fly apart.
+/// A block of twelve grains, bonded to their neighbors, that fly apart.
 const ROW: &str = r#"
 version = 1
 time.end = "0.5 ms"
@@ -25,7 +25,11 @@ poisson_ratio = 0.2
 [[grains]]
 material = "glass"
 size.constant.radius = "1 mm"
-placement.lattice = { origin = ["0 m", "0 m", "0 m"], spacing = "2 mm", counts = [3, 2, 2] }
+placement.list.positions = [
+    ["0 mm", "0 mm", "0 mm"], ["0 mm", "0 mm", "2 mm"], ["0 mm", "2 mm", "0 mm"], ["0 mm", "2 mm", "2 mm"],
+    ["2 mm", "0 mm", "0 mm"], ["2 mm", "0 mm", "2 mm"], ["2 mm", "2 mm", "0 mm"], ["2 mm", "2 mm", "2 mm"],
+    ["4 mm", "0 mm", "0 mm"], ["4 mm", "0 mm", "2 mm"], ["4 mm", "2 mm", "0 mm"], ["4 mm", "2 mm", "2 mm"],
+]
 velocity_spread.maxwell.deviation = "0.5 m/s"
 [contact.normal.hertz]
 [bonds.beam]
@@ -56,7 +60,9 @@ fn table(scenario: &Scenario) -> Vec<String> {
 }
 
 fn series(dir: &Path) -> String {
-    ["energy", "moments", "clusters"].map(|name| fs::read_to_string(dir.join("series").join(name).with_extension("csv")).unwrap()).concat()
+    ["energy", "moments", "clusters"]
+        .map(|name| fs::read_to_string(dir.join("series").join(name).with_extension("csv")).unwrap())
+        .concat()
 }
 
 #[test]
@@ -68,7 +74,9 @@ fn bonds_of_a_table_are_those_that_the_law_makes() {
     pairs.reverse();
     fs::write(folder.path().join("bonds.csv"), format!("grain_i,grain_j\n{}\n", pairs.join("\n"))).unwrap();
     let [law, own, again] = ["law", "own", "again"].map(|name| folder.path().join(name));
-    let ran = |scenario: &Scenario, base: &Path, dir: &Path| match run::run(scenario, base, dir, &mut on).unwrap() {
+    let ran = |scenario: &Scenario, base: &Path, dir: &Path| match run::run(scenario, base, dir, &mut on)
+        .unwrap()
+    {
         Ending::Finished(_) => series(dir),
         Ending::Interrupted(_) => panic!("nobody asked it to stop"),
     };
@@ -92,7 +100,8 @@ fn only_the_pairs_of_the_table_are_bonded() {
     fs::write(folder.path().join("bonds.csv"), "grain_i,grain_j\n").unwrap();
     assert_empty!(started(&with_table(), folder.path()).system.network.bonds());
     fs::write(folder.path().join("bonds.csv"), "grain_i,grain_j\n0,12\n").unwrap();
-    let error = run::start(&with_table(), folder.path(), &mut || ControlFlow::Continue(())).unwrap_err().to_string();
+    let error =
+        run::start(&with_table(), folder.path(), &mut || ControlFlow::Continue(())).unwrap_err().to_string();
     assert_contains!(&error, "start.bonds: ");
     assert_contains!(&error, "bonds.csv, line 2, column grain_j: `12` is no grain; they are 0 to 11");
 }
@@ -106,7 +115,8 @@ fn a_table_of_bonds_needs_a_law_that_holds_them() {
     let hard = agglo::scenario::template("form").unwrap().text;
     let faults = Scenario::with_overrides(hard, &[table]).unwrap_err().to_string();
     assert_contains!(faults, "start.bonds: belongs to soft spheres");
-    let from = ROW.split("[[grains]]").next().unwrap().to_owned() + "[bonds.beam]\n";
+    let law = ROW.split("[contact.normal.hertz]").nth(1).unwrap();
+    let from = ROW.split("[[grains]]").next().unwrap().to_owned() + law;
     let faults = Scenario::with_overrides(&from, &[table, "start.from=out"]).unwrap_err().to_string();
     assert_contains!(faults, "start.bonds: is given, but start.from takes the bonds of another run");
     let folder = tempfile::tempdir().unwrap();

@@ -28,7 +28,11 @@ fn parse(text: &str, file: &Path, grains: usize) -> Result<Vec<[u32; 2]>, TableE
     };
     let mut lines = lines(text);
     let Some((header, line)) = lines.next() else {
-        return fault(1, COLUMNS[0], "the table is empty; without bonds it has this line alone: grain_i,grain_j".to_owned());
+        return fault(
+            1,
+            COLUMNS[0],
+            "the table is empty; without bonds it has this line alone: grain_i,grain_j".to_owned(),
+        );
     };
     let header = entries(header);
     if header != COLUMNS && header != [COLUMNS[1], COLUMNS[0]] {
@@ -47,7 +51,8 @@ fn parse(text: &str, file: &Path, grains: usize) -> Result<Vec<[u32; 2]>, TableE
             *number = match text.parse() {
                 Ok(number) if (number as usize) < grains => number,
                 _ => {
-                    let reason = format!("`{}` is no grain; they are 0 to {}", cell(text), grains.saturating_sub(1));
+                    let reason =
+                        format!("`{}` is no grain; they are 0 to {}", cell(text), grains.saturating_sub(1));
                     return fault(line, column, reason);
                 }
             };
@@ -57,7 +62,11 @@ fn parse(text: &str, file: &Path, grains: usize) -> Result<Vec<[u32; 2]>, TableE
             return fault(line, header[1], format!("grain {} is bonded to itself", pair[0]));
         }
         if let Some(before) = known.insert(pair, line) {
-            return fault(line, header[1], format!("{} and {} are bonded in line {before} already", pair[0], pair[1]));
+            return fault(
+                line,
+                header[1],
+                format!("{} and {} are bonded in line {before} already", pair[0], pair[1]),
+            );
         }
         pairs.push(pair);
     }

@@ -5,9 +5,9 @@ use std::path::Path;
 
 use super::materials::named;
 use super::{Check, placement};
+use crate::contact::Bonds;
 use crate::domain::Volume;
 use crate::folder::RunFolder;
-use crate::contact::Bonds;
 use crate::packing::{GrainGroup, GrainList, LengthRatio, Placement, Size, VelocitySpread};
 use crate::record::door;
 use crate::scenario::file::ScenarioFile;
