@@ -50,7 +50,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::size_classes::SizeClasses;
-use super::size_totals::SizeTotals;
+use super::size_totals::{SizeTotals, place};
 use crate::engine::validate::{Fault, MOST_COUNTED, ensure, finite, length};
 
 /// Collisions, merges and fragments by classes of primary grains.
@@ -100,12 +100,6 @@ struct Pair {
 struct Daughters {
     fragments: u64,
     primaries: u64,
-}
-
-/// Place of the pair (a, b) in a triangle that grows by rows.
-pub(super) fn place(a: usize, b: usize) -> usize {
-    let (row, column) = if a >= b { (a, b) } else { (b, a) };
-    row * (row + 1) / 2 + column
 }
 
 impl SizeRates {

@@ -1,6 +1,10 @@
 //! What rates by size are worked out from, as numbers that add up over simulations.
 
-use super::size_rates::place;
+/// Place of the pair (a, b) in a triangle that grows by rows.
+pub(super) fn place(a: usize, b: usize) -> usize {
+    let (row, column) = if a >= b { (a, b) } else { (b, a) };
+    row * (row + 1) / 2 + column
+}
 
 /// Counts and integrals of one simulation by classes of sizes, or sums of several.
 ///
