@@ -73,6 +73,23 @@ def test_sizes_of_a_frame_are_those_of_the_series(hard):
     assert len(hard.sizes()["grains"]) > 2
 
 
+def test_classes_of_ones_own_are_those_of_the_scenario(tmp_path):
+    settings = {"grains.0.placement.fill.count": 100, "time.end": "0.1 s", "output.size_classes": [1, 3, 8]}
+    run = agglo.run(agglo.Scenario.template("form", settings), tmp_path / "run")
+    sizes, series = run.sizes(), run.table("sizes")
+    last = series["time_s"] == series["time_s"][-1]
+    assert sizes["lower_primaries"].tolist() == series["lower_primaries"][last].tolist() == [1, 3, 8]
+    assert sizes["upper_primaries"][:2].tolist() == [2.0, 7.0] and np.isnan(sizes["upper_primaries"][2])
+    assert np.array_equal(sizes["upper_primaries"], series["upper_primaries"][last], equal_nan=True)
+    assert sizes["grains"].tolist() == series["grains"][last].tolist() and sizes["grains"].sum() == run.summary["grains_end"]
+    kernels = run.kernels()["kernels"]
+    assert kernels["merges"].sum() == run.summary["merges"] and set(kernels["a_lower_primaries"]) == {1, 3, 8}
+    pytest.importorskip("matplotlib")
+    labels = [label.get_text() for axes in run.plot().axes for label in axes.get_yticklabels()]
+    assert {"1–2", "3–7", "8 and more"} <= set(labels)
+    assert "8 and more" in run.report().read_text(encoding="utf-8")
+
+
 def test_sizes_of_soft_spheres_are_those_of_their_clusters(soft):
     sizes, clusters = soft.sizes(0), soft.table("clusters")
     assert sizes["grains"].sum() == clusters["clusters"][0]

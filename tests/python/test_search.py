@@ -288,6 +288,27 @@ def test_a_search_goes_on_with_the_function_that_it_began_with(tmp_path):
         agglo.resume(tmp_path / "runs", function=bowl)
 
 
+def test_a_study_has_kernels_with_their_errors(tmp_path):
+    """All merges of all replicates; as long as few have merged, single grains meet as those of a gas in equilibrium do."""
+    settings = ["output.size_classes=[1, 2, 3]", "time.end=10 ms"]
+    study = agglo.Campaign.template("study-kernels", {"settings": settings, "ensemble.until": {"fixed": {"replicates": 12}}})
+    found = agglo.search(study, tmp_path / "study")
+    kernels, ended = found.kernels()["kernels"], found.table("runs")
+    start = np.where(ended["evaluation"] == 0, 200, 400)
+    assert len(start) == 24 and kernels["merges"].sum() == start.sum() - ended["grains_end"].sum()
+    singles = (kernels["a_lower_primaries"] == 1) & (kernels["count"] == 400)
+    # 4 √π s <(r_i + r_j)²> with the deviation s of all velocities, for lognormal radii; four errors are about 12 %.
+    radius, spread = 10e-6, np.log(1.2)
+    sums_squared = 2 * radius**2 * (np.exp(2 * spread**2) + np.exp(spread**2))
+    due = 4 * np.sqrt(np.pi) * 1e-2 * sums_squared
+    kernel = kernels["aggregation_kernel_m3_s"][singles][0]
+    error = kernels["aggregation_kernel_standard_error_m3_s"][singles][0]
+    assert 0.0 < error < 0.1 * kernel and abs(kernel - due) < 4 * error, (kernel, error, due)
+    without = study.replace({"kernels": False, "ensemble.until": {"fixed": {"replicates": 1}}})
+    with pytest.raises(agglo.InputError, match="there is no table 'kernels'"):
+        agglo.search(without, tmp_path / "none").kernels()
+
+
 def interrupted(progress):
     raise KeyboardInterrupt
 

@@ -214,6 +214,13 @@ def _lines(figure: Any, axes: Any, chart: Chart, table: Table) -> None:
             axes.legend(fontsize=8, handlelength=2.6)
 
 
+def _class(low: float, high: float) -> str:
+    """The primaries of a class in words; one without an end has no last number."""
+    if np.isnan(high):
+        return f"{low:g} and more"
+    return f"{low:g}" if low == high else f"{low:g}–{high:g}"
+
+
 def _sizes(figure: Any, axes: Any, chart: Chart, table: Table) -> None:
     """How much of the mass is in each class, over time."""
     times, column = np.unique(table["time_s"], return_inverse=True)
@@ -226,7 +233,5 @@ def _sizes(figure: Any, axes: Any, chart: Chart, table: Table) -> None:
         axes.grid(False)
         mesh = axes.pcolormesh(shown, np.arange(len(lower)), parts, shading="nearest", vmin=0.0, rasterized=True)
         figure.colorbar(mesh, ax=axes, label="part of the mass")
-        axes.set_yticks(
-            range(len(lower)), [f"{low:g}" if low == upper[low] else f"{low:g}–{upper[low]:g}" for low in lower]
-        )
+        axes.set_yticks(range(len(lower)), [_class(low, upper[low]) for low in lower])
         axes.set(title=chart.title, xlabel=f"time ({unit})", ylabel=chart.label)

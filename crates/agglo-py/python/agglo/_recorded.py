@@ -53,6 +53,17 @@ class Recorded:
         """
         return table_of(self.folder, name)
 
+    def kernels(self) -> dict[str, Table]:
+        """How often hard spheres collide, merge and break, by classes of size, once a run or study has come to its end.
+
+        "kernels" has collisions and merges of pairs of classes [m3/s], "breakage" the rates of breaking [1/s], "daughters"
+        what they broke into; of a study with `kernels = true` over all replicates of each candidate, with standard errors.
+
+        Raises:
+            InputError: There are none: of soft spheres, of another search or study, or before the end.
+        """
+        return {name: self.table(name) for name in ("kernels", "breakage", "daughters")}
+
     def report(self) -> Path:
         """Writes report.html, and gives its path."""
         return report(self.folder)

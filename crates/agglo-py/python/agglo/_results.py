@@ -67,17 +67,6 @@ class Run(Recorded):
         """
         return self.table("events")
 
-    def kernels(self) -> dict[str, Table]:
-        """How often hard spheres collide, merge and break, by classes of size, once the run has come to its end.
-
-        "kernels" has collisions and merges of pairs of classes [m3/s], "breakage" the rates of breaking [1/s], "daughters"
-        what they broke into.
-
-        Raises:
-            InputError: The run is of soft spheres, or has not come to its end.
-        """
-        return {name: self.table(name) for name in ("kernels", "breakage", "daughters")}
-
     def genealogy(self) -> Graph:
         """Who became part of whom in a run of hard spheres, as a DiGraph of networkx from parents to children.
 
@@ -94,12 +83,14 @@ class Run(Recorded):
     def sizes(self, frame: int = -1) -> Table:
         """How many grains of a frame are in each class of size, and their part of the mass.
 
-        Classes are 1, 2 to 3, 4 to 7, ... primaries. Of soft spheres clusters are counted, by the grains in them.
+        Classes are 1, 2 to 3, 4 to 7, ... primaries, or those of the scenario's `output.size_classes`, of which the last has no
+        end. Of soft spheres clusters are counted, by the grains in them.
 
         Raises:
             InputError: There is no such frame.
         """
-        return sizes(self.grains(frame)[1])
+        classes = self.scenario.to_dict().get("output", {}).get("size_classes")
+        return sizes(self.grains(frame)[1], classes)
 
     def pyvista(self, frame: int = -1, kind: str = "grains") -> Any:
         """The "grains", "bonds" or "rays" of a frame as a mesh of PyVista: points, but lines for bonds.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -68,8 +68,8 @@ def to_ase(grains: Columns, length_unit_m: float = 1.0, time_s: float | None = N
     return atoms
 
 
-def sizes(grains: Columns) -> Table:
-    """How large they are, by classes 1, 2 to 3, 4 to 7, ... of primaries; classes without any are left out.
+def sizes(grains: Columns, lower: Sequence[int] | None = None) -> Table:
+    """How large they are, by classes of primaries that begin at `lower`, or 1, 2, 4, ...; classes without any are left out.
 
     Hard spheres are made of primaries; of soft ones a cluster is what is counted, and its grains are its primaries.
     """
@@ -78,13 +78,15 @@ def sizes(grains: Columns) -> Table:
     else:
         primaries = np.bincount(grains["cluster"].astype(np.int64))
         masses = np.bincount(grains["cluster"].astype(np.int64), weights=grains["mass_kg"])
-    # frexp is exact: 2^(e-1) <= n < 2^e.
-    classes = np.frexp(primaries)[1] - 1
+    # Numbers of primaries have 32 binary digits.
+    bounds = 2 ** np.arange(33) if lower is None else np.append(np.asarray(lower, dtype=np.float64), np.nan)
+    begins, ends = bounds[:-1], bounds[1:] - 1
+    classes = np.searchsorted(begins, primaries, side="right") - 1
     found = np.unique(classes)
     mass = np.array([masses[classes == one].sum() for one in found])
     return Table(
-        lower_primaries=2 ** found.astype(np.int64),
-        upper_primaries=2 ** (found.astype(np.int64) + 1) - 1,
+        lower_primaries=begins[found].astype(np.int64),
+        upper_primaries=ends[found],
         grains=np.array([np.count_nonzero(classes == one) for one in found]),
         mass_kg=mass,
         mass_fraction=mass / masses.sum(),

@@ -52,6 +52,17 @@ fn is_published(folder: &Folder) -> bool {
     impact.is_some_and(|impact| impact.heat.balance == Balance::Published)
 }
 
+/// The primaries of a class in words; one without an end has no last number.
+fn class_name(lower: f64, upper: f64) -> String {
+    if upper.is_nan() {
+        format!("{lower} and more")
+    } else if upper > lower {
+        format!("{lower}–{upper}")
+    } else {
+        lower.to_string()
+    }
+}
+
 /// Classes of size over time: how much of the mass is in each.
 fn sizes(table: &Table) -> Option<Chart> {
     let [time, lower, upper, part] =
@@ -65,11 +76,7 @@ fn sizes(table: &Table) -> Option<Chart> {
     let mut names = vec![String::new(); classes.len()];
     for row in 0..time.len() {
         let class = place(&classes, lower[row])?;
-        names[class] = if upper[row] > lower[row] {
-            format!("{}–{}", lower[row], upper[row])
-        } else {
-            lower[row].to_string()
-        };
+        names[class] = class_name(lower[row], upper[row]);
         if let Some(column) = place(&x, time[row]) {
             z[class][column] = part[row];
         }
@@ -109,14 +116,19 @@ mod tests {
     #[test]
     fn classes_that_are_not_there_at_a_time_hold_nothing() {
         let names = ["time_s", "lower_primaries", "upper_primaries", "mass_fraction"].map(str::to_owned);
-        let columns =
-            vec![vec![0.0, 1.0, 1.0], vec![1.0, 1.0, 2.0], vec![1.0, 1.0, 3.0], vec![1.0, 0.25, 0.75]];
+        let columns = vec![
+            vec![0.0, 1.0, 1.0, 1.0],
+            vec![1.0, 1.0, 2.0, 4.0],
+            vec![1.0, 1.0, 3.0, f64::NAN],
+            vec![1.0, 0.25, 0.5, 0.25],
+        ];
         let chart = sizes(&Table { names: names.to_vec(), columns, dropped: 0 }).unwrap();
         let Drawn::Heatmap(map) = &chart.drawn else { panic!("a map is due") };
-        assert_eq!(map.y.labels, ["1", "2–3"]);
-        assert_eq!((&map.columns, &map.rows), (&vec![0.0, 1.0], &vec![0.0, 1.0]), "times and classes");
-        assert_eq!(map.values, [[1.0, 0.25], [0.0, 0.75]]);
-        assert_eq!(chart.words[1], "2–3 primaries: 75.0 % of the mass at last");
+        assert_eq!(map.y.labels, ["1", "2–3", "4 and more"]);
+        assert_eq!((&map.columns, &map.rows), (&vec![0.0, 1.0], &vec![0.0, 1.0, 2.0]), "times and classes");
+        assert_eq!(map.values, [[1.0, 0.25], [0.0, 0.5], [0.0, 0.25]]);
+        assert_eq!(chart.words[1], "2–3 primaries: 50.0 % of the mass at last");
+        assert_eq!(chart.words[2], "4 and more primaries: 25.0 % of the mass at last");
     }
 }
 
