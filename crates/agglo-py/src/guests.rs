@@ -10,7 +10,7 @@ use pyo3::types::PyDict;
 
 use crate::arrays;
 use crate::error::InputError;
-use crate::hook::{Callback, Fallen, pace_of};
+use crate::hook::{Callback, Fallen};
 use crate::work::{interruptible, interruptible_apart};
 
 /// Functions of Python that take part in a run, as they are handed over.
@@ -18,7 +18,6 @@ use crate::work::{interruptible, interruptible_apart};
 #[pyo3(from_item_all)]
 pub(crate) struct Functions {
     force: Option<Py<PyAny>>,
-    force_name: Option<String>,
     stiffness_over_mass: Option<f64>,
     damping_over_mass: Option<f64>,
     measures: Vec<(String, Py<PyAny>)>,
@@ -36,9 +35,10 @@ impl Functions {
                 return Err(PyTypeError::new_err(format!("{name} must be callable")));
             }
         }
-        let pace = pace_of(self.stiffness_over_mass, self.damping_over_mass)?;
-        let name = self.force_name.unwrap_or_default();
-        let force = self.force.map(|function| Callback::new(function, &name, pace, fallen.clone()));
+        let (stiffness, damping) = (self.stiffness_over_mass, self.damping_over_mass);
+        let force =
+            self.force.map(|function| Callback::new(function.bind(py), stiffness, damping, fallen.clone()));
+        let force = force.transpose()?;
         let looks = !self.measures.is_empty() || self.stop.is_some();
         let looker = Looker { measures: self.measures, stop: self.stop, fallen: fallen.clone() };
         Ok(Invited { force, looker: looks.then_some(looker) })

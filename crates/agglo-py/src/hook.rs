@@ -52,10 +52,7 @@ impl Fallen {
 }
 
 /// ω² [1/s²] and Γ [1/s] of a force, if one of them is given.
-pub(crate) fn pace_of(
-    stiffness_over_mass: Option<f64>,
-    damping_over_mass: Option<f64>,
-) -> PyResult<Option<(f64, f64)>> {
+fn pace_of(stiffness_over_mass: Option<f64>, damping_over_mass: Option<f64>) -> PyResult<Option<(f64, f64)>> {
     let pace = match (stiffness_over_mass, damping_over_mass) {
         (None, None) => None,
         (square, rate) => Some((square.unwrap_or(0.0), rate.unwrap_or(0.0))),
@@ -98,8 +95,18 @@ impl Places {
 }
 
 impl Callback {
-    pub(crate) fn new(function: Py<PyAny>, name: &str, pace: Option<(f64, f64)>, fallen: Fallen) -> Self {
-        Self { function, name: format!("the function {name}"), pace, fallen, places: Mutex::default() }
+    /// ω² [1/s²] and Γ [1/s] of the force are known if one of them is given.
+    pub(crate) fn new(
+        function: &Bound<'_, PyAny>,
+        stiffness_over_mass: Option<f64>,
+        damping_over_mass: Option<f64>,
+        fallen: Fallen,
+    ) -> PyResult<Self> {
+        let pace = pace_of(stiffness_over_mass, damping_over_mass)?;
+        let name: String =
+            function.py().import("agglo._guests")?.getattr("name_of")?.call1((function,))?.extract()?;
+        let (function, name) = (function.clone().unbind(), format!("the function {name}"));
+        Ok(Self { function, name, pace, fallen, places: Mutex::default() })
     }
 
     fn ask(&self, py: Python<'_>, now: &Scene<'_>, loads: &mut LoadViews<'_>) -> PyResult<()> {

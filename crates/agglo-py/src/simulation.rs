@@ -15,7 +15,7 @@ use pyo3::types::{PyBytes, PyDict, PyList};
 
 use crate::arrays;
 use crate::error::{InputError, raised};
-use crate::hook::{Callback, Fallen, pace_of, refuse_within_a_force};
+use crate::hook::{Callback, Fallen, refuse_within_a_force};
 use crate::scenario::Scenario;
 use crate::work::{Signals, here, interruptible};
 
@@ -309,9 +309,7 @@ impl Simulation {
         if !force.is_callable() {
             return Err(PyTypeError::new_err("the force must be callable"));
         }
-        let pace = pace_of(stiffness_over_mass, damping_over_mass)?;
-        let name: String = py.import("agglo._guests")?.getattr("name_of")?.call1((&force,))?.extract()?;
-        let callback = Callback::new(force.unbind(), &name, pace, self.fallen.clone());
+        let callback = Callback::new(&force, stiffness_over_mass, damping_over_mass, self.fallen.clone())?;
         let mut held = self.lock(py)?;
         let Kind::Soft(simulation) = &mut *held else { return Err(for_soft("attach")) };
         // It is asked at once, and takes the interpreter's lock itself.

@@ -49,7 +49,6 @@ def functions_of(
     function = force.function if isinstance(force, Force) else force
     return {
         "force": function,
-        "force_name": None if function is None else name_of(function),
         "stiffness_over_mass": None if given is None else given.stiffness_over_mass,
         "damping_over_mass": None if given is None else given.damping_over_mass,
         "measures": list((measures or {}).items()),
