@@ -7,8 +7,8 @@
 //! ```
 //!
 //! # Source
-//! W. G. Cochran, *Sampling Techniques* (3rd ed., 1977), section 6.3, equations 6.9 and 6.13 without the correction for finite
-//! populations: the ratio estimate and its standard error.
+//! W. G. Cochran, *Sampling Techniques* (3rd ed., 1977), chapter 6: the ratio estimate and its standard error, without the
+//! correction for finite populations.
 //!
 //! # Symbols
 //! | symbol | name in code | unit          | meaning                                      |
