@@ -103,7 +103,7 @@ fn only_the_pairs_of_the_table_are_bonded() {
     let error =
         run::start(&with_table(), folder.path(), &mut || ControlFlow::Continue(())).unwrap_err().to_string();
     assert_contains!(&error, "start.bonds: ");
-    assert_contains!(&error, "bonds.csv, line 2, column grain_j: `12` is no grain; they are 0 to 11");
+    assert_contains!(&error, "bonds.csv, line 2, column grain_j: there is no grain `12`");
 }
 
 #[test]
@@ -123,4 +123,51 @@ fn a_table_of_bonds_needs_a_law_that_holds_them() {
     fs::write(folder.path().join("row.toml"), format!("{ROW}[start]\nbonds = \"bonds.csv\"\n")).unwrap();
     let error = Scenario::load(&folder.path().join("row.toml")).unwrap_err().to_string();
     assert_contains!(error, "start.bonds: cannot open \"bonds.csv\"");
+}
+
+/// Grains of a table with ids of its own, out of their order: they, their bonds and their rest before the start are those of grains
+/// that are numbered as they come.
+#[test]
+fn ids_of_a_table_are_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let plain = started(&Scenario::from_toml(ROW).unwrap(), Path::new(""));
+    let grains = &plain.system.grains;
+    let name = |id: u32| 1000 - 7 * id;
+    let row = |at: usize| {
+        let (r, v) = (grains.position[at], grains.velocity[at]);
+        format!("{},{},{},{},{},{},{}\n", name(grains.id[at]), r.x, r.y, r.z, v.x, v.y, v.z)
+    };
+    let rows: String = (0..grains.len()).map(row).collect();
+    fs::write(folder.path().join("grains.csv"), format!("id,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s\n{rows}"))
+        .unwrap();
+    let bonds = plain.system.network.bonds();
+    let pairs: String =
+        bonds.iter().map(|bond| format!("{},{}\n", name(bond.ids[0]), name(bond.ids[1]))).collect();
+    fs::write(folder.path().join("bonds.csv"), format!("grain_i,grain_j\n{pairs}")).unwrap();
+    let listed = ROW.find("placement.list").unwrap()..ROW.find("velocity_spread").unwrap();
+    let spread = ROW.find("velocity_spread").unwrap()..ROW.find("[contact").unwrap();
+    let text = ROW.replace(&ROW[spread], "").replace(&ROW[listed], "placement.table.file = \"grains.csv\"\n");
+    let relax = "start.relax={ speed = \"1 mm/s\", longest = \"10 ms\", damping_time = \"0.1 ms\" }";
+    for more in [&["start.bonds=bonds.csv"][..], &["start.bonds=bonds.csv", relax]] {
+        let scenario = Scenario::with_overrides(&text, more).unwrap_or_else(|error| panic!("{error}"));
+        let own = started(&scenario, folder.path());
+        for at in 0..grains.len() {
+            let place = own.system.grains.id.iter().position(|id| *id == name(grains.id[at])).unwrap();
+            assert_eq!(own.system.grains.velocity[place], grains.velocity[at], "grain {at} with {more:?}");
+        }
+        assert_eq!(own.system.network.made_at_start(), bonds.len());
+        assert_all!(own.system.network.bonds().iter(), |bond| bond.ids[0] < bond.ids[1]
+            && bond.ids[0] >= name(11));
+    }
+    fs::write(folder.path().join("grains.csv"), "id,x_m,y_m,z_m\n4,0,0,0\n4,1,0,0\n").unwrap();
+    let scenario = Scenario::from_toml(&text).unwrap();
+    let error =
+        run::start(&scenario, folder.path(), &mut || ControlFlow::Continue(())).unwrap_err().to_string();
+    assert_contains!(error, "two grains have the id 4; each has its own");
+    let another = "[[grains]]\nmaterial = \"glass\"\nsize.constant.radius = \"1 mm\"\n\
+                   placement.list.positions = [[\"9 m\", \"0 m\", \"0 m\"]]\n[contact";
+    let scenario = Scenario::from_toml(&text.replace("[contact", another)).unwrap();
+    let error =
+        run::start(&scenario, folder.path(), &mut || ControlFlow::Continue(())).unwrap_err().to_string();
+    assert_contains!(error, "either all grains have ids of a table's column `id`, or none");
 }

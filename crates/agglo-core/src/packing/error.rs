@@ -48,6 +48,12 @@ pub enum PackingError {
         /// Radius of the largest sphere in the region [m].
         room: f64,
     },
+    /// Two grains have one id.
+    #[error("two grains have the id {id}; each has its own in the column `id` of all tables")]
+    SameId {
+        /// The id.
+        id: u32,
+    },
     /// A value in the scenario that cannot be.
     #[error("grains[{group}].{key}: {reason}")]
     Value {

@@ -11,11 +11,11 @@ use super::{GrainGroup, GrainList, Groups, Placement, SphereKind, TableGrain, la
 use crate::domain::{Boundary, Volume, resolution};
 use crate::math::Vec3;
 use crate::math::rng::{Purpose, Stream};
-use crate::particles::{Material, Particles, Row};
+use crate::particles::{Material, Particles, Places, Row};
 use crate::units::vector;
 
 /// Places all groups in their order; grains get the ids 0, 1, 2 ... in the order in which they are
-/// placed, and a material's number is its index in the map of materials. Random grains keep clear of the grains of
+/// placed, or those of their tables, and a material's number is its index in the map of materials. Random grains keep clear of the grains of
 /// earlier groups; lattices, tables and lists are taken as they are. `read` gives the rows of a table.
 ///
 /// Hard spheres that overlap, or that lie outside a control volume with faces, are refused.
@@ -59,7 +59,7 @@ pub fn place_all<'a>(
     watch: &mut PlaceWatch<'_>,
 ) -> Result<Placed, PackingError> {
     let asked = &groups.into();
-    let mut placed = Placed::default();
+    let (mut placed, mut all_have_ids) = (Placed::default(), None);
     for (group, request) in asked.groups.iter().enumerate() {
         if watch().is_break() {
             return Err(PackingError::Stopped);
@@ -79,13 +79,23 @@ pub fn place_all<'a>(
                           `agglo hand-over` takes them apart";
             return Err(PackingError::Value { group, key: "placement.table", reason: reason.to_owned() });
         }
+        let has_ids = spots.iter().any(|spot| spot.id.is_some());
+        if *all_have_ids.get_or_insert(has_ids) != has_ids {
+            let reason = "either all grains have ids of a table's column `id`, or none";
+            return Err(PackingError::Value { group, key: "placement", reason: reason.to_owned() });
+        }
         scatter(request, asked.seed, group, &mut spots);
         placed.counts.push(spots.len() as u64);
         for spot in spots {
             let row = grain(request, properties, spot);
             placed.primaries.push(spot.primaries);
-            placed.grains.push(Row { id: placed.grains.len() as u32, material: material as u32, ..row });
+            // Either all have ids of their own, or none.
+            let id = spot.id.unwrap_or(placed.grains.len() as u32);
+            placed.grains.push(Row { id, material: material as u32, ..row });
         }
+    }
+    if let Some(id) = Places::of(&placed.grains.id).twice() {
+        return Err(PackingError::SameId { id });
     }
     make_ready(asked, &mut placed.grains, false)?;
     Ok(placed)
@@ -119,6 +129,8 @@ struct Spot {
     angular_velocity: Vec3,
     temperature: f64,
     primaries: u32,
+    /// The id that a table gives it.
+    id: Option<u32>,
 }
 
 /// A group with what it takes to place it.
@@ -148,6 +160,7 @@ impl Group<'_> {
             angular_velocity,
             temperature,
             primaries: 1,
+            id: None,
         };
         let mut stream = Stream::new(seed, Purpose::Size, group as u32);
         let mut sized = |position| spot((position, request.size.sample(&mut stream)));
@@ -172,6 +185,7 @@ impl Group<'_> {
                         angular_velocity: row.angular_velocity.unwrap_or(angular_velocity),
                         temperature: row.temperature.unwrap_or(temperature),
                         primaries: row.primaries.unwrap_or(1),
+                        id: row.id,
                     }
                 };
                 Ok(rows.into_iter().map(spot).collect())

@@ -112,6 +112,8 @@ pub struct GrainList {
 /// A row of a table: what it does not say is `None`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TableGrain {
+    /// Its id.
+    pub id: Option<u32>,
     /// Center [m].
     pub position: Vec3,
     /// Radius [m].

@@ -61,8 +61,7 @@ def start(
     """A start from grains that are there already, in place of a scenario's own; without one, the entries of `[[grains]]`.
 
     Grains are written as tables `grains-0.csv` ..., one for each material, into the folder, which the scenario names from
-    then on (a run copies them). Their ids are new: 0, 1, ... in the given order, or in that of a column `id`, material by
-    material.
+    then on (a run copies them). Their ids are those of a column `id`, or 0, 1, ... in the given order.
 
     Args:
         grains: Columns by their names, as `Simulation.grains()` and `Run.grains()` give them: `position_m` [n, 3] and
@@ -87,9 +86,8 @@ def start(
     if bonds is not None and scenario is None:
         raise InputError("bonds: a scenario is wanted that says how they hold, in [bonds.beam]")
     columns = _columns(grains, length_unit_m)
-    ids = columns.pop("id")
     names = _materials(columns, scenario, material)
-    pairs = None if bonds is None else _renamed(bonds, ids, names)
+    pairs = None if bonds is None else _pairs(bonds, columns["id"])
     place = Path(folder).absolute()
     place.mkdir(parents=True, exist_ok=True)
     known = scenario.to_dict() if scenario is not None else {}
@@ -113,25 +111,17 @@ def start(
     return Scenario.from_dict({**known, "start": begin, "grains": entries}, base=scenario.base)
 
 
-def _renamed(
-    bonds: npt.ArrayLike, ids: npt.NDArray[np.int64], names: npt.NDArray[np.str_]
-) -> npt.NDArray[np.int64]:
-    """Bonds by the new ids of their grains: those of a material follow one another."""
+def _pairs(bonds: npt.ArrayLike, ids: npt.NDArray[np.int64]) -> npt.NDArray[np.int64]:
+    """Bonds as whole numbers [n, 2] that are ids of grains."""
     pairs = np.asarray(bonds)
     if pairs.size == 0:
         return np.empty((0, 2), dtype=np.int64)
     if pairs.ndim != 2 or pairs.shape[1] != 2 or pairs.dtype.kind not in "iu":
         raise InputError(f"bonds: found {pairs.dtype} of the shape {pairs.shape}; whole numbers [n, 2] are wanted")
-    # Names as they come first have numbers, by which grains are sorted and stay in their order besides.
-    numbers = {name: number for number, name in enumerate(dict.fromkeys(names.tolist()))}
-    order = np.argsort([numbers[name] for name in names.tolist()], kind="stable")
-    new = np.empty(len(ids), dtype=np.int64)
-    new[order] = np.arange(len(ids))
-    places = np.minimum(np.searchsorted(ids, pairs), len(ids) - 1)
-    strange = pairs[ids[places] != pairs]
+    strange = pairs[~np.isin(pairs, ids)]
     if len(strange):
         raise InputError(f"bonds: there is no grain {strange[0]}")
-    return np.asarray(new[places])
+    return pairs
 
 
 def _columns(grains: Any, length_unit_m: float | None) -> Columns:
@@ -159,7 +149,10 @@ def _columns(grains: Any, length_unit_m: float | None) -> Columns:
     for name in ("material", "id"):
         if name in columns and columns[name].shape != (count,):
             raise InputError(f"{name}: found the shape {columns[name].shape}; ({count},) is wanted")
-    columns.setdefault("id", np.arange(count))
+    ids = columns.setdefault("id", np.arange(count))
+    if ids.dtype.kind not in "iuf" or np.any(ids != np.floor(ids)) or ids.min() < 0:
+        raise InputError("id: whole numbers from 0 on are wanted")
+    columns["id"] = ids.astype(np.int64)
     order = np.argsort(columns["id"], kind="stable")
     columns = {name: values[order] for name, values in columns.items()}
     if len(np.unique(columns["id"])) < count:
@@ -208,7 +201,8 @@ def _materials(columns: Columns, scenario: Scenario | None, material: str | None
 
 
 def _write(columns: Columns, file: Path) -> None:
-    parts = [(f"{axis}_m", columns["position_m"][:, at]) for at, axis in enumerate("xyz")]
+    parts = [("id", columns["id"])]
+    parts += [(f"{axis}_m", columns["position_m"][:, at]) for at, axis in enumerate("xyz")]
     parts.append(("radius_m", columns["radius_m"]))
     for column, letter, unit in [("velocity_m_s", "v", "m_s"), ("angular_velocity_rad_s", "w", "rad_s")]:
         if column in columns:

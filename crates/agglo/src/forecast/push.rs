@@ -54,15 +54,13 @@ pub(super) struct Push {
 pub(super) fn all(scenario: &Scenario, grains: &Particles) -> Vec<Push> {
     let Some(acoustics) = scenario.acoustics() else { return Vec::new() };
     let Ok(settings) = Settings::try_from(scenario) else { return Vec::new() };
-    // Each beam meets the same grains, which no pulse moves.
-    let mut still = grains.clone();
     let of = |(beam, number): (&Beam, usize)| {
         let area = PI * beam.radius.si().powi(2);
         let impedance = scenario.medium.density.si() * scenario.medium.sound_speed.si();
         let (power, pressure) = power_and_pressure(beam.strength, area, impedance);
         let began = Instant::now();
-        let (pulse, back) = FirstPulse::of(&settings, std::mem::take(&mut still), number, MOST_RAYS);
-        still = back;
+        // Each beam meets the same grains, which no pulse moves.
+        let pulse = FirstPulse::of(&settings, grains, number, MOST_RAYS);
         let pulses = f64::from(counts::pulses_before(beam, scenario.time.end.si()));
         let wall_s = began.elapsed().as_secs_f64();
         let period = beam.pulses.period.map_or(0.0, Quantity::si);

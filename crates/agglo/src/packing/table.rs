@@ -1,7 +1,7 @@
 //! Grains from a CSV table.
 //!
 //! The first line names the columns: `x_m`, `y_m`, `z_m`, and optionally `radius_m`, `temperature_K`, the three `vx_m_s`,
-//! `vy_m_s`, `vz_m_s`, the three `wx_rad_s`, `wy_rad_s`, `wz_rad_s`, and `primaries`, in any order. A column `cluster` is for
+//! `vy_m_s`, `vz_m_s`, the three `wx_rad_s`, `wy_rad_s`, `wz_rad_s`, `primaries` and `id`, in any order. A column `cluster` is for
 //! whoever reads the table: it must have whole numbers, and is not taken. Lines that begin with `#` are passed over.
 
 use std::ops::Range;
@@ -15,7 +15,7 @@ use crate::record::door;
 use crate::text::cell;
 use crate::units::{Dimension, Frequency, Length, Temperature, Velocity, kind_of};
 
-const COLUMNS: [&str; 13] = [
+const COLUMNS: [&str; 14] = [
     "x_m",
     "y_m",
     "z_m",
@@ -29,6 +29,7 @@ const COLUMNS: [&str; 13] = [
     "temperature_K",
     "primaries",
     "cluster",
+    "id",
 ];
 /// What the columns with quantities are, each with the range of its kind.
 const DIMENSIONS: [Dimension; PRIMARIES] = {
@@ -48,6 +49,7 @@ const ANGULAR_VELOCITY: Range<usize> = 7..10;
 const TEMPERATURE: usize = 10;
 const PRIMARIES: usize = 11;
 const CLUSTER: usize = 12;
+const ID: usize = 13;
 /// The largest count or number of a table.
 const MOST_COUNTED: u32 = 1_000_000_000;
 
@@ -184,6 +186,7 @@ impl Entries<'_> {
             angular_velocity: vector(ANGULAR_VELOCITY.start)?,
             temperature: above_zero(TEMPERATURE, "a temperature")?,
             primaries: self.count(PRIMARIES, 1)?,
+            id: self.count(ID, 0)?,
         })
     }
 
@@ -245,10 +248,10 @@ mod tests {
         let hot = parse_text("temperature_K,x_m,y_m,z_m\n1234.5,0,0,0\n").unwrap();
         assert_eq!((hot[0].temperature, hot[0].velocity), (Some(1234.5), None));
         let grown =
-            parse_text("x_m,y_m,z_m,wx_rad_s,wy_rad_s,wz_rad_s,primaries,cluster\n0,0,0,7,8,9,12,3\n")
+            parse_text("x_m,y_m,z_m,wx_rad_s,wy_rad_s,wz_rad_s,primaries,cluster,id\n0,0,0,7,8,9,12,3,41\n")
                 .unwrap();
-        let wanted = (Some(Vec3::new(7.0, 8.0, 9.0)), Some(12));
-        assert_eq!((grown[0].angular_velocity, grown[0].primaries), wanted);
+        let wanted = (Some(Vec3::new(7.0, 8.0, 9.0)), Some(12), Some(41));
+        assert_eq!((grown[0].angular_velocity, grown[0].primaries, grown[0].id), wanted);
     }
 
     #[test]

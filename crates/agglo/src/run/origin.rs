@@ -15,7 +15,7 @@ use crate::packing::{
     ConstantSize, GrainGroup, Groups, PackingError, PlaceWatch, Placed, Placement, Size, StartError, Table,
     UniformSize, make_ready, pairs, place_all,
 };
-use crate::particles::{Material, Particles};
+use crate::particles::{Material, Particles, Places};
 use crate::record::checkpoint;
 use crate::scenario::Scenario;
 use crate::text::readable;
@@ -80,7 +80,7 @@ fn bonded(scenario: &Scenario, grains: &Particles, base: &Path) -> Result<Option
     let soft = scenario.soft();
     let law = soft.and_then(|soft| soft.bonds.as_ref()).and_then(Bonds::lasting);
     let Some((file, law)) = soft.and_then(|soft| soft.bonded.as_ref()).zip(law) else { return Ok(None) };
-    let pairs = pairs(&base.join(file), grains.len()).map_err(StartError::Bonds)?;
+    let pairs = pairs(&base.join(file), &Places::of(&grains.id)).map_err(StartError::Bonds)?;
     Ok(Some(bonds_between(law, grains, &pairs)))
 }
 

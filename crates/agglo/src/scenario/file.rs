@@ -110,8 +110,8 @@ pub(crate) struct StartTable {
     /// bonds and names. The clock starts at zero.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub from: Option<PathBuf>,
-    /// A CSV table of the grains that are bonded, relative to the scenario's folder: columns `grain_i` and `grain_j`, in which
-    /// grains are 0, 1, ... in the order of their groups. It needs `[bonds.beam]`, which bonds neighbors if this is left out.
+    /// A CSV table of the grains that are bonded, relative to the scenario's folder: columns `grain_i` and `grain_j` with their
+    /// ids, which are 0, 1, ... in the order of the groups if no table of grains says otherwise. It needs `[bonds.beam]`, which bonds neighbors if this is left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bonds: Option<PathBuf>,
     /// Lets the grains come to rest first; soft spheres only. Not if left out.

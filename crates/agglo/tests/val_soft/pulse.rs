@@ -196,7 +196,7 @@ fn a_traced_pulse_kicks_as_one_that_flies() {
         impulse[hit.grain as usize] += *load;
     }
     let mass = grains.mass.clone();
-    let (flown, _) = FirstPulse::of(&settings, grains.clone(), 0, u32::MAX);
+    let flown = FirstPulse::of(&settings, &grains, 0, u32::MAX);
     assert_eq!(traced.count.reflections, flown.count.reflections);
     for ((impulse, mass), kick) in impulse.iter().zip(mass).zip(&flown.kicks) {
         // Sums of some hundred hits in another order.

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use crate::engine::{SimError, Start};
 use crate::math::Vec3;
+use crate::particles::Places;
 
 use super::forces::truncation;
 use super::settings::{Relaxation, Settings};
@@ -90,18 +91,17 @@ fn rested(
     // What is damped away is in no ledger.
     (quiet.limits.drift_warning, quiet.limits.drift_error) = (f64::INFINITY, f64::INFINITY);
     let still = &mut start.grains;
-    // Names are 0, 1, 2 ..., in whatever order.
-    let mut motions = vec![(Vec3::ZERO, Vec3::ZERO); still.len()];
-    for (at, &id) in still.id.iter().enumerate() {
-        motions[id as usize] = (still.velocity[at], still.angular_velocity[at]);
-    }
+    let (places, motions) = (Places::of(&still.id), (still.velocity.clone(), still.angular_velocity.clone()));
     still.velocity.fill(Vec3::ZERO);
     still.angular_velocity.fill(Vec3::ZERO);
     let mut simulation = Simulation::with(&quiet, start);
     settle(&mut simulation, relaxation, watch)?;
     let grains = &mut simulation.system.grains;
+    // They were sorted in space meanwhile.
     for at in 0..grains.len() {
-        (grains.velocity[at], grains.angular_velocity[at]) = motions[grains.id[at] as usize];
+        if let Some(before) = places.find(grains.id[at]) {
+            (grains.velocity[at], grains.angular_velocity[at]) = (motions.0[before], motions.1[before]);
+        }
     }
     Ok(simulation.restarted(settings))
 }

@@ -5,7 +5,7 @@ use crate::acoustics::PulseCount;
 use crate::domain::extent;
 use crate::engine::{Moment, Warnings};
 use crate::math::Vec3;
-use crate::particles::Particles;
+use crate::particles::{Particles, Places};
 use crate::units::Quantity;
 
 use crate::engine::soft::settings::Settings;
@@ -25,16 +25,16 @@ pub struct FirstPulse {
     pub flight_s: f64,
     /// How long a hit presses [s].
     pub duration_s: f64,
-    /// Change of velocity of each grain [m/s], by the grains' ids; [n].
+    /// Change of velocity of each grain [m/s], in the order in which they were given; [n].
     pub kicks: Vec<Vec3>,
 }
 
 impl FirstPulse {
     /// The first pulse of beam number `beam` with no more rays than
-    /// `most_rays`: fewer rays of the same beam carry more power each. The grains come back in another order.
-    pub fn of(settings: &Settings, grains: Particles, beam: usize, most_rays: u32) -> (Self, Particles) {
-        let names = grains.len();
-        let mut simulation = Simulation::with(&alone(settings, beam, most_rays), grains.into());
+    /// `most_rays`: fewer rays of the same beam carry more power each.
+    pub fn of(settings: &Settings, grains: &Particles, beam: usize, most_rays: u32) -> Self {
+        let (count, places) = (grains.len(), Places::of(&grains.id));
+        let mut simulation = Simulation::with(&alone(settings, beam, most_rays), grains.clone().into());
         let part = widest_way(&simulation.system.grains) / PARTS_OF_THE_WAY;
         let dt = part / settings.medium.sound_speed.si();
         let Simulation { system, pulses, .. } = &mut simulation;
@@ -42,7 +42,7 @@ impl FirstPulse {
         // What is wrong with a launch the run says itself; rays that start in a grain are left out here.
         let _ = pulses.launch_due(&system.grains, &moment, f64::INFINITY, &mut warnings);
         let mut found =
-            Self { duration_s: pulses.duration(), kicks: vec![Vec3::ZERO; names], ..Self::default() };
+            Self { duration_s: pulses.duration(), kicks: vec![Vec3::ZERO; count], ..Self::default() };
         for number in 0..MOST_PARTS {
             if pulses.flight().rays().is_empty() {
                 break;
@@ -52,13 +52,15 @@ impl FirstPulse {
             found.flight_s = now + dt;
             // A force presses for as long as the law says, an impulse is whole.
             let time = if pulses.are_impulses() { 1.0 } else { pulses.duration() };
-            for at in 0..names {
+            for at in 0..count {
                 let kick = system.ray_loads.force[at] * (time / system.inertial_mass[at]);
-                found.kicks[system.grains.id[at] as usize] += kick;
+                if let Some(given) = places.find(system.grains.id[at]) {
+                    found.kicks[given] += kick;
+                }
             }
         }
         found.count = pulses.counts().first().copied().unwrap_or_default();
-        (found, simulation.system.grains)
+        found
     }
 }
 

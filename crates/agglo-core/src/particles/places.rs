@@ -1,0 +1,35 @@
+//! Where grains are in memory, by their ids.
+
+/// Places of grains by their ids, which may be any numbers.
+///
+/// ```
+/// # extern crate agglo_core as agglo;
+/// use agglo::particles::Places;
+/// let places = Places::of(&[30, 7]);
+/// assert_eq!((places.find(30), places.find(7), places.find(8)), (Some(0), Some(1), None));
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Places {
+    /// Ids in their order, each with its place.
+    sorted: Vec<(u32, u32)>,
+}
+
+impl Places {
+    /// Of grains with these ids [n].
+    pub fn of(ids: &[u32]) -> Self {
+        let mut sorted: Vec<(u32, u32)> = ids.iter().copied().zip(0..).collect();
+        sorted.sort_unstable();
+        Self { sorted }
+    }
+
+    /// The place of the grain with this id, if there is one.
+    pub fn find(&self, id: u32) -> Option<usize> {
+        let at = self.sorted.binary_search_by_key(&id, |(id, _)| *id).ok()?;
+        Some(self.sorted[at].1 as usize)
+    }
+
+    /// An id that two grains have, if there is one.
+    pub fn twice(&self) -> Option<u32> {
+        self.sorted.windows(2).find(|pair| pair[0].0 == pair[1].0).map(|pair| pair[0].0)
+    }
+}
