@@ -199,6 +199,27 @@ def test_a_force_of_ones_own_does_what_it_says_and_the_ledger_has_it():
     assert abs(balance["drift_relative"]) < 1e-3
 
 
+def test_arrays_that_a_force_keeps_stay_as_they_are():
+    """The others are filled again in the next step."""
+    simulation = agglo.Simulation(still())
+    kept, again = [], set()
+
+    def force(time_s, position, velocity, angular_velocity):
+        kept.append((position, position.copy(), velocity[:, 0], velocity[:, 0].copy()))
+        again.add(id(angular_velocity))
+        angular_velocity.flags.writeable = len(kept) != 3
+        return position * -1e-6
+
+    simulation.attach(force, stiffness_over_mass=1e6)
+    for _ in range(10):
+        simulation.step()
+    for position, then, component, of_then in kept:
+        assert np.array_equal(position, then) and np.array_equal(component, of_then)
+    assert len({id(position) for position, *_ in kept}) == len(kept) > 10
+    assert len(again) <= 2
+    assert not np.array_equal(kept[0][0], kept[-1][0])
+
+
 def test_torques_of_ones_own_turn_grains():
     simulation = agglo.Simulation(still())
     torque = np.zeros((20, 3))

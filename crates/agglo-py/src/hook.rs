@@ -8,7 +8,7 @@ use agglo::math::{Pace, Vec3};
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 
-use crate::arrays;
+use crate::arrays::Vectors;
 use crate::error::{InputError, RunError};
 
 thread_local! {
@@ -73,7 +73,16 @@ pub(crate) struct Callback {
     /// ω² [1/s²] and Γ [1/s], where they are given.
     pace: Option<(f64, f64)>,
     fallen: Fallen,
-    places: Mutex<Places>,
+    desk: Mutex<Desk>,
+}
+
+/// What is kept from one question to the next.
+#[derive(Default)]
+struct Desk {
+    places: Places,
+    positions: Vectors,
+    velocities: Vectors,
+    angular_velocities: Vectors,
 }
 
 /// Where grains are in memory, in the order of their ids. They change places seldom.
@@ -106,19 +115,18 @@ impl Callback {
         let name: String =
             function.py().import("agglo._guests")?.getattr("name_of")?.call1((function,))?.extract()?;
         let (function, name) = (function.clone().unbind(), format!("the function {name}"));
-        Ok(Self { function, name, pace, fallen, places: Mutex::default() })
+        Ok(Self { function, name, pace, fallen, desk: Mutex::default() })
     }
 
     fn ask(&self, py: Python<'_>, now: &Scene<'_>, loads: &mut LoadViews<'_>) -> PyResult<()> {
-        let mut places = self.places.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut desk = self.desk.lock().unwrap_or_else(PoisonError::into_inner);
+        let Desk { places, positions, velocities, angular_velocities } = &mut *desk;
         let order = places.of(&now.grains.id);
-        let column =
-            |values: &[Vec3]| arrays::vectors(py, order.iter().map(|&at| values[at as usize].to_array()));
         let arguments = (
             now.time,
-            column(now.motion.position)?,
-            column(now.motion.velocity)?,
-            column(now.motion.angular_velocity)?,
+            positions.filled(py, now.motion.position, order)?,
+            velocities.filled(py, now.motion.velocity, order)?,
+            angular_velocities.filled(py, now.motion.angular_velocity, order)?,
         );
         ASKS.set(true);
         let given = self.function.bind(py).call1(arguments);

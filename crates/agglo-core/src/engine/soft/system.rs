@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::contact::ContactLaws;
 use crate::contact::network::{BondEvent, Network};
 use crate::contact::pass::{ContactRates, ContactWorld, Contacts, Remembered};
-use crate::ledger::{Rates, Supplies};
+use crate::ledger::{Rates, Supplies, Supply};
 use crate::math::{Pace, Vec3, parallel};
 use crate::neighbors::{PairList, morton_order};
 use crate::particles::{Motion, Particles};
@@ -421,7 +421,7 @@ struct Gather<'a> {
 
 impl Gather<'_> {
     fn leaf(&self, range: Range<usize>, views: &mut LoadViews<'_>) -> Supplies {
-        let mut supplies = Supplies::default();
+        let (mut supplies, mut hooked) = (Supplies::default(), Supply::default());
         let has_single = self.laws.has_single();
         for (slot, grain) in range.enumerate() {
             let (mut force, mut torque) = self.contact_loads(grain);
@@ -448,13 +448,14 @@ impl Gather<'_> {
                 torque += single.torque;
             }
             if let Some(loads) = self.hook {
-                supplies.hook = supplies.hook + Attached::supply(loads, &self.now, grain);
+                hooked = hooked + Attached::supply(loads, &self.now, grain);
                 force += loads.force[grain];
                 torque += loads.torque[grain];
             }
             views.force[slot] = force;
             views.torque[slot] = torque;
         }
+        supplies.hook = hooked;
         supplies
     }
 
