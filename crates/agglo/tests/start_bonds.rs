@@ -141,8 +141,11 @@ fn ids_of_a_table_are_kept() {
     fs::write(folder.path().join("grains.csv"), format!("id,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s\n{rows}"))
         .unwrap();
     let bonds = plain.system.network.bonds();
-    let pairs: String =
-        bonds.iter().map(|bond| format!("{},{}\n", name(bond.ids[0]), name(bond.ids[1]))).collect();
+    let pairs: String = bonds
+        .iter()
+        .map(|bond| format!("{},{}", name(bond.ids[0]), name(bond.ids[1])))
+        .collect::<Vec<_>>()
+        .join("\n");
     fs::write(folder.path().join("bonds.csv"), format!("grain_i,grain_j\n{pairs}")).unwrap();
     let listed = ROW.find("placement.list").unwrap()..ROW.find("velocity_spread").unwrap();
     let spread = ROW.find("velocity_spread").unwrap()..ROW.find("[contact").unwrap();

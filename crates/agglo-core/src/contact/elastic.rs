@@ -8,5 +8,5 @@ pub struct Elastic<F = f64> {
     /// Slope of the repulsion over the overlap [N/m]; 0 where no law takes it.
     pub stiffness: F,
     /// n where the repulsion grows like overlap^n at small overlap.
-    pub exponent: f64,
+    pub exponent: F,
 }

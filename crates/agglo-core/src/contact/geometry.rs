@@ -39,6 +39,7 @@
 use std::f64::consts::FRAC_PI_4;
 
 use crate::math::Real;
+use crate::math::lanes::Lanes;
 
 /// Terms after which the series of [`ContactGeometry::strain_integral`] is cut.
 const LONGEST_SERIES: u32 = 2000;
@@ -62,7 +63,7 @@ pub struct ContactGeometry<F = f64> {
 
 impl<F: Real> ContactGeometry<F> {
     /// Two grains with radii [m], masses [kg] and contact stiffness [Pa], centers `distance` [m] apart.
-    #[inline]
+    #[inline(always)]
     pub fn new(radii: [F; 2], masses: [F; 2], stiffness: [F; 2], distance: F) -> Self {
         let radius_sum = radii[0] + radii[1];
         Self {
@@ -76,38 +77,38 @@ impl<F: Real> ContactGeometry<F> {
     }
 
     /// d = |r_j - r_i| [m].
-    #[inline]
+    #[inline(always)]
     pub fn distance(&self) -> F {
         self.radius_sum - self.overlap
     }
 
     /// Mass [kg] that resists sliding at the contact of two solid spheres, which may roll: 1/m* + Σ R²/I = 7/(2 m*).
-    #[inline]
+    #[inline(always)]
     pub fn sliding_mass(&self) -> F {
         F::of(2.0 / 7.0) * self.effective_mass
     }
 
     /// Overlap over the sum of the radii [-] ([A] 14).
-    #[inline]
+    #[inline(always)]
     pub fn strain(&self) -> F {
         self.overlap / self.radius_sum
     }
 
     /// Area A [m²] of the disc in which the two spheres cut each other ([A] 64-69); 0 where there is none.
-    #[inline]
+    #[inline(always)]
     pub fn area(&self) -> F {
         self.overlap * self.area_over_overlap()
     }
 
     /// A/δ [m], finite as the overlap goes to 0 (2 π R* there).
-    #[inline]
+    #[inline(always)]
     pub fn area_over_overlap(&self) -> F {
         let strain = self.strain();
         F::of(FRAC_PI_4) * self.radius_sum * (F::of(2.0) - strain) * self.lens(strain)
     }
 
     /// dA/dδ [m]; negative where the disc shrinks with growing overlap.
-    #[inline]
+    #[inline(always)]
     pub fn area_slope(&self) -> F {
         let (zero, one, two) = (F::of(0.0), F::of(1.0), F::of(2.0));
         let strain = self.strain();
@@ -121,12 +122,27 @@ impl<F: Real> ContactGeometry<F> {
     }
 
     /// h(u), 0 where one sphere lies inside the other; 1 for equal spheres.
-    #[inline]
+    #[inline(always)]
     fn lens(&self, strain: F) -> F {
         let (zero, one) = (F::of(0.0), F::of(1.0));
         let above = F::of(4.0) * self.effective_radius / self.radius_sum - strain * (F::of(2.0) - strain);
         let lens = above / ((one - strain) * (one - strain));
         F::select(zero.below(above), lens, zero)
+    }
+}
+
+impl<F: Lanes> ContactGeometry<F> {
+    /// That of the contact in a lane.
+    #[inline(always)]
+    pub fn lane(&self, lane: usize) -> ContactGeometry {
+        ContactGeometry {
+            overlap: self.overlap.lane(lane),
+            radius_sum: self.radius_sum.lane(lane),
+            smaller_radius: self.smaller_radius.lane(lane),
+            effective_radius: self.effective_radius.lane(lane),
+            effective_mass: self.effective_mass.lane(lane),
+            stiffness: self.stiffness.lane(lane),
+        }
     }
 }
 

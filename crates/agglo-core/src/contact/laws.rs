@@ -6,22 +6,23 @@ use serde::{Deserialize, Serialize};
 use super::{ContactGeometry, Custom, Damping, Elastic, Friction, Normal, PairConstants};
 use crate::law::{Chosen, Faults, HIGHEST_EXPONENT};
 use crate::math::Pace;
+use crate::math::lanes::Lanes;
 use crate::math::roots::root_between;
 use crate::particles::{Material, Mixture};
 
 /// What the laws of a scenario make of a contact along the line of centers.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Along {
+pub struct Along<F = f64> {
     /// What the elastic laws make of it; the stiffness only where another law takes it.
-    pub elastic: Elastic,
+    pub elastic: Elastic<F>,
     /// Dashpot coefficient [N s/m].
-    pub dashpot: f64,
+    pub dashpot: F,
     /// Force on each grain, away from the other [N].
-    pub repulsion: f64,
+    pub repulsion: F,
     /// What is lost [W].
-    pub dissipation: f64,
+    pub dissipation: F,
     /// What a formula that drives the grains puts in [W].
-    pub driven: f64,
+    pub driven: F,
 }
 
 /// The laws of contact of a scenario: what repels, what dissipates, what resists sliding.
@@ -83,17 +84,32 @@ impl ContactLaws {
     }
 
     /// What the elastic laws make of a contact: what is built in where grains touch, and the formula at rest.
-    #[inline]
-    pub fn elastic(&self, pair: &PairConstants, geometry: &ContactGeometry, with_stiffness: bool) -> Elastic {
+    #[inline(always)]
+    pub fn elastic<F: Lanes>(
+        &self,
+        pair: &PairConstants<F>,
+        geometry: &ContactGeometry<F>,
+        with_stiffness: bool,
+    ) -> Elastic<F> {
         let mut elastic = Elastic::default();
-        if let Some(law) = self.normal.as_ref().filter(|_| geometry.overlap > 0.0) {
-            let stiffness = if with_stiffness { law.tangent_stiffness(pair, geometry) } else { 0.0 };
-            elastic = Elastic { force: law.force(pair, geometry), stiffness, exponent: law.exponent() };
+        let zero = F::of(0.0);
+        if let Some(law) = &self.normal {
+            let touches = zero.below(geometry.overlap);
+            elastic.force = F::select(touches, law.force(pair, geometry), zero);
+            elastic.exponent = F::of(law.exponent());
+            if with_stiffness {
+                elastic.stiffness = F::select(touches, law.tangent_stiffness(pair, geometry), zero);
+            }
         }
         if let Some(law) = &self.custom {
-            elastic.force += law.force(pair, geometry, 0.0);
+            let at = |lane| (pair.lane(lane), geometry.lane(lane));
+            let of_pair = |of: &dyn Fn(&PairConstants, &ContactGeometry) -> f64| {
+                F::from_lanes(|lane| of(&at(lane).0, &at(lane).1))
+            };
+            elastic.force = elastic.force + of_pair(&|pair, geometry| law.force(pair, geometry, 0.0));
             if with_stiffness {
-                elastic.stiffness += law.slopes(pair, geometry, 0.0)[0];
+                elastic.stiffness =
+                    elastic.stiffness + of_pair(&|pair, geometry| law.slopes(pair, geometry, 0.0)[0]);
                 elastic.exponent = local_exponent(&elastic, geometry.overlap);
             }
         }
@@ -101,21 +117,38 @@ impl ContactLaws {
     }
 
     /// What the laws make of a contact along the line of centers, whose grains part at `separation` [m/s].
-    #[inline]
-    pub fn along(&self, pair: &PairConstants, geometry: &ContactGeometry, separation: f64) -> Along {
+    #[inline(always)]
+    pub fn along<F: Lanes>(
+        &self,
+        pair: &PairConstants<F>,
+        geometry: &ContactGeometry<F>,
+        separation: F,
+    ) -> Along<F> {
+        let zero = F::of(0.0);
         let elastic = self.elastic(pair, geometry, self.takes_stiffness());
-        let damping = self.damping.as_ref().filter(|_| geometry.overlap > 0.0);
-        let dashpot = damping.map_or(0.0, |law| law.coefficient(pair, geometry, &elastic));
-        let beyond_rest =
-            self.custom.as_ref().map_or(0.0, |law| law.beyond_rest(pair, geometry, -separation));
-        let lost = -beyond_rest * separation;
-        Along {
+        let mut dashpot = zero;
+        if let Some(law) = &self.damping {
+            let touches = zero.below(geometry.overlap);
+            dashpot = F::select(touches, law.coefficient(pair, geometry, &elastic), zero);
+        }
+        let resisted = dashpot * separation;
+        let mut along = Along {
             elastic,
             dashpot,
-            repulsion: elastic.force - dashpot * separation + beyond_rest,
-            dissipation: dashpot * separation * separation + lost.max(0.0),
-            driven: (-lost).max(0.0),
+            repulsion: elastic.force - resisted,
+            dissipation: resisted * separation,
+            driven: zero,
+        };
+        if let Some(law) = &self.custom {
+            let beyond_rest = F::from_lanes(|lane| {
+                law.beyond_rest(&pair.lane(lane), &geometry.lane(lane), -separation.lane(lane))
+            });
+            let lost = -beyond_rest * separation;
+            along.repulsion = along.repulsion + beyond_rest;
+            along.dissipation = along.dissipation + lost.max(zero);
+            along.driven = (-lost).max(zero);
         }
+        along
     }
 
     /// Energy stored along the line of centers [J].
@@ -200,10 +233,12 @@ impl ContactLaws {
 
 /// n where a force grows like overlap^n, from the force and its slope at an overlap [m]; at least 1, and 1 where the force
 /// does not grow.
-#[inline]
-fn local_exponent(elastic: &Elastic, overlap: f64) -> f64 {
-    let grows = elastic.force > 0.0 && elastic.stiffness > 0.0;
-    if grows { (overlap * elastic.stiffness / elastic.force).clamp(1.0, HIGHEST_EXPONENT) } else { 1.0 }
+#[inline(always)]
+fn local_exponent<F: Lanes>(elastic: &Elastic<F>, overlap: F) -> F {
+    let (zero, one) = (F::of(0.0), F::of(1.0));
+    let grows = F::both(zero.below(elastic.force), zero.below(elastic.stiffness));
+    let exponent = overlap * elastic.stiffness / elastic.force;
+    F::select(grows, exponent.max(one).min(F::of(HIGHEST_EXPONENT)), one)
 }
 
 #[cfg(test)]

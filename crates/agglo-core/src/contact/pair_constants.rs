@@ -1,5 +1,6 @@
 //! What two materials have in common in contact.
 
+use crate::math::lanes::Lanes;
 use crate::particles::Material;
 
 /// The constants of a pair of materials, ready for the laws: what a law has by itself, or the pair instead.
@@ -15,6 +16,44 @@ pub struct PairConstants<F = f64> {
     pub static_friction: F,
     /// Dynamic friction [-].
     pub dynamic_friction: F,
+}
+
+impl<F: Lanes> PairConstants<F> {
+    /// The same in every lane.
+    #[inline(always)]
+    pub fn of(one: &PairConstants) -> Self {
+        Self {
+            effective_modulus: F::of(one.effective_modulus),
+            tangential_ratio: F::of(one.tangential_ratio),
+            damping_ratio: F::of(one.damping_ratio),
+            static_friction: F::of(one.static_friction),
+            dynamic_friction: F::of(one.dynamic_friction),
+        }
+    }
+
+    /// Those of a pair for each lane.
+    #[inline(always)]
+    pub fn from_lanes<'a>(pair: impl Fn(usize) -> &'a PairConstants) -> Self {
+        Self {
+            effective_modulus: F::from_lanes(|lane| pair(lane).effective_modulus),
+            tangential_ratio: F::from_lanes(|lane| pair(lane).tangential_ratio),
+            damping_ratio: F::from_lanes(|lane| pair(lane).damping_ratio),
+            static_friction: F::from_lanes(|lane| pair(lane).static_friction),
+            dynamic_friction: F::from_lanes(|lane| pair(lane).dynamic_friction),
+        }
+    }
+
+    /// Those in a lane.
+    #[inline(always)]
+    pub fn lane(&self, lane: usize) -> PairConstants {
+        PairConstants {
+            effective_modulus: self.effective_modulus.lane(lane),
+            tangential_ratio: self.tangential_ratio.lane(lane),
+            damping_ratio: self.damping_ratio.lane(lane),
+            static_friction: self.static_friction.lane(lane),
+            dynamic_friction: self.dynamic_friction.lane(lane),
+        }
+    }
 }
 
 impl PairConstants {

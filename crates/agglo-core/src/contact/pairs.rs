@@ -34,6 +34,11 @@ impl PairTable {
         Self { count, pairs }
     }
 
+    /// The constants of all pairs where there is one material alone.
+    pub fn only(&self) -> Option<&PairConstants> {
+        if let [only] = &self.pairs[..] { Some(only) } else { None }
+    }
+
     /// The constants of the materials with these numbers.
     #[inline]
     pub fn of(&self, a: u32, b: u32) -> &PairConstants {

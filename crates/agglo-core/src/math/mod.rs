@@ -1,6 +1,7 @@
 //! Vectors, random numbers, roots and statistics. No physics.
 
 pub mod formula;
+pub mod lanes;
 mod pace;
 pub mod parallel;
 mod prefetch;

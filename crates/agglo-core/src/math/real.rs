@@ -33,11 +33,11 @@ pub trait Real:
     #[must_use]
     fn abs(self) -> Self;
 
-    /// The smaller of two.
+    /// The smaller of two; the other one where they cannot be compared.
     #[must_use]
     fn min(self, other: Self) -> Self;
 
-    /// The larger of two.
+    /// The larger of two; the other one where they cannot be compared.
     #[must_use]
     fn max(self, other: Self) -> Self;
 
@@ -65,62 +65,62 @@ pub trait Real:
 impl Real for f64 {
     type Mask = bool;
 
-    #[inline]
+    #[inline(always)]
     fn of(value: f64) -> Self {
         value
     }
 
-    #[inline]
+    #[inline(always)]
     fn sqrt(self) -> Self {
         self.sqrt()
     }
 
-    #[inline]
+    #[inline(always)]
     fn powf(self, exponent: f64) -> Self {
         self.powf(exponent)
     }
 
-    #[inline]
+    #[inline(always)]
     fn abs(self) -> Self {
         self.abs()
     }
 
-    #[inline]
+    #[inline(always)]
     fn min(self, other: Self) -> Self {
-        self.min(other)
+        if self < other { self } else { other }
     }
 
-    #[inline]
+    #[inline(always)]
     fn max(self, other: Self) -> Self {
-        self.max(other)
+        if self > other { self } else { other }
     }
 
-    #[inline]
+    #[inline(always)]
     fn below(self, other: Self) -> bool {
         self < other
     }
 
-    #[inline]
+    #[inline(always)]
     fn at_most(self, other: Self) -> bool {
         self <= other
     }
 
-    #[inline]
+    #[inline(always)]
     fn select(mask: bool, yes: Self, no: Self) -> Self {
         if mask { yes } else { no }
     }
 
-    #[inline]
+    #[inline(always)]
     fn both(a: bool, b: bool) -> bool {
         a && b
     }
 
-    #[inline]
+    #[inline(always)]
     fn not(mask: bool) -> bool {
         !mask
     }
 
-    #[inline]
+    #[inline(always)]
     fn all(mask: bool) -> bool {
         mask
     }

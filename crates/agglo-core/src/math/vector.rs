@@ -23,7 +23,7 @@ pub type Vec3 = Vector<f64>;
 
 impl<F> Vector<F> {
     /// Puts three components together.
-    #[inline]
+    #[inline(always)]
     pub const fn new(x: F, y: F, z: F) -> Self {
         Self { x, y, z }
     }
@@ -31,13 +31,13 @@ impl<F> Vector<F> {
 
 impl<F: Real> Vector<F> {
     /// Scalar product.
-    #[inline]
+    #[inline(always)]
     pub fn dot(self, other: Self) -> F {
         self.x * other.x + self.y * other.y + self.z * other.z
     }
 
     /// Vector product.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn cross(self, other: Self) -> Self {
         Self::new(
@@ -48,26 +48,26 @@ impl<F: Real> Vector<F> {
     }
 
     /// Length.
-    #[inline]
+    #[inline(always)]
     pub fn norm(self) -> F {
         self.norm_squared().sqrt()
     }
 
     /// Square of the length.
-    #[inline]
+    #[inline(always)]
     pub fn norm_squared(self) -> F {
         self.dot(self)
     }
 
     /// The part at right angles to the unit vector `axis`.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn rejected_from(self, axis: Self) -> Self {
         self - axis * self.dot(axis)
     }
 
     /// `yes` where the mask holds, `no` elsewhere.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn select(mask: F::Mask, yes: Self, no: Self) -> Self {
         Self::new(F::select(mask, yes.x, no.x), F::select(mask, yes.y, no.y), F::select(mask, yes.z, no.z))
@@ -172,7 +172,7 @@ impl Index<usize> for Vec3 {
 
 impl<F: Real> Add for Vector<F> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
         Self::new(self.x + other.x, self.y + other.y, self.z + other.z)
     }
@@ -180,7 +180,7 @@ impl<F: Real> Add for Vector<F> {
 
 impl<F: Real> Sub for Vector<F> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn sub(self, other: Self) -> Self {
         Self::new(self.x - other.x, self.y - other.y, self.z - other.z)
     }
@@ -188,7 +188,7 @@ impl<F: Real> Sub for Vector<F> {
 
 impl<F: Real> Neg for Vector<F> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn neg(self) -> Self {
         Self::new(-self.x, -self.y, -self.z)
     }
@@ -196,7 +196,7 @@ impl<F: Real> Neg for Vector<F> {
 
 impl<F: Real> Mul<F> for Vector<F> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn mul(self, factor: F) -> Self {
         Self::new(self.x * factor, self.y * factor, self.z * factor)
     }
@@ -212,28 +212,28 @@ impl Mul<Vec3> for f64 {
 
 impl<F: Real> Div<F> for Vector<F> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn div(self, divisor: F) -> Self {
         self * (F::of(1.0) / divisor)
     }
 }
 
 impl<F: Real> AddAssign for Vector<F> {
-    #[inline]
+    #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
 impl<F: Real> SubAssign for Vector<F> {
-    #[inline]
+    #[inline(always)]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;
     }
 }
 
 impl<F: Real> MulAssign<F> for Vector<F> {
-    #[inline]
+    #[inline(always)]
     fn mul_assign(&mut self, factor: F) {
         *self = *self * factor;
     }

@@ -60,7 +60,7 @@ use crate::contact::normal::NormalLaw;
 use crate::contact::normal::strain_power::{StrainPower, strain_power};
 use crate::contact::{ContactGeometry, PairConstants};
 use crate::law::{Context, Faults, Law};
-use crate::math::Pace;
+use crate::math::{Pace, Real};
 use crate::units::{AreaStiffness, Pressure};
 
 /// K_nb E^pb A toward the partner, and K_rb |v_t| A dt along the slip, while E >= E*.
@@ -99,19 +99,19 @@ impl Law for StrainBond {
 }
 
 impl StrainBond {
-    /// Whether the bond acts at this overlap.
-    #[inline]
-    pub fn acts(&self, geometry: &ContactGeometry) -> bool {
-        geometry.overlap >= self.threshold_strain * geometry.radius_sum
+    /// Where the bond acts: in contact, from its threshold on.
+    #[inline(always)]
+    pub fn acts<F: Real>(&self, geometry: &ContactGeometry<F>) -> F::Mask {
+        let is_pressed = (F::of(self.threshold_strain) * geometry.radius_sum).at_most(geometry.overlap);
+        F::both(F::of(0.0).below(geometry.overlap), is_pressed)
     }
 
     /// Attraction [N], zero below the threshold.
-    #[inline]
-    pub fn attraction(&self, geometry: &ContactGeometry) -> f64 {
-        if !self.acts(geometry) {
-            return 0.0;
-        }
-        self.stiffness.si() * strain_power(geometry.strain(), self.exponent) * geometry.area()
+    #[inline(always)]
+    pub fn attraction<F: Real>(&self, geometry: &ContactGeometry<F>) -> F {
+        let strain = geometry.strain().max(F::of(0.0));
+        let force = F::of(self.stiffness.si()) * strain_power(strain, self.exponent) * geometry.area();
+        F::select(self.acts(geometry), force, F::of(0.0))
     }
 
     /// Energy [J], zero up to the threshold and negative beyond, since the bond attracts.
@@ -127,13 +127,10 @@ impl StrainBond {
 
     /// Tangential force [N] along the relative tangential velocity, from the slip speed [m/s] and the step
     /// [s]. All of its work is lost.
-    #[inline]
-    pub fn tangential(&self, geometry: &ContactGeometry, slip_speed: f64, dt: f64) -> f64 {
-        if self.acts(geometry) {
-            self.tangential_stiffness.si() * slip_speed * geometry.area() * dt
-        } else {
-            0.0
-        }
+    #[inline(always)]
+    pub fn tangential<F: Real>(&self, geometry: &ContactGeometry<F>, slip_speed: F, dt: F) -> F {
+        let force = F::of(self.tangential_stiffness.si()) * slip_speed * geometry.area() * dt;
+        F::select(self.acts(geometry), force, F::of(0.0))
     }
 
     /// How fast the bond is at this overlap: its attraction, or its tangential part, which carries the step as that of

@@ -30,7 +30,7 @@ impl Damping {
     }
 
     /// Dashpot coefficient c [N s/m]; the force on the pair is -c times the speed of separation.
-    #[inline]
+    #[inline(always)]
     pub fn coefficient<F: Real>(
         &self,
         pair: &PairConstants<F>,

@@ -84,16 +84,17 @@ impl DampingLaw for Restitution {
     const TAKES_STIFFNESS: bool = true;
 
     /// 0 where the elastic force does not grow with the overlap.
-    #[inline]
+    #[inline(always)]
     fn coefficient<F: Real>(
         &self,
         pair: &PairConstants<F>,
         geometry: &ContactGeometry<F>,
         elastic: &Elastic<F>,
     ) -> F {
-        let n = elastic.exponent;
+        // (n + 1)/(2 n).
+        let part = F::of(0.5) + F::of(0.5) / elastic.exponent;
         let stiffness = elastic.stiffness.max(F::of(0.0));
-        let critical = (F::of((n + 1.0) / (2.0 * n)) * stiffness * geometry.effective_mass).sqrt();
+        let critical = (part * stiffness * geometry.effective_mass).sqrt();
         F::of(2.0) * pair.damping_ratio * critical
     }
 

@@ -66,7 +66,7 @@ impl Law for ViscousArea {
 impl DampingLaw for ViscousArea {
     const TAKES_STIFFNESS: bool = false;
 
-    #[inline]
+    #[inline(always)]
     fn coefficient<F: Real>(&self, _: &PairConstants<F>, geometry: &ContactGeometry<F>, _: &Elastic<F>) -> F {
         F::of(self.coefficient.si()) * geometry.area()
     }

@@ -113,7 +113,7 @@ impl Law for Mindlin {
 impl FrictionLaw for Mindlin {
     type Memory<F: Real> = TangentialSpring<F>;
 
-    #[inline]
+    #[inline(always)]
     fn force<F: Real>(
         &self,
         pair: &PairConstants<F>,

@@ -9,7 +9,7 @@ pub use law::{FrictionLaw, Sliding};
 pub use spring::{Memory, TangentialSpring};
 
 use super::{ContactGeometry, Elastic, PairConstants};
-use crate::math::{Pace, Vec3};
+use crate::math::{Pace, Real, Vector};
 use crate::particles::Mixture;
 
 family! {
@@ -31,14 +31,14 @@ impl Friction {
     }
 
     /// The force on i [N] and what to remember.
-    #[inline]
-    pub fn force(
+    #[inline(always)]
+    pub fn force<F: Real>(
         &self,
-        pair: &PairConstants,
-        geometry: &ContactGeometry,
-        sliding: &Sliding,
-        before: &TangentialSpring,
-    ) -> (Vec3, TangentialSpring) {
+        pair: &PairConstants<F>,
+        geometry: &ContactGeometry<F>,
+        sliding: &Sliding<F>,
+        before: &TangentialSpring<F>,
+    ) -> (Vector<F>, TangentialSpring<F>) {
         each_friction!(self, law => {
             let (force, memory) = law.force(pair, geometry, sliding, &Memory::taken_from(before));
             (force, memory.kept())

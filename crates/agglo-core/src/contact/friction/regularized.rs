@@ -85,7 +85,7 @@ pub struct Regularized {
 impl Regularized {
     /// Size of the friction force [N] along the relative tangential velocity, from the contact's `area`
     /// [m²], the slip speed [m/s], the step [s] and the normal force [N]. All of its work is lost.
-    #[inline]
+    #[inline(always)]
     fn size<F: Real>(&self, pair: &PairConstants<F>, area: F, slip_speed: F, dt: F, normal_force: F) -> F {
         let stick = F::of(self.stiffness.si()) * slip_speed * area * dt;
         let load = normal_force.abs();
@@ -115,7 +115,7 @@ impl Law for Regularized {
 impl FrictionLaw for Regularized {
     type Memory<F: Real> = ();
 
-    #[inline]
+    #[inline(always)]
     fn force<F: Real>(
         &self,
         pair: &PairConstants<F>,

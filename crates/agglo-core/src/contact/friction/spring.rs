@@ -19,10 +19,10 @@ pub trait Memory<F: Real>: Copy {
 impl<F: Real> Memory<F> for () {
     const IS_KEPT: bool = false;
 
-    #[inline]
+    #[inline(always)]
     fn taken_from(_: &TangentialSpring<F>) -> Self {}
 
-    #[inline]
+    #[inline(always)]
     fn kept(self) -> TangentialSpring<F> {
         TangentialSpring::default()
     }
@@ -42,12 +42,12 @@ pub struct TangentialSpring<F: Real = f64> {
 impl<F: Real> Memory<F> for TangentialSpring<F> {
     const IS_KEPT: bool = true;
 
-    #[inline]
+    #[inline(always)]
     fn taken_from(kept: &Self) -> Self {
         *kept
     }
 
-    #[inline]
+    #[inline(always)]
     fn kept(self) -> Self {
         self
     }
@@ -64,7 +64,7 @@ impl TangentialSpring {
 impl<F: Real> TangentialSpring<F> {
     /// The force [N] after the contact has turned to `normal` and by `turn_about_normal` [rad] about it, relaxed
     /// where the stiffness [N/m] has fallen.
-    #[inline]
+    #[inline(always)]
     pub(super) fn carried(&self, normal: Vector<F>, turn_about_normal: F, stiffness: F) -> Vector<F> {
         let zero = F::of(0.0);
         let before = self.force.norm_squared();
@@ -84,7 +84,7 @@ impl<F: Real> TangentialSpring<F> {
 ///
 /// The spring itself is cut, not set to the whole force: a spring set to the force would store what the dashpot
 /// gave, and hand it back as motion.
-#[inline]
+#[inline(always)]
 pub(super) fn shortened<F: Real>(vector: Vector<F>, length: F) -> Vector<F> {
     let size = vector.norm_squared();
     Vector::select((length * length).below(size), vector * (length / size.sqrt()), vector)

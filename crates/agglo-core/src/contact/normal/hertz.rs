@@ -71,7 +71,7 @@ impl Law for Hertz {
 }
 
 impl NormalLaw for Hertz {
-    #[inline]
+    #[inline(always)]
     fn force<F: Real>(&self, pair: &PairConstants<F>, geometry: &ContactGeometry<F>) -> F {
         F::of(2.0 / 3.0) * geometry.overlap * self.tangent_stiffness(pair, geometry)
     }
@@ -80,7 +80,7 @@ impl NormalLaw for Hertz {
         0.4 * geometry.overlap * self.force(pair, geometry)
     }
 
-    #[inline]
+    #[inline(always)]
     fn tangent_stiffness<F: Real>(&self, pair: &PairConstants<F>, geometry: &ContactGeometry<F>) -> F {
         F::of(2.0) * pair.effective_modulus * (geometry.effective_radius * geometry.overlap).sqrt()
     }

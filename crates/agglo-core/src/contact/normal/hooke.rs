@@ -67,7 +67,7 @@ impl Law for Hooke {
 }
 
 impl NormalLaw for Hooke {
-    #[inline]
+    #[inline(always)]
     fn force<F: Real>(&self, _: &PairConstants<F>, geometry: &ContactGeometry<F>) -> F {
         F::of(self.stiffness.si()) * geometry.overlap
     }
@@ -76,7 +76,7 @@ impl NormalLaw for Hooke {
         0.5 * self.stiffness.si() * geometry.overlap * geometry.overlap
     }
 
-    #[inline]
+    #[inline(always)]
     fn tangent_stiffness<F: Real>(&self, _: &PairConstants<F>, _: &ContactGeometry<F>) -> F {
         F::of(self.stiffness.si())
     }

@@ -22,7 +22,7 @@ family! {
 
 impl Normal {
     /// Repulsion [N].
-    #[inline]
+    #[inline(always)]
     pub fn force<F: Real>(&self, pair: &PairConstants<F>, geometry: &ContactGeometry<F>) -> F {
         each_normal!(self, law => law.force(pair, geometry))
     }
@@ -33,7 +33,7 @@ impl Normal {
     }
 
     /// Slope of the force over the overlap [N/m].
-    #[inline]
+    #[inline(always)]
     pub fn tangent_stiffness<F: Real>(&self, pair: &PairConstants<F>, geometry: &ContactGeometry<F>) -> F {
         each_normal!(self, law => law.tangent_stiffness(pair, geometry))
     }

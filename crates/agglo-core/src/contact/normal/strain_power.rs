@@ -73,7 +73,7 @@ fn two() -> f64 {
 }
 
 /// strain^exponent, with the usual square worked out directly.
-#[inline]
+#[inline(always)]
 pub(in crate::contact) fn strain_power<F: Real>(strain: F, exponent: f64) -> F {
     if exponent == 2.0 { strain * strain } else { strain.powf(exponent) }
 }
@@ -91,7 +91,7 @@ impl Law for StrainPower {
 }
 
 impl NormalLaw for StrainPower {
-    #[inline]
+    #[inline(always)]
     fn force<F: Real>(&self, _: &PairConstants<F>, geometry: &ContactGeometry<F>) -> F {
         geometry.stiffness * strain_power(geometry.strain(), self.exponent) * geometry.area()
     }
@@ -101,7 +101,7 @@ impl NormalLaw for StrainPower {
     }
 
     /// Negative where a much smaller grain is nearly swallowed.
-    #[inline]
+    #[inline(always)]
     fn tangent_stiffness<F: Real>(&self, _: &PairConstants<F>, geometry: &ContactGeometry<F>) -> F {
         let growth = F::of(self.exponent) * geometry.area_over_overlap() + geometry.area_slope();
         geometry.stiffness * strain_power(geometry.strain(), self.exponent) * growth

@@ -165,7 +165,7 @@ impl System {
             hook.look(&Scene { time, grains, motion: now });
         }
         let hook = hook.as_ref().map(|hook| &hook.loads);
-        let gather = Gather { grains, laws, network, contacts, list, near, now, time, hook };
+        let gather = Gather { grains, laws, network, contacts, near, now, time, hook };
         let supplies = parallel::over(
             0..grains.len(),
             LEAF,
@@ -372,7 +372,7 @@ impl System {
         let positions = if at_trial { &self.trial.position } else { &self.grains.position };
         let reach = self.laws.contact.as_ref().map_or(0.0, ContactLaws::reach);
         self.list.build(positions, &self.grains.radius, reach, self.skin.thickness());
-        self.contacts.relist(&self.list, remembered, self.laws.contact.as_ref());
+        self.contacts.relist(&self.list, self.grains.len(), remembered, self.laws.contact.as_ref());
     }
 
     /// Sorts the grains along a space-filling curve; returns the order, or nothing if it is that already.
@@ -411,7 +411,6 @@ struct Gather<'a> {
     laws: &'a Laws,
     network: &'a Network,
     contacts: &'a Contacts,
-    list: &'a PairList,
     near: &'a PairList,
     now: Motion<'a>,
     time: f64,
@@ -424,7 +423,7 @@ impl Gather<'_> {
         let (mut supplies, mut hooked) = (Supplies::default(), Supply::default());
         let has_single = self.laws.has_single();
         for (slot, grain) in range.enumerate() {
-            let (mut force, mut torque) = self.contact_loads(grain);
+            let (mut force, mut torque) = self.contacts.load_on(grain);
             self.network.gather(grain, &mut force, &mut torque);
             if let Some(law) = &self.laws.fields.near_field {
                 let push = |other: usize| near_force(law, self.grains, self.now.position, grain, other);
@@ -457,23 +456,5 @@ impl Gather<'_> {
         }
         supplies.hook = hooked;
         supplies
-    }
-
-    #[inline]
-    fn contact_loads(&self, grain: usize) -> (Vec3, Vec3) {
-        let (mut force, mut torque) = (Vec3::ZERO, Vec3::ZERO);
-        for &pair in self.list.joined(grain) {
-            if let Some(load) = self.contacts.load(pair as usize) {
-                force -= load.force;
-                torque += load.couple * load.lever_arms[1];
-            }
-        }
-        for pair in self.list.owned(grain) {
-            if let Some(load) = self.contacts.load(pair) {
-                force += load.force;
-                torque += load.couple * load.lever_arms[0];
-            }
-        }
-        (force, torque)
     }
 }

@@ -1,0 +1,136 @@
+//! Where the loads of contacts are put down.
+//!
+//! Grains are taken in blocks of [`BLOCK`], fixed by their places in memory and never by threads. A block has the pairs whose
+//! owner lies in it, and a slot for each of its grains, then one for each partner of another block (a ghost), in rising
+//! order. It puts the loads of its contacts into its own slots, free of races and branches. A grain's load is then that in
+//! its own slot and those in its ghosts by rising block: a sum whose order depends on what touches alone, since a ghost
+//! without a contact adds zero.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use crate::math::Vec3;
+use crate::neighbors::PairList;
+
+/// Grains per block.
+pub(super) const BLOCK: usize = 1024;
+
+/// Force [N] and torque about the center [N m], each with a number unused.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(C, align(64))]
+pub(super) struct Slot {
+    pub force: [f64; 4],
+    pub torque: [f64; 4],
+}
+
+/// The slots of all blocks.
+#[derive(Debug, Default)]
+pub(super) struct Blocks {
+    /// Where the slots of each block begin: [blocks + 1].
+    first: Vec<u32>,
+    /// Slot of each pair's partner, counted from the first of its block.
+    targets: Vec<u32>,
+    /// Slots in other blocks that grain k hears: `heard[heard_starts[k]..heard_starts[k + 1]]`, by rising block.
+    heard_starts: Vec<u32>,
+    heard: Vec<u32>,
+    /// Partners from other blocks, in rising order, of each block.
+    ghosts: Vec<Vec<u32>>,
+}
+
+impl Blocks {
+    /// Gives slots to the grains and pairs of a new list over `n` grains.
+    pub fn relist(&mut self, list: &PairList, n: usize) {
+        self.ghosts.resize_with(n.div_ceil(BLOCK), Vec::new);
+        self.targets.clear();
+        self.targets.resize(list.len(), 0);
+        let (starts, partners) = (list.starts(), list.partners());
+        let mut rest = self.targets.as_mut_slice();
+        let mut tasks = Vec::with_capacity(self.ghosts.len());
+        for (block, ghosts) in self.ghosts.iter_mut().enumerate() {
+            let grains = grains_of(block, n);
+            let pairs = starts[grains.start] as usize..starts[grains.end] as usize;
+            let (targets, after) = rest.split_at_mut(pairs.len());
+            rest = after;
+            tasks.push((grains, &partners[pairs], ghosts, targets));
+        }
+        tasks.into_par_iter().for_each(|(grains, partners, ghosts, targets)| {
+            ghosts.clear();
+            ghosts.extend(partners.iter().filter(|partner| !grains.contains(&(**partner as usize))));
+            ghosts.sort_unstable();
+            ghosts.dedup();
+            for (target, partner) in targets.iter_mut().zip(partners) {
+                let own = (*partner as usize).wrapping_sub(grains.start);
+                let ghost = || grains.len() + ghosts.partition_point(|ghost| ghost < partner);
+                *target = if own < grains.len() { own } else { ghost() } as u32;
+            }
+        });
+        self.count_slots(n);
+    }
+
+    fn count_slots(&mut self, n: usize) {
+        self.first.clear();
+        self.first.push(0);
+        self.heard_starts.clear();
+        self.heard_starts.resize(n + 2, 0);
+        for (block, ghosts) in self.ghosts.iter().enumerate() {
+            self.first.push(self.first[block] + (grains_of(block, n).len() + ghosts.len()) as u32);
+            for &ghost in ghosts {
+                self.heard_starts[ghost as usize + 2] += 1;
+            }
+        }
+        for k in 1..n + 2 {
+            self.heard_starts[k] += self.heard_starts[k - 1];
+        }
+        self.heard.clear();
+        self.heard.resize(self.heard_starts[n + 1] as usize, 0);
+        for (block, ghosts) in self.ghosts.iter().enumerate() {
+            let first = self.first[block] + grains_of(block, n).len() as u32;
+            for (slot, &ghost) in (first..).zip(ghosts) {
+                let place = &mut self.heard_starts[ghost as usize + 1];
+                self.heard[*place as usize] = slot;
+                *place += 1;
+            }
+        }
+        self.heard_starts.pop();
+    }
+
+    /// How many slots there are.
+    pub fn len(&self) -> usize {
+        self.first.last().map_or(0, |last| *last as usize)
+    }
+
+    /// How many blocks there are.
+    pub fn count(&self) -> usize {
+        self.ghosts.len()
+    }
+
+    /// The slots of some blocks.
+    pub fn slots_of(&self, blocks: Range<usize>) -> Range<usize> {
+        self.first[blocks.start] as usize..self.first[blocks.end] as usize
+    }
+
+    /// Slot of each pair's partner, counted from the first of its block.
+    pub fn targets(&self) -> &[u32] {
+        &self.targets
+    }
+
+    /// Force [N] and torque [N m] on a grain.
+    #[inline]
+    pub fn load_on(&self, grain: usize, slots: &[Slot]) -> (Vec3, Vec3) {
+        let own = slots[self.first[grain / BLOCK] as usize + grain % BLOCK];
+        let (mut force, mut torque) = (own.force, own.torque);
+        let heard = self.heard_starts[grain] as usize..self.heard_starts[grain + 1] as usize;
+        for &slot in &self.heard[heard] {
+            let ghost = &slots[slot as usize];
+            force.iter_mut().zip(ghost.force).for_each(|(sum, part)| *sum += part);
+            torque.iter_mut().zip(ghost.torque).for_each(|(sum, part)| *sum += part);
+        }
+        (Vec3::new(force[0], force[1], force[2]), Vec3::new(torque[0], torque[1], torque[2]))
+    }
+}
+
+/// The grains of a block among `n`.
+pub(super) fn grains_of(block: usize, n: usize) -> Range<usize> {
+    block * BLOCK..((block + 1) * BLOCK).min(n)
+}

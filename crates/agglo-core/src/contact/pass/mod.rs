@@ -1,0 +1,168 @@
+//! The one loop over pairs: which touch, or are within the reach of a law, and what the contact laws make of it.
+//!
+//! Each touching pair is computed once, in blocks of grains (`blocks`) and several pairs side by side (`batch`). Loads and rates
+//! have the same bits for any number of threads and lanes, whatever the list has besides the pairs that touch. Memory of
+//! contacts (tangential springs) is committed only when a step is accepted, so a step can be tried again.
+
+mod batch;
+mod blocks;
+mod energy;
+mod memory;
+mod record;
+mod touch;
+mod world;
+
+pub use energy::{ContactEnergy, contact_energy, contact_pace};
+pub use memory::Remembered;
+pub use world::{ContactRates, ContactWorld};
+
+use std::ops::Range;
+
+use super::ContactLaws;
+use super::friction::TangentialSpring;
+use crate::math::lanes::{Work, widest};
+use crate::math::{Vec3, parallel};
+use crate::neighbors::PairList;
+use batch::{Given, Touching, Written, find_touching};
+use blocks::{Blocks, Slot, grains_of};
+use memory::{Memory, SLIDES, TOUCHES};
+use record::Record;
+
+/// Loads and memory of all candidate pairs.
+#[derive(Debug, Default)]
+pub struct Contacts {
+    blocks: Blocks,
+    slots: Vec<Slot>,
+    records: Vec<Record>,
+    /// Room for the numbers of touching pairs.
+    active: Vec<u32>,
+    committed: Memory,
+    trial: Memory,
+    /// Committed contacts of pairs that the list left out because a try, not yet accepted, has parted them.
+    parted: Vec<Remembered>,
+}
+
+/// What a pass writes, cut between blocks.
+struct Room<'a> {
+    slots: &'a mut [Slot],
+    states: &'a mut [u8],
+    springs: &'a mut [[f64; 4]],
+    active: &'a mut [u32],
+    starts: &'a [u32],
+    blocks: &'a Blocks,
+}
+
+impl parallel::Split for Room<'_> {
+    fn split(self, range: &Range<usize>, at: usize) -> (Self, Self) {
+        let Self { starts, blocks, .. } = self;
+        let first_pair = |block: usize| starts[grains_of(block, starts.len() - 1).start] as usize;
+        let pairs = first_pair(at) - first_pair(range.start);
+        let (slots, slots_after) = self.slots.split_at_mut(blocks.slots_of(range.start..at).len());
+        let (states, states_after) = self.states.split_at_mut(pairs);
+        let (springs, springs_after) = self.springs.split_at_mut(pairs.min(self.springs.len()));
+        let (active, active_after) = self.active.split_at_mut(pairs);
+        let after = (slots_after, states_after, springs_after, active_after);
+        (
+            Self { slots, states, springs, active, starts, blocks },
+            Self { slots: after.0, states: after.1, springs: after.2, active: after.3, starts, blocks },
+        )
+    }
+}
+
+impl Contacts {
+    /// Makes room for the pairs of a new list over `n` grains and puts the remembered contacts in their new places.
+    pub fn relist(
+        &mut self,
+        list: &PairList,
+        n: usize,
+        remembered: &[Remembered],
+        laws: Option<&ContactLaws>,
+    ) {
+        let with_springs = laws.is_some_and(ContactLaws::has_memory);
+        self.blocks.relist(list, n);
+        self.slots.resize(self.blocks.len(), Slot::default());
+        self.records.resize(n, Record::default());
+        self.active.resize(list.len(), 0);
+        self.committed.resize(list.len(), with_springs);
+        self.trial.resize(list.len(), with_springs);
+        self.parted.clear();
+        for (a, b, spring) in remembered {
+            let mirrored = TangentialSpring { force: -spring.force, ..*spring };
+            let place = list.find(*a, *b).map(|pair| (pair, *spring));
+            if let Some((pair, spring)) = place.or_else(|| list.find(*b, *a).map(|pair| (pair, mirrored))) {
+                self.committed.put(pair, &spring);
+            } else {
+                self.parted.push((*a, *b, *spring));
+            }
+        }
+    }
+
+    /// The committed contacts with their memory.
+    pub fn remembered(&self, list: &PairList) -> Vec<Remembered> {
+        self.committed.touching(list).chain(self.parted.iter().copied()).collect()
+    }
+
+    /// Keeps the memory of the last pass.
+    pub fn commit(&mut self) {
+        std::mem::swap(&mut self.committed, &mut self.trial);
+        self.parted.clear();
+    }
+
+    /// Keeps the memory of a pass over which no time went by: contacts that slid before still slide, though nothing moved.
+    pub fn commit_unmoved(&mut self) {
+        for (state, before) in self.trial.states.iter_mut().zip(&self.committed.states) {
+            if *state & *before & TOUCHES != 0 {
+                *state |= before & SLIDES;
+            }
+        }
+        self.commit();
+    }
+
+    /// Force [N] and torque [N m] of all contacts on a grain in the last pass.
+    #[inline]
+    pub fn load_on(&self, grain: usize) -> (Vec3, Vec3) {
+        self.blocks.load_on(grain, &self.slots)
+    }
+
+    /// Energy [J] of the committed tangential springs.
+    pub fn spring_energy(&self) -> f64 {
+        let pairs = 0..self.committed.springs.len();
+        pairs.filter_map(|pair| self.committed.of(pair)).map(|spring| spring.energy()).fold(0.0, |a, b| a + b)
+    }
+
+    /// Computes the loads of all touching pairs.
+    pub fn compute(&mut self, world: &ContactWorld<'_>) -> ContactRates {
+        // A formula has no lanes.
+        let is_one_by_one = world.laws.is_some_and(|laws| laws.custom.is_some());
+        self.compute_as(world, is_one_by_one)
+    }
+
+    fn compute_as(&mut self, world: &ContactWorld<'_>, is_one_by_one: bool) -> ContactRates {
+        let Self { blocks, slots, records, active, committed, trial, .. } = self;
+        record::write_down(world, records);
+        let (blocks, records, committed) = (&*blocks, &**records, &*committed);
+        if records.is_empty() {
+            return ContactRates::default();
+        }
+        let starts = world.list.starts();
+        let room =
+            Room { slots, states: &mut trial.states, springs: &mut trial.springs, active, starts, blocks };
+        let work = |block: usize, room: Room<'_>| {
+            let grains = grains_of(block, records.len());
+            let first = [grains.start, starts[grains.start] as usize];
+            let targets = &blocks.targets()[first[1]..starts[grains.end] as usize];
+            let given = Given { world, records, committed, targets, first };
+            let Room { slots, states, springs, active, .. } = room;
+            let mut written = Written { slots, states, springs, active };
+            written.slots.fill(Slot::default());
+            let count = find_touching(&given, grains, &mut written);
+            let touching = Touching { given, written: &mut written, count };
+            if is_one_by_one { touching.with::<f64>() } else { widest(touching) }
+        };
+        let leaf = |block: Range<usize>, room: Room<'_>| work(block.start, room);
+        parallel::over(0..blocks.count(), 1, room, &leaf, &ContactRates::join)
+    }
+}
+
+#[cfg(test)]
+mod tests;
