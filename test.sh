@@ -153,7 +153,7 @@ run cargo test --locked --workspace --lib --bins --tests --examples
 run cargo test --locked --workspace --doc
 check_features
 # Fuzzers are not run here; their targets compile.
-run cargo check --locked --manifest-path fuzz/Cargo.toml --no-default-features --bins --examples --target-dir target/fuzz
+run cargo check --locked --manifest-path fuzz/Cargo.toml --no-default-features --bins --examples --target-dir target
 install_package
 run "$venv/bin/python" -m pytest -q tests/python
 run "$venv/bin/python" -m mypy --strict crates/agglo-py/python/agglo
