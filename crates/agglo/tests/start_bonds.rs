@@ -125,6 +125,24 @@ fn a_table_of_bonds_needs_a_law_that_holds_them() {
     assert_contains!(error, "start.bonds: cannot open \"bonds.csv\"");
 }
 
+/// A state with ids that are not 0, 1, 2 ... is one to go on from, to the same bits.
+fn goes_on_after_a_save(scenario: &Scenario, mut simulation: Simulation) {
+    let state = serde_json::to_string(&simulation.state()).unwrap();
+    let mut again = Simulation::resume(scenario, serde_json::from_str(&state).unwrap()).unwrap();
+    for one in [&mut simulation, &mut again] {
+        (0..20).for_each(|_| one.step().unwrap());
+    }
+    assert_eq!(again.system.grains.id, simulation.system.grains.id);
+    assert_eq!(again.system.grains.position, simulation.system.grains.position);
+    let mut forged: serde_json::Value = serde_json::from_str(&state).unwrap();
+    let twice = forged["grains"]["id"][7].clone();
+    forged["grains"]["id"][3] = twice.clone();
+    let forged = serde_json::to_string(&forged).unwrap();
+    let refused =
+        Simulation::resume(scenario, serde_json::from_str(&forged).unwrap()).unwrap_err().to_string();
+    assert_contains!(refused, &format!("two have the id {twice}"));
+}
+
 /// Grains of a table with ids of its own, out of their order: they, their bonds and their rest before the start are those of grains
 /// that are numbered as they come.
 #[test]
@@ -161,6 +179,7 @@ fn ids_of_a_table_are_kept() {
         assert_eq!(own.system.network.made_at_start(), bonds.len());
         assert_all!(own.system.network.bonds().iter(), |bond| bond.ids[0] < bond.ids[1]
             && bond.ids[0] >= name(11));
+        goes_on_after_a_save(&scenario, own);
     }
     fs::write(folder.path().join("grains.csv"), "id,x_m,y_m,z_m\n4,0,0,0\n4,1,0,0\n").unwrap();
     let scenario = Scenario::from_toml(&text).unwrap();

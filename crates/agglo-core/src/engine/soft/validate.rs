@@ -4,7 +4,7 @@ use super::settings::Settings;
 use super::simulation::SimulationState;
 use crate::contact::network::Bond;
 use crate::engine::validate::{Fault, MOST_COUNTED, ensure, finite, finite_vectors, length};
-use crate::particles::Particles;
+use crate::particles::{Particles, Places};
 
 impl SimulationState<'_> {
     /// # Errors
@@ -47,11 +47,9 @@ fn validate_grains(grains: &Particles, settings: &Settings) -> Result<(), Fault>
     let n = grains.len();
     ensure(n > 0, || "there are no grains".to_owned())?;
     grains.validate()?;
-    let mut names = grains.id.clone();
-    names.sort_unstable();
-    ensure(names.iter().zip(0_u32..).all(|(name, due)| *name == due), || {
-        "grains: ids are not 0, 1, 2 ...".to_owned()
-    })?;
+    if let Some(id) = Places::of(&grains.id).twice() {
+        return Err(format!("grains: two have the id {id}"));
+    }
     let materials = settings.materials.len();
     let holds = grains.material.iter().all(|number| (*number as usize) < materials);
     ensure(holds, || format!("grains: there are {materials} materials"))
