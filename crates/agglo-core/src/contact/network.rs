@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::bond::{Beam, BeamLoad, BeamPair, BeamState, Break};
 use super::closeness::are_close;
 use super::lever_arms;
-use crate::math::{Pace, Vec3, parallel};
+use crate::math::{Groups, Pace, Vec3, parallel};
 use crate::neighbors::PairList;
 use crate::particles::{Motion, Particles};
 
@@ -48,9 +48,8 @@ pub struct Network {
     law: Option<Beam>,
     bonds: Vec<Bond>,
     trial: Vec<(BeamState, BeamLoad)>,
-    /// Bonds of grain k, as 2 * bond + side: `entries[starts[k]..starts[k + 1]]`.
-    starts: Vec<u32>,
-    entries: Vec<u32>,
+    /// Bonds by their grains, as 2 * bond + side.
+    entries: Groups,
     made_at_start: usize,
 }
 
@@ -117,29 +116,11 @@ impl Network {
     fn settle(&mut self, grains: usize) {
         self.bonds.sort_unstable_by_key(|bond| bond.ids);
         self.trial = self.bonds.iter().map(|bond| (bond.state, BeamLoad::default())).collect();
-        self.starts.clear();
-        self.starts.resize(grains + 1, 0);
-        let ends = || {
-            self.bonds.iter().enumerate().flat_map(|(at, bond)| {
-                bond.grains
-                    .into_iter()
-                    .zip(0..)
-                    .map(move |(grain, side)| (grain as usize, 2 * at as u32 + side))
-            })
-        };
-        for (grain, _) in ends() {
-            self.starts[grain + 1] += 1;
-        }
-        for grain in 0..grains {
-            self.starts[grain + 1] += self.starts[grain];
-        }
-        let mut place = self.starts.clone();
-        let mut entries = vec![0; 2 * self.bonds.len()];
-        for (grain, entry) in ends() {
-            entries[place[grain] as usize] = entry;
-            place[grain] += 1;
-        }
-        self.entries = entries;
+        let ends = self.bonds.iter().zip((0..).step_by(2)).flat_map(|(bond, entry)| {
+            let [i, j] = bond.grains;
+            [(i, entry), (j, entry + 1)]
+        });
+        self.entries.fill(grains, ends);
     }
 
     /// Computes all bonds' loads at the end of a step of `dt` [s]; returns the power lost in their dashpots [W].
@@ -169,7 +150,7 @@ impl Network {
         if self.bonds.is_empty() {
             return;
         }
-        for &entry in &self.entries[self.starts[grain] as usize..self.starts[grain + 1] as usize] {
+        for &entry in self.entries.of(grain) {
             let load = &self.trial[entry as usize / 2].1;
             if entry % 2 == 0 {
                 *force += load.force;
@@ -243,7 +224,7 @@ impl Network {
     /// How fast the fastest grain is on its bonds, each taken as often as its grain has bonds.
     pub fn pace(&self, grains: &Particles) -> Pace {
         let Some(law) = &self.law else { return Pace::NONE };
-        let count = |grain: u32| self.starts[grain as usize + 1] - self.starts[grain as usize];
+        let count = |grain: u32| self.entries.of(grain as usize).len() as u32;
         let paces = self.bonds.iter().map(|bond| {
             let places = bond.grains.map(|grain| grain as usize);
             let sum = grains.radius[places[0]] + grains.radius[places[1]];

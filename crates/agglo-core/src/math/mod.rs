@@ -1,6 +1,7 @@
 //! Vectors, random numbers, roots and statistics. No physics.
 
 pub mod formula;
+mod groups;
 pub mod lanes;
 mod pace;
 pub mod parallel;
@@ -12,6 +13,7 @@ pub mod roots;
 mod sum;
 mod vector;
 
+pub use groups::Groups;
 pub use pace::Pace;
 pub use real::Real;
 pub use sum::{Sum, rounding_of_sum};

@@ -9,7 +9,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::cells::{CellIndex, Sorted, Span};
-use crate::math::{Vec3, parallel};
+use crate::math::{Groups, Vec3, parallel};
 
 /// Grains per task of the search.
 const CHUNK: usize = 1024;
@@ -23,9 +23,8 @@ pub struct PairList {
     starts: Vec<u32>,
     partners: Vec<u32>,
     owners: Vec<u32>,
-    /// Pairs in which grain k is the partner: `back[back_starts[k]..back_starts[k + 1]]`.
-    back_starts: Vec<u32>,
-    back: Vec<u32>,
+    /// Pairs by their partners.
+    back: Groups,
     reference: Vec<Vec3>,
     skin: f64,
 }
@@ -69,28 +68,9 @@ impl PairList {
         for owner in 0..n {
             self.owners.resize(self.starts[owner + 1] as usize, owner as u32);
         }
-        self.link_back(n);
+        self.back.fill(n, self.partners.iter().copied().zip(0..));
         self.reference.clear();
         self.reference.extend_from_slice(positions);
-    }
-
-    fn link_back(&mut self, n: usize) {
-        self.back_starts.clear();
-        self.back_starts.resize(n + 2, 0);
-        for &partner in &self.partners {
-            self.back_starts[partner as usize + 2] += 1;
-        }
-        for k in 1..n + 2 {
-            self.back_starts[k] += self.back_starts[k - 1];
-        }
-        self.back.clear();
-        self.back.resize(self.partners.len(), 0);
-        for (pair, &partner) in self.partners.iter().enumerate() {
-            let place = &mut self.back_starts[partner as usize + 1];
-            self.back[*place as usize] = pair as u32;
-            *place += 1;
-        }
-        self.back_starts.pop();
     }
 
     /// Whether the list still has every pair within its reach.
@@ -145,7 +125,7 @@ impl PairList {
     /// The pairs in which a grain is the partner.
     #[inline]
     pub fn joined(&self, grain: usize) -> &[u32] {
-        &self.back[self.back_starts[grain] as usize..self.back_starts[grain + 1] as usize]
+        self.back.of(grain)
     }
 
     /// The number of the pair with this owner and partner.

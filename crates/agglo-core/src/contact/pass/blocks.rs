@@ -10,7 +10,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use crate::math::Vec3;
+use crate::math::{Groups, Vec3};
 use crate::neighbors::PairList;
 
 /// Grains per block.
@@ -31,9 +31,8 @@ pub(super) struct Blocks {
     first: Vec<u32>,
     /// Slot of each pair's partner, counted from the first of its block.
     targets: Vec<u32>,
-    /// Slots in other blocks that grain k hears: `heard[heard_starts[k]..heard_starts[k + 1]]`, by rising block.
-    heard_starts: Vec<u32>,
-    heard: Vec<u32>,
+    /// Slots in other blocks that each grain hears, by rising block.
+    heard: Groups,
     /// Partners from other blocks, in rising order, of each block.
     ghosts: Vec<Vec<u32>>,
 }
@@ -71,28 +70,14 @@ impl Blocks {
     fn count_slots(&mut self, n: usize) {
         self.first.clear();
         self.first.push(0);
-        self.heard_starts.clear();
-        self.heard_starts.resize(n + 2, 0);
         for (block, ghosts) in self.ghosts.iter().enumerate() {
             self.first.push(self.first[block] + (grains_of(block, n).len() + ghosts.len()) as u32);
-            for &ghost in ghosts {
-                self.heard_starts[ghost as usize + 2] += 1;
-            }
         }
-        for k in 1..n + 2 {
-            self.heard_starts[k] += self.heard_starts[k - 1];
-        }
-        self.heard.clear();
-        self.heard.resize(self.heard_starts[n + 1] as usize, 0);
-        for (block, ghosts) in self.ghosts.iter().enumerate() {
-            let first = self.first[block] + grains_of(block, n).len() as u32;
-            for (slot, &ghost) in (first..).zip(ghosts) {
-                let place = &mut self.heard_starts[ghost as usize + 1];
-                self.heard[*place as usize] = slot;
-                *place += 1;
-            }
-        }
-        self.heard_starts.pop();
+        let heard = self.ghosts.iter().zip(&self.first[1..]).flat_map(|(ghosts, &end)| {
+            let slots = end - ghosts.len() as u32..end;
+            ghosts.iter().copied().zip(slots)
+        });
+        self.heard.fill(n, heard);
     }
 
     /// How many slots there are.
@@ -120,8 +105,7 @@ impl Blocks {
     pub fn load_on(&self, grain: usize, slots: &[Slot]) -> (Vec3, Vec3) {
         let own = slots[self.first[grain / BLOCK] as usize + grain % BLOCK];
         let (mut force, mut torque) = (own.force, own.torque);
-        let heard = self.heard_starts[grain] as usize..self.heard_starts[grain + 1] as usize;
-        for &slot in &self.heard[heard] {
+        for &slot in self.heard.of(grain) {
             let ghost = &slots[slot as usize];
             force.iter_mut().zip(ghost.force).for_each(|(sum, part)| *sum += part);
             torque.iter_mut().zip(ghost.torque).for_each(|(sum, part)| *sum += part);
