@@ -1,7 +1,7 @@
 //! Columns of grains as arrays of NumPy.
 
 use agglo::math::Vec3;
-use agglo::particles::{ColumnValues, Particles};
+use agglo::particles::{ById, ColumnValues, Particles};
 use agglo::record::frames::name_with_unit;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
@@ -10,8 +10,7 @@ use pyo3::types::PyDict;
 
 /// All columns of grains by their names with units, as copies in the order of their ids.
 pub(crate) fn columns<'py>(py: Python<'py>, grains: &Particles) -> PyResult<Bound<'py, PyDict>> {
-    let mut order: Vec<u32> = (0..grains.len() as u32).collect();
-    order.sort_by_key(|&at| grains.id[at as usize]);
+    let order: Vec<u32> = ById::of(&grains.id).places().collect();
     let table = PyDict::new(py);
     for (column, values) in grains.columns() {
         let name = name_with_unit(column.name, column.unit);

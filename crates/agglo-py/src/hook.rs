@@ -5,6 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use agglo::engine::soft::{Hook, LoadViews, Scene};
 use agglo::math::{Pace, Vec3};
+use agglo::particles::ById;
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 
@@ -79,7 +80,7 @@ pub(crate) struct Callback {
 /// What is kept from one question to the next.
 #[derive(Default)]
 struct Desk {
-    places: Places,
+    order: Order,
     positions: Vectors,
     velocities: Vectors,
     angular_velocities: Vectors,
@@ -87,19 +88,18 @@ struct Desk {
 
 /// Where grains are in memory, in the order of their ids. They change places seldom.
 #[derive(Default)]
-struct Places {
+struct Order {
     ids: Vec<u32>,
-    order: Vec<u32>,
+    places: Vec<u32>,
 }
 
-impl Places {
+impl Order {
     fn of(&mut self, ids: &[u32]) -> &[u32] {
         if self.ids != ids {
             ids.clone_into(&mut self.ids);
-            self.order = (0..ids.len() as u32).collect();
-            self.order.sort_by_key(|&at| ids[at as usize]);
+            self.places = ById::of(ids).places().collect();
         }
-        &self.order
+        &self.places
     }
 }
 
@@ -120,8 +120,8 @@ impl Callback {
 
     fn ask(&self, py: Python<'_>, now: &Scene<'_>, loads: &mut LoadViews<'_>) -> PyResult<()> {
         let mut desk = self.desk.lock().unwrap_or_else(PoisonError::into_inner);
-        let Desk { places, positions, velocities, angular_velocities } = &mut *desk;
-        let order = places.of(&now.grains.id);
+        let Desk { order, positions, velocities, angular_velocities } = &mut *desk;
+        let order = order.of(&now.grains.id);
         let arguments = (
             now.time,
             positions.filled(py, now.motion.position, order)?,

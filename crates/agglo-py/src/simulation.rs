@@ -8,6 +8,7 @@ use agglo::acoustics::PulseCount;
 use agglo::engine::{Measures, SimError, Simulation as Engine, hard, soft};
 use agglo::ledger::Balance;
 use agglo::math::Vec3;
+use agglo::particles::ById;
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -285,14 +286,12 @@ impl Simulation {
         }
         let mut kind = self.lock(py)?;
         let Kind::Soft(simulation) = &mut *kind else { return Err(for_soft("kick")) };
-        let mut places = std::collections::BTreeMap::new();
-        places.extend(simulation.system.grains.id.iter().enumerate().map(|(at, id)| (*id, at)));
-        let unknown = ids.iter().find(|id| !places.contains_key(id));
-        if let Some(id) = unknown {
-            return Err(InputError::new_err(format!("there is no grain {id}")));
-        }
-        for (id, impulse) in ids.iter().zip(impulses.rows()) {
-            simulation.kick(places[id], Vec3::new(impulse[0], impulse[1], impulse[2]));
+        let all = ById::of(&simulation.system.grains.id);
+        let place =
+            |id: &u32| all.find(*id).ok_or_else(|| InputError::new_err(format!("there is no grain {id}")));
+        let places = ids.iter().map(place).collect::<PyResult<Vec<usize>>>()?;
+        for (place, impulse) in places.into_iter().zip(impulses.rows()) {
+            simulation.kick(place, Vec3::new(impulse[0], impulse[1], impulse[2]));
         }
         Ok(())
     }

@@ -11,7 +11,7 @@ use super::{GrainGroup, GrainList, Groups, Placement, SphereKind, TableGrain, la
 use crate::domain::{Boundary, Volume, resolution};
 use crate::math::Vec3;
 use crate::math::rng::{Purpose, Stream};
-use crate::particles::{Material, Particles, Places, Row};
+use crate::particles::{ById, Material, Particles, Row};
 use crate::units::vector;
 
 /// Places all groups in their order; grains get the ids 0, 1, 2 ... in the order in which they are
@@ -94,7 +94,7 @@ pub fn place_all<'a>(
             placed.grains.push(Row { id, material: material as u32, ..row });
         }
     }
-    if let Some(id) = Places::of(&placed.grains.id).twice() {
+    if let Some(id) = ById::of(&placed.grains.id).twice() {
         return Err(PackingError::SameId { id });
     }
     make_ready(asked, &mut placed.grains, false)?;

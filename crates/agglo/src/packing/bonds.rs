@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::table::{TableError, entries, lines};
-use crate::particles::Places;
+use crate::particles::ById;
 use crate::record::door;
 use crate::text::cell;
 
@@ -16,12 +16,12 @@ const COLUMNS: [&str; 2] = ["grain_i", "grain_j"];
 ///
 /// # Errors
 /// [`TableError::Unreadable`] or [`TableError::Table`] with line and column.
-pub(crate) fn pairs(file: &Path, grains: &Places) -> Result<Vec<[u32; 2]>, TableError> {
+pub(crate) fn pairs(file: &Path, grains: &ById) -> Result<Vec<[u32; 2]>, TableError> {
     let unreadable = |source| TableError::Unreadable { file: file.to_owned(), source };
     parse(&door::read_text(file, door::MOST_OF_A_TABLE).map_err(unreadable)?, file, grains)
 }
 
-fn parse(text: &str, file: &Path, grains: &Places) -> Result<Vec<[u32; 2]>, TableError> {
+fn parse(text: &str, file: &Path, grains: &ById) -> Result<Vec<[u32; 2]>, TableError> {
     let fault = |line, column: &str, reason| {
         let (file, column) = (file.to_owned(), column.to_owned());
         Err(TableError::Table { file, line, column, reason })
@@ -76,7 +76,7 @@ mod tests {
     use super::*;
 
     fn parse_text(text: &str) -> Result<Vec<[u32; 2]>, String> {
-        parse(text, Path::new("bonds.csv"), &Places::of(&[0, 1, 2, 3, 40])).map_err(|error| error.to_string())
+        parse(text, Path::new("bonds.csv"), &ById::of(&[0, 1, 2, 3, 40])).map_err(|error| error.to_string())
     }
 
     #[test]

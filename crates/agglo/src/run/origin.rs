@@ -15,7 +15,7 @@ use crate::packing::{
     ConstantSize, GrainGroup, Groups, PackingError, PlaceWatch, Placed, Placement, Size, StartError, Table,
     UniformSize, make_ready, pairs, place_all,
 };
-use crate::particles::{Material, Particles, Places};
+use crate::particles::{ById, Material, Particles};
 use crate::record::checkpoint;
 use crate::scenario::Scenario;
 use crate::text::readable;
@@ -42,7 +42,7 @@ pub(crate) struct Earlier {
 }
 
 impl Origin {
-    /// Places the grains of a scenario, or takes them out of the run that it names; `base` is the folder that its paths are
+    /// ById the grains of a scenario, or takes them out of the run that it names; `base` is the folder that its paths are
     /// relative to. `watch` may stop it.
     ///
     /// # Errors
@@ -80,7 +80,7 @@ fn bonded(scenario: &Scenario, grains: &Particles, base: &Path) -> Result<Option
     let soft = scenario.soft();
     let law = soft.and_then(|soft| soft.bonds.as_ref()).and_then(Bonds::lasting);
     let Some((file, law)) = soft.and_then(|soft| soft.bonded.as_ref()).zip(law) else { return Ok(None) };
-    let pairs = pairs(&base.join(file), &Places::of(&grains.id)).map_err(StartError::Bonds)?;
+    let pairs = pairs(&base.join(file), &ById::of(&grains.id)).map_err(StartError::Bonds)?;
     Ok(Some(bonds_between(law, grains, &pairs)))
 }
 

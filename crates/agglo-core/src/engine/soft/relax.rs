@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use crate::engine::{SimError, Start};
 use crate::math::Vec3;
-use crate::particles::Places;
+use crate::particles::ById;
 
 use super::forces::truncation;
 use super::settings::{Relaxation, Settings};
@@ -91,7 +91,7 @@ fn rested(
     // What is damped away is in no ledger.
     (quiet.limits.drift_warning, quiet.limits.drift_error) = (f64::INFINITY, f64::INFINITY);
     let still = &mut start.grains;
-    let (places, motions) = (Places::of(&still.id), (still.velocity.clone(), still.angular_velocity.clone()));
+    let (places, motions) = (ById::of(&still.id), (still.velocity.clone(), still.angular_velocity.clone()));
     still.velocity.fill(Vec3::ZERO);
     still.angular_velocity.fill(Vec3::ZERO);
     let mut simulation = Simulation::with(&quiet, start);

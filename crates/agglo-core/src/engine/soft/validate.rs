@@ -4,7 +4,7 @@ use super::settings::Settings;
 use super::simulation::SimulationState;
 use crate::contact::network::Bond;
 use crate::engine::validate::{Fault, MOST_COUNTED, ensure, finite, finite_vectors, length};
-use crate::particles::{Particles, Places};
+use crate::particles::{ById, Particles};
 
 impl SimulationState<'_> {
     /// # Errors
@@ -47,7 +47,7 @@ fn validate_grains(grains: &Particles, settings: &Settings) -> Result<(), Fault>
     let n = grains.len();
     ensure(n > 0, || "there are no grains".to_owned())?;
     grains.validate()?;
-    if let Some(id) = Places::of(&grains.id).twice() {
+    if let Some(id) = ById::of(&grains.id).twice() {
         return Err(format!("grains: two have the id {id}"));
     }
     let materials = settings.materials.len();

@@ -16,7 +16,7 @@ use std::path::Path;
 use super::RecordError;
 use crate::folder::Mark;
 use crate::math::Vec3;
-use crate::particles::{ColumnValues, Particles};
+use crate::particles::{ById, ColumnValues, Particles};
 
 /// Name of a column with its unit as it stands in files: (`velocity`, `m/s`) gives `velocity_m_s`.
 pub fn name_with_unit(name: &str, unit: &str) -> String {
@@ -44,7 +44,7 @@ pub fn write_grains(
     grains: &Particles,
     extra: &[Field<'_>],
 ) -> Result<Mark, RecordError> {
-    let order = by_name(grains);
+    let order: Vec<u32> = ById::of(&grains.id).places().collect();
     let columns = grains.columns().into_iter().filter(|(column, _)| column.name != "position");
     let fields = columns.map(|(column, values)| Field::new(name_with_unit(column.name, column.unit), values));
     let frame = PolyData {
@@ -73,7 +73,7 @@ pub fn write_bonds(
     pairs: &[[u32; 2]],
     fields: &[Field<'_>],
 ) -> Result<Mark, RecordError> {
-    let order = by_name(grains);
+    let order: Vec<u32> = ById::of(&grains.id).places().collect();
     let mut place = vec![0_u32; order.len()];
     (0..).zip(&order).for_each(|(to, &from)| place[from as usize] = to);
     let named = pairs.iter().flatten().max().map_or(0, |&end| end as usize + 1);
@@ -102,13 +102,6 @@ pub fn write_bonds(
         cell_fields: names.into_iter().chain(fields.iter().cloned()).collect(),
     };
     frame.write(path)
-}
-
-/// Places of the grains in memory, in the order of their names.
-fn by_name(grains: &Particles) -> Vec<u32> {
-    let mut order: Vec<u32> = (0..grains.len() as u32).collect();
-    order.sort_unstable_by_key(|&at| grains.id[at as usize]);
-    order
 }
 
 /// Writes rays in flight at `time` [s]: where they are [m] `[n, 3]`, where they go (unit vectors) `[n, 3]`, and the

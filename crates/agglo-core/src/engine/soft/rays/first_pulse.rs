@@ -5,7 +5,7 @@ use crate::acoustics::PulseCount;
 use crate::domain::extent;
 use crate::engine::{Moment, Warnings};
 use crate::math::Vec3;
-use crate::particles::{Particles, Places};
+use crate::particles::{ById, Particles};
 use crate::units::Quantity;
 
 use crate::engine::soft::settings::Settings;
@@ -33,7 +33,7 @@ impl FirstPulse {
     /// The first pulse of beam number `beam` with no more rays than
     /// `most_rays`: fewer rays of the same beam carry more power each.
     pub fn of(settings: &Settings, grains: &Particles, beam: usize, most_rays: u32) -> Self {
-        let (count, places) = (grains.len(), Places::of(&grains.id));
+        let (count, places) = (grains.len(), ById::of(&grains.id));
         let mut simulation = Simulation::with(&alone(settings, beam, most_rays), grains.clone().into());
         let part = widest_way(&simulation.system.grains) / PARTS_OF_THE_WAY;
         let dt = part / settings.medium.sound_speed.si();
