@@ -271,8 +271,10 @@ def test_progress_may_stop_a_run_which_goes_on_later(tmp_path):
     assert run.summary["clusters"] == whole["clusters"] and run.summary["energy"] == whole["energy"]
 
 
+# What a shell starts in the background ignores the signal, and so would its children.
 CTRL_C = """
-import agglo, sys
+import agglo, signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)
 scenario = agglo.Scenario.template("acoustic", {"time.end": "100 s"})
 simulation = agglo.Simulation(scenario)
 print("ready", flush=True)

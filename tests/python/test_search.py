@@ -313,8 +313,10 @@ def interrupted(progress):
     raise KeyboardInterrupt
 
 
+# What a shell starts in the background ignores the signal, and so would its children.
 CTRL_C = """
-import agglo, sys
+import agglo, signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)
 campaign = agglo.Campaign.template("search")
 print("ready", flush=True)
 try:
