@@ -102,14 +102,11 @@ impl ContactLaws {
             }
         }
         if let Some(law) = &self.custom {
-            let at = |lane| (pair.lane(lane), geometry.lane(lane));
-            let of_pair = |of: &dyn Fn(&PairConstants, &ContactGeometry) -> f64| {
-                F::from_lanes(|lane| of(&at(lane).0, &at(lane).1))
-            };
-            elastic.force = elastic.force + of_pair(&|pair, geometry| law.force(pair, geometry, 0.0));
+            let force = F::from_lanes(|lane| law.force(&pair.lane(lane), &geometry.lane(lane), 0.0));
+            elastic.force = elastic.force + force;
             if with_stiffness {
-                elastic.stiffness =
-                    elastic.stiffness + of_pair(&|pair, geometry| law.slopes(pair, geometry, 0.0)[0]);
+                let slope = F::from_lanes(|lane| law.slopes(&pair.lane(lane), &geometry.lane(lane), 0.0)[0]);
+                elastic.stiffness = elastic.stiffness + slope;
                 elastic.exponent = local_exponent(&elastic, geometry.overlap);
             }
         }

@@ -5,6 +5,9 @@ use crate::math::Real;
 use crate::particles::Mixture;
 
 /// What a dashpot along the line of centers can do.
+///
+/// What takes an `F` is worked out for one contact or for several side by side: a choice is a selection, and all of it is
+/// `#[inline(always)]`, as what is not inlined is built for the plainest processor.
 pub trait DampingLaw: Law {
     /// Whether the coefficient takes the stiffness of the elastic law.
     const TAKES_STIFFNESS: bool;

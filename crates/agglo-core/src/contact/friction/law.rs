@@ -28,6 +28,9 @@ pub struct Sliding<F = f64> {
 }
 
 /// What a law of friction can do.
+///
+/// What takes an `F` is worked out for one contact or for several side by side: a choice is a selection, and all of it is
+/// `#[inline(always)]`, as what is not inlined is built for the plainest processor.
 pub trait FrictionLaw: Law {
     /// What a contact remembers from step to step; `()` for nothing.
     type Memory<F: Real>: Memory<F>;

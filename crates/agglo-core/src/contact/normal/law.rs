@@ -5,6 +5,9 @@ use crate::math::{Pace, Real};
 use crate::particles::Material;
 
 /// What an elastic law along the line of centers can do.
+///
+/// What takes an `F` is worked out for one contact or for several side by side: a choice is a selection, and all of it is
+/// `#[inline(always)]`, as what is not inlined is built for the plainest processor.
 pub trait NormalLaw: Law {
     /// Repulsion [N].
     fn force<F: Real>(&self, pair: &PairConstants<F>, geometry: &ContactGeometry<F>) -> F;

@@ -1,5 +1,7 @@
 //! What the laws make of the touching pairs of one block, several at a time.
 
+use std::ops::Range;
+
 use super::blocks::Slot;
 use super::memory::{Memory, SLIDES, TOUCHES};
 use super::record::Record;
@@ -8,7 +10,7 @@ use super::world::{ContactRates, ContactWorld};
 use crate::contact::friction::{Sliding, TangentialSpring};
 use crate::contact::{Along, PairConstants};
 use crate::math::lanes::{Lanes, WIDEST, Work};
-use crate::math::{Real, Vector};
+use crate::math::{Real, Vector, prefetch};
 
 /// How many pairs ahead the memory of a grain is asked for.
 const AHEAD: usize = 16;
@@ -32,6 +34,20 @@ pub(super) struct Written<'a> {
     pub springs: &'a mut [[f64; 4]],
     /// Room for the numbers of the pairs that touch, counted from the block's first.
     pub active: &'a mut [u32],
+}
+
+impl Written<'_> {
+    /// Cuts it after so many slots and pairs.
+    pub fn split_at(self, slots: usize, pairs: usize) -> (Self, Self) {
+        let (slots, slots_after) = self.slots.split_at_mut(slots);
+        let (states, states_after) = self.states.split_at_mut(pairs);
+        // Laws without a memory have no springs.
+        let (springs, springs_after) = self.springs.split_at_mut(pairs.min(self.springs.len()));
+        let (active, active_after) = self.active.split_at_mut(pairs);
+        let after =
+            Self { slots: slots_after, states: states_after, springs: springs_after, active: active_after };
+        (Self { slots, states, springs, active }, after)
+    }
 }
 
 /// Sums over contacts, kept in as many parts as there are lanes at most, so that they do not depend on how many there are.
@@ -67,11 +83,7 @@ impl<F: Lanes> Sums<F> {
 }
 
 /// Finds the pairs of a block that touch, without a branch on it, and puts their numbers first.
-pub(super) fn find_touching(
-    given: &Given<'_>,
-    grains: std::ops::Range<usize>,
-    written: &mut Written<'_>,
-) -> usize {
+pub(super) fn find_touching(given: &Given<'_>, grains: Range<usize>, written: &mut Written<'_>) -> usize {
     let (list, beyond) = (given.world.list, given.world.beyond());
     let partners = list.partners();
     let mut count = 0;
@@ -79,7 +91,7 @@ pub(super) fn find_touching(
         let [x, y, z, radius] = given.records[owner].place;
         for pair in list.owned(owner) {
             if let Some(&ahead) = partners.get(pair + AHEAD) {
-                crate::math::prefetch(given.records, ahead as usize);
+                prefetch(given.records, ahead as usize);
             }
             let [other_x, other_y, other_z, other_radius] = given.records[partners[pair] as usize].place;
             let apart = Vector::new(other_x - x, other_y - y, other_z - z);
@@ -109,15 +121,9 @@ impl Work for Touching<'_, '_> {
         let Self { given, written, count } = self;
         let whole = count / F::COUNT * F::COUNT;
         let mut sums = Sums::<F>::none();
-        if let Some(constants) = given.world.pairs.only() {
-            let constants = PairConstants::of(constants);
-            for first in (0..whole).step_by(F::COUNT) {
-                contacts(&given, written, first, Some(&constants), &mut sums);
-            }
-        } else {
-            for first in (0..whole).step_by(F::COUNT) {
-                contacts(&given, written, first, None, &mut sums);
-            }
+        let constants = given.world.pairs.only().map(PairConstants::of);
+        for first in (0..whole).step_by(F::COUNT) {
+            contacts(&given, written, first, constants.as_ref(), &mut sums);
         }
         let mut sums = sums.unfolded();
         for at in whole..count {

@@ -44,28 +44,18 @@ pub struct Contacts {
 
 /// What a pass writes, cut between blocks.
 struct Room<'a> {
-    slots: &'a mut [Slot],
-    states: &'a mut [u8],
-    springs: &'a mut [[f64; 4]],
-    active: &'a mut [u32],
+    written: Written<'a>,
     starts: &'a [u32],
     blocks: &'a Blocks,
 }
 
 impl parallel::Split for Room<'_> {
     fn split(self, range: &Range<usize>, at: usize) -> (Self, Self) {
-        let Self { starts, blocks, .. } = self;
+        let Self { written, starts, blocks } = self;
         let first_pair = |block: usize| starts[grains_of(block, starts.len() - 1).start] as usize;
         let pairs = first_pair(at) - first_pair(range.start);
-        let (slots, slots_after) = self.slots.split_at_mut(blocks.slots_of(range.start..at).len());
-        let (states, states_after) = self.states.split_at_mut(pairs);
-        let (springs, springs_after) = self.springs.split_at_mut(pairs.min(self.springs.len()));
-        let (active, active_after) = self.active.split_at_mut(pairs);
-        let after = (slots_after, states_after, springs_after, active_after);
-        (
-            Self { slots, states, springs, active, starts, blocks },
-            Self { slots: after.0, states: after.1, springs: after.2, active: after.3, starts, blocks },
-        )
+        let (before, after) = written.split_at(blocks.slots_of(range.start..at).len(), pairs);
+        (Self { written: before, starts, blocks }, Self { written: after, starts, blocks })
     }
 }
 
@@ -145,21 +135,19 @@ impl Contacts {
             return ContactRates::default();
         }
         let starts = world.list.starts();
-        let room =
-            Room { slots, states: &mut trial.states, springs: &mut trial.springs, active, starts, blocks };
-        let work = |block: usize, room: Room<'_>| {
-            let grains = grains_of(block, records.len());
+        let (states, springs) = (&mut trial.states[..], &mut trial.springs[..]);
+        let room = Room { written: Written { slots, states, springs, active }, starts, blocks };
+        let leaf = |one: Range<usize>, room: Room<'_>| {
+            let grains = grains_of(one.start, records.len());
             let first = [grains.start, starts[grains.start] as usize];
             let targets = &blocks.targets()[first[1]..starts[grains.end] as usize];
             let given = Given { world, records, committed, targets, first };
-            let Room { slots, states, springs, active, .. } = room;
-            let mut written = Written { slots, states, springs, active };
+            let mut written = room.written;
             written.slots.fill(Slot::default());
             let count = find_touching(&given, grains, &mut written);
             let touching = Touching { given, written: &mut written, count };
             if is_one_by_one { touching.with::<f64>() } else { widest(touching) }
         };
-        let leaf = |block: Range<usize>, room: Room<'_>| work(block.start, room);
         parallel::over(0..blocks.count(), 1, room, &leaf, &ContactRates::join)
     }
 }
