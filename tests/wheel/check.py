@@ -34,9 +34,10 @@ DOUBLES = re.compile(r"[sp]d$")
 # a module is not stripped): memchr looks for bytes (find_avx2, find_raw_avx2, rfind_raw_avx2), crc32fast sums up (calculate_avx2,
 # calculate_avx512), simd-adler32 as well (update_imp), ab_glyph_rasterizer draws letters (draw_line_avx2), and compiler_builtins
 # has fma (fma_with_fma, fma_with_fma4). These are 11 of more than 10,000 functions; built for one processor it would be most.
-# Of our own code one function may: contacts side by side (math/lanes). More would be parts of it that were not inlined.
+# Of our own code two functions may: contacts side by side (math/lanes), with AVX2 and with AVX-512. More would be parts of them that were
+# not inlined.
 MOST_WIDE_FUNCTIONS = 20
-MOST_COMPUTING_FUNCTIONS = 1
+MOST_COMPUTING_FUNCTIONS = 2
 
 # A plain x86-64: SSE2 and SSE3. NumPy's own wheels want x86-64-v2, so the package is tried on the first processor that has all of
 # it, and the module alone, which the program is, on the plain one.

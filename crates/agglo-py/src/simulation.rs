@@ -153,8 +153,7 @@ impl Simulation {
         let kind = &mut *held;
         let outcome = here(py, || {
             each!(kind, simulation => {
-                let end = Engine::end(simulation.as_ref());
-                if Engine::is_finished(simulation.as_ref()) { Ok(()) } else { Engine::advance(simulation.as_mut(), end) }
+                if Engine::is_finished(simulation.as_ref()) { Ok(()) } else { Engine::step(simulation.as_mut()) }
             })
         })?;
         self.fallen.raise(py)?;

@@ -1,5 +1,6 @@
 //! Collisions of two grains, integrated for the tests of the laws of contact.
 
+use super::elastic::damped_part;
 use super::friction::{FrictionLaw, Mindlin, Sliding, TangentialSpring};
 use super::{ContactGeometry, Damping, Elastic, Normal, PairConstants};
 use crate::math::Vec3;
@@ -27,7 +28,7 @@ fn elastic(law: &Normal, pair: &PairConstants, geometry: &ContactGeometry) -> El
     Elastic {
         force: law.force(pair, geometry),
         stiffness: law.tangent_stiffness(pair, geometry),
-        exponent: law.exponent(),
+        damped_part: damped_part(law.exponent()),
     }
 }
 

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::elastic::damped_part;
 use super::{ContactGeometry, Custom, Damping, Elastic, Friction, Normal, PairConstants};
 use crate::law::{Chosen, Faults, HIGHEST_EXPONENT};
 use crate::math::Pace;
@@ -96,7 +97,7 @@ impl ContactLaws {
         if let Some(law) = &self.normal {
             let touches = zero.below(geometry.overlap);
             elastic.force = F::select(touches, law.force(pair, geometry), zero);
-            elastic.exponent = F::of(law.exponent());
+            elastic.damped_part = F::of(damped_part(law.exponent()));
             if with_stiffness {
                 elastic.stiffness = F::select(touches, law.tangent_stiffness(pair, geometry), zero);
             }
@@ -107,7 +108,7 @@ impl ContactLaws {
             if with_stiffness {
                 let slope = F::from_lanes(|lane| law.slopes(&pair.lane(lane), &geometry.lane(lane), 0.0)[0]);
                 elastic.stiffness = elastic.stiffness + slope;
-                elastic.exponent = local_exponent(&elastic, geometry.overlap);
+                elastic.damped_part = F::of(0.5) + F::of(0.5) / local_exponent(&elastic, geometry.overlap);
             }
         }
         elastic

@@ -145,7 +145,7 @@ impl Network {
     }
 
     /// Adds the bonds' loads on one grain.
-    #[inline]
+    #[inline(always)]
     pub fn gather(&self, grain: usize, force: &mut Vec3, torque: &mut Vec3) {
         if self.bonds.is_empty() {
             return;

@@ -44,9 +44,12 @@ macro_rules! in_common {
 impl Simulation for soft::Simulation {
     in_common!(soft);
 
-    /// One step: `until` does not bound it.
-    fn advance(&mut self, _until: f64) -> Result<(), SimError> {
+    fn step(&mut self) -> Result<(), SimError> {
         self.step()
+    }
+
+    fn advance(&mut self, until: f64) -> Result<(), SimError> {
+        self.advance(until)
     }
 
     fn grains(&self) -> Cow<'_, Particles> {
@@ -67,6 +70,10 @@ impl Simulation for soft::Simulation {
 
 impl Simulation for hard::Simulation {
     in_common!(hard);
+
+    fn step(&mut self) -> Result<(), SimError> {
+        self.advance(self.end())
+    }
 
     fn advance(&mut self, until: f64) -> Result<(), SimError> {
         self.advance(until)

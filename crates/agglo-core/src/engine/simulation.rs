@@ -57,7 +57,13 @@ pub trait Simulation: Sized {
         self.time() >= self.end()
     }
 
-    /// Goes on for a little while: one step, or some thousand events but not past `until` [s].
+    /// Goes on for as little as one can look at: one step, or some thousand events.
+    ///
+    /// # Errors
+    /// [`SimError`] where it cannot go on.
+    fn step(&mut self) -> Result<(), SimError>;
+
+    /// Goes on for a little while: some steps, at least one, or some thousand events, but none from `until` [s] on.
     ///
     /// # Errors
     /// [`SimError`] where it cannot go on.

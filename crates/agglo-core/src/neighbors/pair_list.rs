@@ -27,6 +27,8 @@ pub struct PairList {
     back: Groups,
     reference: Vec<Vec3>,
     skin: f64,
+    /// No sphere is farther from where it was listed [m].
+    strayed: f64,
 }
 
 impl PairList {
@@ -71,24 +73,37 @@ impl PairList {
         self.back.fill(n, self.partners.iter().copied().zip(0..));
         self.reference.clear();
         self.reference.extend_from_slice(positions);
+        self.strayed = 0.0;
     }
 
-    /// Whether the list still has every pair within its reach.
-    pub fn holds_for(&self, positions: &[Vec3]) -> bool {
+    /// Takes note that no sphere has moved by more than this [m].
+    pub fn note_way(&mut self, longest: f64) {
+        self.strayed += longest;
+    }
+
+    /// Whether the list surely has every pair within its reach still, by the ways that were noted.
+    pub fn holds(&self) -> bool {
+        self.strayed <= 0.5 * self.skin
+    }
+
+    /// Whether it has, by where the spheres are.
+    pub fn holds_for(&mut self, positions: &[Vec3]) -> bool {
         if self.reference.len() != positions.len() {
             return false;
         }
-        let bound = 0.25 * self.skin * self.skin;
-        parallel::over(
+        let reference = &self.reference;
+        let squared = parallel::over(
             0..positions.len(),
             4096,
             (),
-            &|range, ()| {
-                let (now, then) = (&positions[range.clone()], &self.reference[range]);
-                now.iter().zip(then).all(|(a, b)| (*a - *b).norm_squared() <= bound)
+            &|range: Range<usize>, ()| {
+                let ways = positions[range.clone()].iter().zip(&reference[range]);
+                ways.map(|(now, then)| (*now - *then).norm_squared()).fold(0.0, f64::max)
             },
-            &|a, b| a && b,
-        )
+            &f64::max,
+        );
+        self.strayed = squared.sqrt();
+        self.holds()
     }
 
     /// Skin of the list as built [m].
@@ -192,7 +207,16 @@ mod tests {
         let mut list = PairList::default();
         list.build(&positions, &radii, 0.0, 0.02);
         positions[7].x += 0.0099;
-        assert_true!(list.holds_for(&positions), "no grain has come nearer than the list allows for");
+        assert_true!(
+            list.holds_for(&positions) && list.holds(),
+            "no grain has come nearer than the list allows for"
+        );
+        // Ways that were noted are added to what was seen, 0.0099.
+        list.note_way(0.00009);
+        assert_true!(list.holds(), "it is 0.00999 at most");
+        list.note_way(0.00002);
+        assert_false!(list.holds(), "it may be 0.01001");
+        assert_true!(list.holds_for(&positions) && list.holds(), "seen again it is not");
         positions[7].x += 0.0002;
         assert_false!(list.holds_for(&positions), "no grain has come nearer than the list allows for");
     }

@@ -5,6 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::Motion;
 use crate::math::Vec3;
 
 /// What is known of a column besides its values.
@@ -153,6 +154,18 @@ impl Particles {
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         self.id.is_empty()
+    }
+
+    /// Where all grains are and how they move.
+    pub fn motion(&self) -> Motion<'_> {
+        let Self { position, velocity, angular_velocity, .. } = self;
+        Motion { position, velocity, angular_velocity }
+    }
+
+    /// Center [m], velocity [m/s] and angular velocity [rad/s] of one.
+    #[inline]
+    pub fn motion_of(&self, at: usize) -> (Vec3, Vec3, Vec3) {
+        (self.position[at], self.velocity[at], self.angular_velocity[at])
     }
 
     /// Moment of inertia [kg m²] of a solid sphere.

@@ -47,7 +47,7 @@
 //! ```
 //! # extern crate agglo_core as agglo;
 //! use agglo::contact::{Elastic, PairConstants, ContactGeometry, damping::{DampingLaw, Restitution}};
-//! let spring = Elastic { stiffness: 400.0, exponent: 1.0, ..Default::default() };
+//! let spring = Elastic { stiffness: 400.0, damped_part: 1.0, ..Default::default() };
 //! let geometry = ContactGeometry { effective_mass: 1.0, ..Default::default() };
 //! let (law, mut pair) = (Restitution { restitution: 0.0 }, PairConstants::default());
 //! law.settle(&mut pair, None);
@@ -91,10 +91,8 @@ impl DampingLaw for Restitution {
         geometry: &ContactGeometry<F>,
         elastic: &Elastic<F>,
     ) -> F {
-        // (n + 1)/(2 n).
-        let part = F::of(0.5) + F::of(0.5) / elastic.exponent;
         let stiffness = elastic.stiffness.max(F::of(0.0));
-        let critical = (part * stiffness * geometry.effective_mass).sqrt();
+        let critical = (elastic.damped_part * stiffness * geometry.effective_mass).sqrt();
         F::of(2.0) * pair.damping_ratio * critical
     }
 
@@ -168,7 +166,7 @@ mod tests {
         // By hand: ln 2 / √(π² + ln² 2).
         assert_near!(damping_ratio(0.5), 0.215_453_761_966, 1e-12);
         let geometry = ContactGeometry { effective_mass: 1.0, ..Default::default() };
-        let elastic = Elastic { stiffness: 1.0, exponent: 1.0, ..Default::default() };
+        let elastic = Elastic { stiffness: 1.0, damped_part: 1.0, ..Default::default() };
         let own = Mixture {
             between: ["a".to_owned(), "b".to_owned()],
             restitution: Some(1.0),

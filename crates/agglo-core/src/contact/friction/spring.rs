@@ -73,10 +73,13 @@ impl<F: Real> TangentialSpring<F> {
         }
         let turned = self.force.rejected_from(normal) + normal.cross(self.force) * turn_about_normal;
         let after = turned.norm_squared();
+        // |F| k'/k in one root: what it was where the stiffness has not fallen.
         let fell = stiffness.below(self.stiffness);
-        let relaxed = F::select(fell, stiffness / self.stiffness, F::of(1.0));
+        let (now, then) =
+            (F::select(fell, stiffness, F::of(1.0)), F::select(fell, self.stiffness, F::of(1.0)));
+        let size = (before * (now * now) / (after * (then * then))).sqrt();
         let is_there = F::both(zero.below(before), zero.below(after));
-        Vector::select(is_there, turned * ((before / after).sqrt() * relaxed), Vector::default())
+        Vector::select(is_there, turned * size, Vector::default())
     }
 }
 

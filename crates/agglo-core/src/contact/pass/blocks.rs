@@ -101,7 +101,7 @@ impl Blocks {
     }
 
     /// Force [N] and torque [N m] on a grain.
-    #[inline]
+    #[inline(always)]
     pub fn load_on(&self, grain: usize, slots: &[Slot]) -> (Vec3, Vec3) {
         let own = slots[self.first[grain / BLOCK] as usize + grain % BLOCK];
         let (mut force, mut torque) = (own.force, own.torque);

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::blocks::BLOCK;
 use super::touch::Touch;
-use super::world::ContactWorld;
+use super::world::Snapshot;
 use crate::contact::{ContactLaws, PairConstants};
 use crate::math::{Pace, Vec3, parallel};
 
@@ -19,6 +19,7 @@ pub struct ContactEnergy {
 
 /// One touching pair.
 struct Contact<'a> {
+    grains: [usize; 2],
     touch: Touch<f64>,
     constants: &'a PairConstants,
     /// Rate at which the overlap grows [m/s].
@@ -26,14 +27,15 @@ struct Contact<'a> {
 }
 
 impl<'a> Contact<'a> {
-    fn new(world: &'a ContactWorld<'_>, [i, j]: [usize; 2], apart: Vec3) -> Self {
-        let (grains, now) = (world.grains, &world.now);
+    fn new(snapshot: &'a Snapshot<'_>, [i, j]: [usize; 2], apart: Vec3) -> Self {
+        let (grains, now) = (snapshot.grains, &snapshot.now);
         let of = |column: &[f64]| [column[i], column[j]];
         let touch = Touch::new(of(&grains.radius), of(&grains.mass), of(&grains.contact_stiffness), apart);
         let vectors = |column: &[Vec3]| [column[i], column[j]];
         let velocity = touch.relative_velocity(vectors(now.velocity), vectors(now.angular_velocity));
         Self {
-            constants: world.pairs.of(grains.material[i], grains.material[j]),
+            grains: [i, j],
+            constants: snapshot.world.pairs.of(grains.material[i], grains.material[j]),
             approach: -velocity.dot(touch.normal),
             touch,
         }
@@ -42,32 +44,33 @@ impl<'a> Contact<'a> {
 
 /// Goes through all pairs on which laws act at the present positions and joins what `look` makes of each.
 fn over_contacts<R: Send + Sync + Copy>(
-    world: &ContactWorld<'_>,
+    snapshot: &Snapshot<'_>,
     nothing: R,
     look: impl Fn(&Contact<'_>) -> R + Sync,
     join: impl Fn(R, R) -> R + Sync,
 ) -> R {
-    let owners = world.now.position.len();
+    let Snapshot { world, grains, now } = snapshot;
     let beyond = world.beyond();
     let leaf = |range: Range<usize>, ()| {
         let mut found = nothing;
         for owner in range {
             for pair in world.list.owned(owner) {
                 let partner = world.list.partners()[pair] as usize;
-                let apart = world.now.position[partner] - world.now.position[owner];
-                let reach = world.grains.radius[owner] + world.grains.radius[partner] + beyond;
+                let apart = now.position[partner] - now.position[owner];
+                let reach = grains.radius[owner] + grains.radius[partner] + beyond;
                 if apart.norm_squared() < reach * reach {
-                    found = join(found, look(&Contact::new(world, [owner, partner], apart)));
+                    found = join(found, look(&Contact::new(snapshot, [owner, partner], apart)));
                 }
             }
         }
         found
     };
-    parallel::over(0..owners, BLOCK, (), &leaf, &join)
+    parallel::over(0..now.position.len(), BLOCK, (), &leaf, &join)
 }
 
 /// Adds up the normal energies at the present positions; for records, not for steps.
-pub fn contact_energy(world: &ContactWorld<'_>) -> ContactEnergy {
+pub fn contact_energy(snapshot: &Snapshot<'_>) -> ContactEnergy {
+    let world = &snapshot.world;
     let energy = |contact: &Contact<'_>| {
         let geometry = &contact.touch.geometry;
         ContactEnergy {
@@ -79,11 +82,12 @@ pub fn contact_energy(world: &ContactWorld<'_>) -> ContactEnergy {
         normal: a.normal + b.normal,
         bond: a.bond + b.bond,
     };
-    over_contacts(world, ContactEnergy::default(), energy, sum)
+    over_contacts(snapshot, ContactEnergy::default(), energy, sum)
 }
 
 /// How fast the fastest of all touching pairs is at the present positions.
-pub fn contact_pace(world: &ContactWorld<'_>) -> Pace {
+pub fn contact_pace(snapshot: &Snapshot<'_>) -> Pace {
+    let world = &snapshot.world;
     let pace = |contact: &Contact<'_>| {
         let geometry = &contact.touch.geometry;
         let pace = |laws: &ContactLaws| laws.pace_at(contact.constants, geometry, contact.approach);
@@ -93,5 +97,15 @@ pub fn contact_pace(world: &ContactWorld<'_>) -> Pace {
             None => laws,
         }
     };
-    over_contacts(world, Pace::NONE, pace, Pace::max)
+    over_contacts(snapshot, Pace::NONE, pace, Pace::max)
+}
+
+/// The grains of the pair with the largest overlap over the sum of radii; none where nothing touches.
+pub fn deepest_pair(snapshot: &Snapshot<'_>) -> Option<[usize; 2]> {
+    let strained = |contact: &Contact<'_>| Some((contact.touch.strain, contact.grains));
+    let deeper = |a: Option<(f64, [usize; 2])>, b: Option<(f64, [usize; 2])>| match (a, b) {
+        (Some(a), Some(b)) => Some(if b.0 > a.0 { b } else { a }),
+        (a, b) => a.or(b),
+    };
+    over_contacts(snapshot, None, strained, deeper).map(|(_, grains)| grains)
 }

@@ -7,14 +7,17 @@
 mod batch;
 mod blocks;
 mod energy;
+mod given;
 mod memory;
 mod record;
 mod touch;
+mod touching;
 mod world;
 
-pub use energy::{ContactEnergy, contact_energy, contact_pace};
+pub use energy::{ContactEnergy, contact_energy, contact_pace, deepest_pair};
 pub use memory::Remembered;
-pub use world::{ContactRates, ContactWorld};
+pub use record::Record;
+pub use world::{ContactRates, ContactWorld, Passage, Snapshot};
 
 use std::ops::Range;
 
@@ -23,19 +26,16 @@ use super::friction::TangentialSpring;
 use crate::math::lanes::{Work, widest};
 use crate::math::{Vec3, parallel};
 use crate::neighbors::PairList;
-use batch::{Given, Touching, Written, find_touching};
+use batch::{BlockOfContacts, Written};
 use blocks::{Blocks, Slot, grains_of};
+use given::Given;
 use memory::{Memory, SLIDES, TOUCHES};
-use record::Record;
 
 /// Loads and memory of all candidate pairs.
 #[derive(Debug, Default)]
 pub struct Contacts {
     blocks: Blocks,
     slots: Vec<Slot>,
-    records: Vec<Record>,
-    /// Room for the numbers of touching pairs.
-    active: Vec<u32>,
     committed: Memory,
     trial: Memory,
     /// Committed contacts of pairs that the list left out because a try, not yet accepted, has parted them.
@@ -71,8 +71,6 @@ impl Contacts {
         let with_springs = laws.is_some_and(ContactLaws::has_memory);
         self.blocks.relist(list, n);
         self.slots.resize(self.blocks.len(), Slot::default());
-        self.records.resize(n, Record::default());
-        self.active.resize(list.len(), 0);
         self.committed.resize(list.len(), with_springs);
         self.trial.resize(list.len(), with_springs);
         self.parted.clear();
@@ -109,7 +107,7 @@ impl Contacts {
     }
 
     /// Force [N] and torque [N m] of all contacts on a grain in the last pass.
-    #[inline]
+    #[inline(always)]
     pub fn load_on(&self, grain: usize) -> (Vec3, Vec3) {
         self.blocks.load_on(grain, &self.slots)
     }
@@ -121,32 +119,35 @@ impl Contacts {
     }
 
     /// Computes the loads of all touching pairs.
-    pub fn compute(&mut self, world: &ContactWorld<'_>) -> ContactRates {
+    pub fn compute(&mut self, world: &ContactWorld<'_>, passage: &Passage<'_>) -> ContactRates {
         // A formula has no lanes.
         let is_one_by_one = world.laws.is_some_and(|laws| laws.custom.is_some());
-        self.compute_as(world, is_one_by_one)
+        self.compute_as(world, passage, is_one_by_one)
     }
 
-    fn compute_as(&mut self, world: &ContactWorld<'_>, is_one_by_one: bool) -> ContactRates {
-        let Self { blocks, slots, records, active, committed, trial, .. } = self;
-        record::write_down(world, records);
-        let (blocks, records, committed) = (&*blocks, &**records, &*committed);
-        if records.is_empty() {
+    fn compute_as(
+        &mut self,
+        world: &ContactWorld<'_>,
+        passage: &Passage<'_>,
+        is_one_by_one: bool,
+    ) -> ContactRates {
+        let Self { blocks, slots, committed, trial, .. } = self;
+        let (blocks, committed, n) = (&*blocks, &*committed, passage.records.len());
+        if n == 0 {
             return ContactRates::default();
         }
         let starts = world.list.starts();
         let (states, springs) = (&mut trial.states[..], &mut trial.springs[..]);
-        let room = Room { written: Written { slots, states, springs, active }, starts, blocks };
+        let room = Room { written: Written { slots, states, springs }, starts, blocks };
         let leaf = |one: Range<usize>, room: Room<'_>| {
-            let grains = grains_of(one.start, records.len());
-            let first = [grains.start, starts[grains.start] as usize];
-            let targets = &blocks.targets()[first[1]..starts[grains.end] as usize];
-            let given = Given { world, records, committed, targets, first };
+            let grains = grains_of(one.start, n);
+            let pairs = starts[grains.start] as usize..starts[grains.end] as usize;
+            let (first, targets) = ([grains.start, pairs.start], &blocks.targets()[pairs.clone()]);
+            let given = Given { world, passage, committed, targets, first };
             let mut written = room.written;
             written.slots.fill(Slot::default());
-            let count = find_touching(&given, grains, &mut written);
-            let touching = Touching { given, written: &mut written, count };
-            if is_one_by_one { touching.with::<f64>() } else { widest(touching) }
+            let contacts = BlockOfContacts { given, pairs, written: &mut written };
+            if is_one_by_one { contacts.with::<f64>() } else { widest(contacts) }
         };
         parallel::over(0..blocks.count(), 1, room, &leaf, &ContactRates::join)
     }

@@ -1,44 +1,95 @@
-//! What a pass needs of a grain, side by side in memory: a partner is fetched whole, not from a column each.
+//! What a step needs of a grain, side by side in memory: it is fetched whole, not from a column each.
 
-use std::ops::Range;
+use crate::math::Vec3;
+use crate::particles::Particles;
 
-use super::world::ContactWorld;
-use crate::math::parallel;
-
-/// A grain, in rows of four numbers that lanes are filled from.
+/// A grain on its way through a step, in rows of four numbers that lanes are filled from.
 #[derive(Clone, Copy, Debug, Default)]
-#[repr(C, align(32))]
-pub(super) struct Record {
-    /// Center and radius [m].
-    pub place: [f64; 4],
-    /// Velocity [m/s] and mass [kg].
-    pub motion: [f64; 4],
-    /// Angular velocity [rad/s] and contact stiffness [Pa].
-    pub spin: [f64; 4],
-    /// Sum of the velocities at both ends of the step [m/s], and the number of the material.
-    pub way: [f64; 4],
-    /// Sum of the angular velocities at both ends of the step [rad/s].
-    pub turn: [f64; 4],
+#[repr(C, align(64))]
+pub struct Record {
+    /// Center at the end of the step, and radius [m].
+    pub(super) place: [f64; 4],
+    /// Velocity at its start [m/s], and mass [kg].
+    pub(super) motion: [f64; 4],
+    /// Angular velocity at its start [rad/s], and contact stiffness [Pa].
+    pub(super) spin: [f64; 4],
+    /// Change of the velocity within the step, as it is foreseen [m/s], and the number of the material.
+    pub(super) kick: [f64; 4],
+    /// Change of the angular velocity likewise [rad/s], and the inverse of the moment of inertia [1/(kg m²)].
+    pub(super) twist: [f64; 4],
+    /// Center at the start of the step [m], and the inverse of the mass that resists acceleration [1/kg].
+    start: [f64; 4],
 }
 
-/// Grains per leaf of the parallel loop.
-const LEAF: usize = 1024;
+/// A vector into the first three numbers of a row.
+#[inline(always)]
+fn put(row: &mut [f64; 4], vector: Vec3) {
+    [row[0], row[1], row[2]] = vector.to_array();
+}
 
-/// Writes down all grains.
-pub(super) fn write_down(world: &ContactWorld<'_>, records: &mut [Record]) {
-    let leaf = |range: Range<usize>, records: &mut [Record]| {
-        let ContactWorld { grains, before, now, .. } = world;
-        for (record, at) in records.iter_mut().zip(range) {
-            let (place, motion, spin) = (now.position[at], now.velocity[at], now.angular_velocity[at]);
-            let (way, turn) = (before.velocity[at] + motion, before.angular_velocity[at] + spin);
-            *record = Record {
-                place: [place.x, place.y, place.z, grains.radius[at]],
-                motion: [motion.x, motion.y, motion.z, grains.mass[at]],
-                spin: [spin.x, spin.y, spin.z, grains.contact_stiffness[at]],
-                way: [way.x, way.y, way.z, f64::from(grains.material[at])],
-                turn: [turn.x, turn.y, turn.z, 0.0],
-            };
+#[inline(always)]
+fn vector(row: &[f64; 4]) -> Vec3 {
+    Vec3::new(row[0], row[1], row[2])
+}
+
+impl Record {
+    /// A grain that has not moved yet, whose acceleration is resisted by a mass [kg].
+    pub fn at_start(grains: &Particles, at: usize, inertial_mass: f64) -> Self {
+        let row = |vector: Vec3, scalar: f64| [vector.x, vector.y, vector.z, scalar];
+        Self {
+            place: row(grains.position[at], grains.radius[at]),
+            motion: row(grains.velocity[at], grains.mass[at]),
+            spin: row(grains.angular_velocity[at], grains.contact_stiffness[at]),
+            kick: row(Vec3::ZERO, f64::from(grains.material[at])),
+            twist: row(Vec3::ZERO, 1.0 / grains.inertia(at)),
+            start: row(grains.position[at], 1.0 / inertial_mass),
         }
-    };
-    parallel::over(0..records.len(), LEAF, records, &leaf, &|(), ()| ());
+    }
+
+    /// Begins a step at a place [m] with a velocity [m/s] and an angular velocity [rad/s].
+    #[inline(always)]
+    pub fn begin(&mut self, place: Vec3, velocity: Vec3, spin: Vec3) {
+        put(&mut self.start, place);
+        put(&mut self.motion, velocity);
+        put(&mut self.spin, spin);
+    }
+
+    /// Ends the step elsewhere [m], with these changes of the velocity [m/s] and the angular velocity [rad/s].
+    #[inline(always)]
+    pub fn end(&mut self, place: Vec3, kick: Vec3, twist: Vec3) {
+        put(&mut self.place, place);
+        put(&mut self.kick, kick);
+        put(&mut self.twist, twist);
+    }
+
+    /// Center [m], velocity [m/s] and angular velocity [rad/s] at the start of the step.
+    #[inline(always)]
+    pub fn before(&self) -> (Vec3, Vec3, Vec3) {
+        (vector(&self.start), vector(&self.motion), vector(&self.spin))
+    }
+
+    /// The same at its end, velocities as they are foreseen.
+    #[inline(always)]
+    pub fn now(&self) -> (Vec3, Vec3, Vec3) {
+        let (kick, twist) = self.changes();
+        (vector(&self.place), vector(&self.motion) + kick, vector(&self.spin) + twist)
+    }
+
+    /// Changes of the velocity [m/s] and the angular velocity [rad/s] within the step, as they are foreseen.
+    #[inline(always)]
+    pub fn changes(&self) -> (Vec3, Vec3) {
+        (vector(&self.kick), vector(&self.twist))
+    }
+
+    /// Radius [m].
+    #[inline(always)]
+    pub fn radius(&self) -> f64 {
+        self.place[3]
+    }
+
+    /// Inverses of the mass that resists acceleration [1/kg] and of the moment of inertia [1/(kg m²)].
+    #[inline(always)]
+    pub fn inverses(&self) -> [f64; 2] {
+        [self.start[3], self.twist[3]]
+    }
 }

@@ -7,7 +7,7 @@ use crate::contact::friction::{Friction, Mindlin, Regularized, Sliding};
 use crate::contact::normal::{Hertz, Hooke, Normal, StrainPower};
 use crate::contact::{ContactGeometry, Custom, PairTable, lever_arms};
 use crate::math::rng::{Purpose, Stream};
-use crate::particles::{Material, Motion, Particles, Row};
+use crate::particles::{Material, Particles, Row};
 use crate::units::Quantity;
 
 /// Grains of two materials and sizes from 1 to 3, so crowded that each touches some others; more than two blocks of them.
@@ -85,6 +85,9 @@ fn choices() -> Vec<(ContactLaws, Option<Bonds>)> {
     all
 }
 
+/// Length of a step [s].
+const DT: f64 = 1e-9;
+
 /// Every bit of what some steps of a pass gave: loads, rates and memory.
 fn bits_of_steps(laws: &ContactLaws, bonds: Option<&Bonds>, skin: f64, is_one_by_one: bool) -> Vec<u64> {
     let grains = crowd();
@@ -95,30 +98,27 @@ fn bits_of_steps(laws: &ContactLaws, bonds: Option<&Bonds>, skin: f64, is_one_by
     contacts.relist(&list, grains.len(), &[], Some(laws));
     let mut found = Vec::new();
     let mut before = (grains.position.clone(), grains.velocity.clone(), grains.angular_velocity.clone());
-    let dt = 1e-9;
+    let dt = DT;
     for _ in 0..4 {
         let position: Vec<Vec3> = before.0.iter().zip(&before.1).map(|(r, v)| *r + *v * dt).collect();
         let velocity: Vec<Vec3> = before.1.iter().map(|v| *v * 0.99 + Vec3::AXES[1] * 1e-3).collect();
         let spin: Vec<Vec3> = before.2.iter().map(|w| *w * 1.01).collect();
-        let world = ContactWorld {
-            grains: &grains,
-            laws: Some(laws),
-            bonds,
-            pairs: &pairs,
-            list: &list,
-            before: Motion { position: &before.0, velocity: &before.1, angular_velocity: &before.2 },
-            now: Motion { position: &position, velocity: &velocity, angular_velocity: &spin },
-            elapsed: dt,
-            dt,
+        let record = |at: usize| {
+            let mut record = Record::at_start(&grains, at, grains.mass[at]);
+            record.begin(before.0[at], before.1[at], before.2[at]);
+            record.end(position[at], velocity[at] - before.1[at], spin[at] - before.2[at]);
+            record
         };
-        let rates = contacts.compute_as(&world, is_one_by_one);
+        let records: Vec<Record> = (0..grains.len()).map(record).collect();
+        let world = ContactWorld { laws: Some(laws), bonds, pairs: &pairs, list: &list };
+        let passage = Passage { records: &records, elapsed: dt, dt };
+        let rates = contacts.compute_as(&world, &passage, is_one_by_one);
         contacts.commit();
         for grain in 0..grains.len() {
             let (force, torque) = contacts.load_on(grain);
             found.extend([force, torque].iter().flat_map(|of| of.to_array()).map(f64::to_bits));
         }
         found.extend([rates.damping, rates.driven, rates.tangential, rates.worst_strain].map(f64::to_bits));
-        found.extend(rates.worst_pair.map(u64::from));
         for (a, b, spring) in contacts.remembered(&list) {
             found.extend([u64::from(a), u64::from(b), u64::from(spring.sliding)]);
             found.extend(spring.force.to_array().map(f64::to_bits));
@@ -147,8 +147,12 @@ fn every_law_gives_the_same_bits_in_lanes_on_threads_and_with_any_skin() {
 }
 
 /// Force on i [N], torques on both [N m], and powers lost to damping and friction [W] of one pair, from the columns.
-fn by_hand(world: &ContactWorld<'_>, [i, j]: [usize; 2]) -> Option<(Vec3, [Vec3; 2], [f64; 2])> {
-    let (grains, laws) = (world.grains, world.laws?);
+fn by_hand(
+    grains: &Particles,
+    world: &ContactWorld<'_>,
+    [i, j]: [usize; 2],
+) -> Option<(Vec3, [Vec3; 2], [f64; 2])> {
+    let laws = world.laws?;
     let apart = grains.position[j] - grains.position[i];
     let distance = apart.norm();
     if distance >= grains.radius[i] + grains.radius[j] {
@@ -168,7 +172,7 @@ fn by_hand(world: &ContactWorld<'_>, [i, j]: [usize; 2]) -> Option<(Vec3, [Vec3;
         velocity: slip,
         elastic: along.elastic,
         normal_force: along.repulsion,
-        dt: world.dt,
+        dt: DT,
         ..Sliding::default()
     };
     let nothing = TangentialSpring::default();
@@ -188,25 +192,14 @@ fn loads_are_those_of_all_pairs() {
         list.build(&grains.position, &grains.radius, laws.reach(), 1e-7);
         let mut contacts = Contacts::default();
         contacts.relist(&list, grains.len(), &[], Some(&laws));
-        let (position, velocity, angular_velocity) =
-            (&grains.position, &grains.velocity, &grains.angular_velocity);
-        let now = Motion { position, velocity, angular_velocity };
-        let world = ContactWorld {
-            grains: &grains,
-            laws: Some(&laws),
-            bonds: None,
-            pairs: &pairs,
-            list: &list,
-            before: now,
-            now,
-            elapsed: 0.0,
-            dt: 1e-9,
-        };
-        let rates = contacts.compute(&world);
+        let record = |at: usize| Record::at_start(&grains, at, grains.mass[at]);
+        let records: Vec<Record> = (0..grains.len()).map(record).collect();
+        let world = ContactWorld { laws: Some(&laws), bonds: None, pairs: &pairs, list: &list };
+        let rates = contacts.compute(&world, &Passage { records: &records, elapsed: 0.0, dt: DT });
         let (mut sums, mut lost) = (vec![(Vec3::ZERO, Vec3::ZERO); grains.len()], [0.0; 2]);
         for i in 0..grains.len() {
             for j in i + 1..grains.len() {
-                let Some((force, torques, powers)) = by_hand(&world, [i, j]) else { continue };
+                let Some((force, torques, powers)) = by_hand(&grains, &world, [i, j]) else { continue };
                 sums[i].0 += force;
                 sums[j].0 -= force;
                 sums[i].1 += torques[0];

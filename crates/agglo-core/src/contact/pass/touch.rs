@@ -12,23 +12,43 @@ pub(super) struct Touch<F> {
     pub normal: Vector<F>,
     /// Distances from the two centers to the contact [m]: owner's and partner's.
     pub lever_arms: [F; 2],
+    /// Overlap over the sum of the radii.
+    pub strain: F,
 }
+
+/// Part of the sum of the radii below which two centers lie in one point.
+const NO_DISTANCE: f64 = 1e-100;
 
 impl<F: Lanes> Touch<F> {
     /// Two grains with radii [m], masses [kg] and contact stiffness [Pa], whose centers are `apart` [m].
     #[inline(always)]
     pub fn new(radii: [F; 2], masses: [F; 2], stiffness: [F; 2], apart: Vector<F>) -> Self {
-        let (zero, one) = (F::of(0.0), F::of(1.0));
+        let (half, one) = (F::of(0.5), F::of(1.0));
         let distance = apart.norm();
+        let (radius_sum, mass_sum) = (radii[0] + radii[1], masses[0] + masses[1]);
         // Two centers in one point have no normal; any will do, since the next step parts them.
-        let is_apart = zero.below(distance);
-        let inverse = F::select(is_apart, one / distance, zero);
-        let normal = apart * inverse;
-        let near = F::of(0.5) * (distance - (radii[1] - radii[0]) * (radii[1] + radii[0]) * inverse);
+        let is_apart = (F::of(NO_DISTANCE) * radius_sum).below(distance);
+        let divisor = F::select(is_apart, distance, one);
+        // One division for all three inverses: it takes as long as five products.
+        let all = one / (divisor * radius_sum * mass_sum);
+        let per_distance = F::select(is_apart, all * (radius_sum * mass_sum), F::of(0.0));
+        let per_radii = all * (divisor * mass_sum);
+        let per_masses = all * (divisor * radius_sum);
+        let overlap = radius_sum - distance;
+        let normal = apart * per_distance;
+        let near = half * (distance - (radii[1] - radii[0]) * radius_sum * per_distance);
         Self {
-            geometry: ContactGeometry::new(radii, masses, stiffness, distance),
+            geometry: ContactGeometry {
+                overlap,
+                radius_sum,
+                smaller_radius: radii[0].min(radii[1]),
+                effective_radius: radii[0] * radii[1] * per_radii,
+                effective_mass: masses[0] * masses[1] * per_masses,
+                stiffness: half * (stiffness[0] + stiffness[1]),
+            },
             normal: Vector::new(F::select(is_apart, normal.x, one), normal.y, normal.z),
             lever_arms: [near, distance - near],
+            strain: overlap * per_radii,
         }
     }
 

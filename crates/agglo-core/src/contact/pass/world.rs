@@ -1,14 +1,14 @@
 //! What a pass over contacts is given, and what it adds up.
 
+use super::record::Record;
 use crate::contact::bond::{Bonds, StrainBond};
 use crate::contact::{ContactLaws, PairTable};
 use crate::neighbors::PairList;
 use crate::particles::{Motion, Particles};
 
-/// What a pass needs to know besides the pairs.
+/// Laws of contact and the pairs that they may act on.
+#[derive(Clone, Copy)]
 pub struct ContactWorld<'a> {
-    /// The grains' constant columns.
-    pub grains: &'a Particles,
     /// Laws of contact, if any.
     pub laws: Option<&'a ContactLaws>,
     /// Bond law, of which only the one that acts in contact concerns this pass.
@@ -17,14 +17,27 @@ pub struct ContactWorld<'a> {
     pub pairs: &'a PairTable,
     /// Candidate pairs.
     pub list: &'a PairList,
-    /// Motion at the start of the step.
-    pub before: Motion<'a>,
-    /// Motion at which forces are wanted.
-    pub now: Motion<'a>,
-    /// Time between the two [s]: the step, or zero before the first.
+}
+
+/// The step at whose end a pass is made.
+#[derive(Clone, Copy)]
+pub struct Passage<'a> {
+    /// All grains on their way.
+    pub records: &'a [Record],
+    /// Time between its start and its end [s]: its length, or zero before the first.
     pub elapsed: f64,
-    /// Length of the step [s], for laws that carry it.
+    /// Its length [s], for laws that carry it.
     pub dt: f64,
+}
+
+/// Grains at one moment, to be looked at.
+pub struct Snapshot<'a> {
+    /// Laws and pairs.
+    pub world: ContactWorld<'a>,
+    /// The grains' constant columns.
+    pub grains: &'a Particles,
+    /// Where they are and how they move.
+    pub now: Motion<'a>,
 }
 
 impl ContactWorld<'_> {
@@ -49,20 +62,17 @@ pub struct ContactRates {
     pub driven: f64,
     /// Power that tangential forces take from the motion [W].
     pub tangential: f64,
-    /// Largest overlap over the sum of radii, with the pair's grains.
+    /// Largest overlap over the sum of radii.
     pub worst_strain: f64,
-    /// The grains of that pair.
-    pub worst_pair: [u32; 2],
 }
 
 impl ContactRates {
     pub(super) fn join(a: Self, b: Self) -> Self {
-        let worst = if b.worst_strain > a.worst_strain { b } else { a };
         Self {
             damping: a.damping + b.damping,
             driven: a.driven + b.driven,
             tangential: a.tangential + b.tangential,
-            ..worst
+            worst_strain: a.worst_strain.max(b.worst_strain),
         }
     }
 }

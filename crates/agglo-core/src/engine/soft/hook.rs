@@ -60,7 +60,7 @@
 use std::sync::{Mutex, PoisonError};
 
 use crate::ledger::Supply;
-use crate::math::Pace;
+use crate::math::{Pace, Vec3};
 use crate::particles::{Motion, Particles};
 
 use super::forces::loads::{LoadViews, Loads};
@@ -176,14 +176,18 @@ impl Attached {
         self.hook.load(now, &mut self.loads.views());
     }
 
-    /// What it does to a grain, per second.
+    /// What it does to a grain with this position [m], velocity [m/s] and angular velocity [rad/s], per second.
     #[inline]
-    pub fn supply(loads: &Loads, motion: &Motion<'_>, at: usize) -> Supply {
+    pub fn supply(
+        loads: &Loads,
+        (position, velocity, angular_velocity): (Vec3, Vec3, Vec3),
+        at: usize,
+    ) -> Supply {
         let (force, torque) = (loads.force[at], loads.torque[at]);
         Supply {
-            power: force.dot(motion.velocity[at]) + torque.dot(motion.angular_velocity[at]),
+            power: force.dot(velocity) + torque.dot(angular_velocity),
             force,
-            torque: motion.position[at].cross(force) + torque,
+            torque: position.cross(force) + torque,
         }
     }
 }

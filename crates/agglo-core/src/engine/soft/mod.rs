@@ -1,5 +1,7 @@
 //! Soft spheres: forces, and the schemes that integrate them.
 
+#[cfg(test)]
+mod flying_tests;
 mod forces;
 mod guard;
 mod hook;

@@ -4,16 +4,18 @@ use std::ops::Range;
 
 use crate::contact::ContactLaws;
 use crate::contact::network::{BondEvent, Network};
-use crate::contact::pass::{ContactRates, ContactWorld, Contacts, Remembered};
-use crate::ledger::{Rates, Supplies, Supply};
+use crate::contact::pass::{ContactRates, ContactWorld, Contacts, Passage, Record, Remembered, Snapshot};
+use crate::ledger::{Rates, Supplies};
 use crate::math::{Pace, Vec3, parallel};
 use crate::neighbors::{PairList, morton_order};
 use crate::particles::{Motion, Particles};
 
-use super::forces::laws::{Laws, near_force, source};
+use super::forces::gather::Gather;
+use super::forces::laws::{Laws, source};
 use super::forces::loads::{LoadViews, Loads};
 use super::hook::{Attached, Hook, Scene};
 use super::skin::Skin;
+use super::step::change::Afloat;
 
 /// Grains per leaf of the parallel loops.
 pub(super) const LEAF: usize = 1024;
@@ -21,14 +23,17 @@ pub(super) const LEAF: usize = 1024;
 /// A motion that is tried before it is committed.
 #[derive(Clone, Debug, Default)]
 pub struct Trial {
-    /// Centers [m].
+    /// Centers [m]; these columns are filled from the records when someone looks.
     pub position: Vec<Vec3>,
     /// Velocities [m/s].
     pub velocity: Vec<Vec3>,
     /// Angular velocities [rad/s].
     pub angular_velocity: Vec<Vec3>,
+    is_looked_at: bool,
     /// Loads at this motion.
     pub loads: Loads,
+    /// Power lost in the dashpots of bonds [W].
+    pub bond_damping: f64,
     /// Rates at this motion.
     pub rates: Rates,
     /// Contacts at this motion.
@@ -58,25 +63,31 @@ pub struct System {
     pub trial: Trial,
     /// Masses that resist acceleration [kg].
     pub inertial_mass: Vec<f64>,
+    /// The grains on their way through the step that is tried.
+    pub(super) records: Vec<Record>,
+    /// Where the state of the grains is in the records, and their columns were left behind: the step that was begun.
+    pub(super) afloat: Option<Afloat>,
     pub(super) hook: Option<Attached>,
     pub(super) contacts: Contacts,
     list: PairList,
-    near: PairList,
+    pub(super) near: PairList,
     pub(super) skin: Skin,
+}
+
+impl Trial {
+    /// The columns of the motion, which must have been filled.
+    fn motion(&self) -> Motion<'_> {
+        let Self { position, velocity, angular_velocity, .. } = self;
+        Motion { position, velocity, angular_velocity }
+    }
 }
 
 impl System {
     /// Grains under laws; forces are not yet known.
     pub fn new(grains: Particles, laws: Laws, network: Network) -> Self {
         let n = grains.len();
-        let inertial_mass = (0..n).map(|at| laws.inertial_mass(&grains, at)).collect();
-        let trial = Trial {
-            position: grains.position.clone(),
-            velocity: grains.velocity.clone(),
-            angular_velocity: grains.angular_velocity.clone(),
-            loads: Loads::none(n),
-            ..Trial::default()
-        };
+        let inertial_mass: Vec<f64> = (0..n).map(|at| laws.inertial_mass(&grains, at)).collect();
+        let trial = Trial { loads: Loads::none(n), ..Trial::default() };
         Self {
             skin: Skin::new(&grains.radius),
             loads: Loads::none(n),
@@ -88,10 +99,12 @@ impl System {
             contacts: Contacts::default(),
             list: PairList::default(),
             near: PairList::default(),
-            grains,
             laws,
             network,
             trial,
+            records: records(&grains, &inertial_mass),
+            afloat: None,
+            grains,
             inertial_mass,
         }
     }
@@ -99,6 +112,7 @@ impl System {
     /// Puts the grains under other laws; bonds stay, and count as made at the start.
     pub fn change_laws(&mut self, laws: Laws) {
         self.inertial_mass = (0..self.grains.len()).map(|at| laws.inertial_mass(&self.grains, at)).collect();
+        self.records = records(&self.grains, &self.inertial_mass);
         self.laws = laws;
         self.network.count_from_here();
     }
@@ -119,66 +133,81 @@ impl System {
         parallel::over(0..self.grains.len(), LEAF, (), &leaf, &faster)
     }
 
-    /// The committed motion.
-    pub fn motion(&self) -> Motion<'_> {
-        let grains = &self.grains;
-        Motion {
-            position: &grains.position,
-            velocity: &grains.velocity,
-            angular_velocity: &grains.angular_velocity,
-        }
-    }
-
     /// Evaluates all loads and rates at the trial motion, at the end of a step of `dt` [s] that ends at `time` [s].
     pub fn evaluate(&mut self, time: f64, dt: f64) {
-        self.evaluate_after(dt, time, dt);
+        self.meet(dt, time, dt);
+        self.gather(time);
     }
 
-    /// As `evaluate`, with memory that is carried on by `elapsed` [s].
-    fn evaluate_after(&mut self, elapsed: f64, time: f64, dt: f64) {
+    /// Lets grains meet at the trial motion, at the end of a step of `dt` [s] that ends at `time` [s]: all loads but those of
+    /// single grains, with memory that is carried on by `elapsed` [s].
+    pub(super) fn meet(&mut self, elapsed: f64, time: f64, dt: f64) {
         self.bring_lists_up_to_date();
-        let Self { grains, laws, network, contacts, list, near, trial, hook, .. } = self;
-        let now = Motion {
-            position: &trial.position,
-            velocity: &trial.velocity,
-            angular_velocity: &trial.angular_velocity,
-        };
-        let before = Motion {
-            position: &grains.position,
-            velocity: &grains.velocity,
-            angular_velocity: &grains.angular_velocity,
-        };
+        if self.network.is_active() || self.hook.is_some() || self.laws.fields.near_field.is_some() {
+            self.look_at_trial();
+        }
+        let Self { grains, laws, network, contacts, list, trial, hook, records, .. } = self;
         let world = ContactWorld {
-            grains,
             laws: laws.contact.as_ref(),
             bonds: laws.bonds.as_ref(),
             pairs: &laws.pairs,
             list,
-            before,
-            now,
-            elapsed,
-            dt,
         };
-        trial.contact = contacts.compute(&world);
-        let bond_damping = network.compute(grains, &before, &now, elapsed);
+        trial.contact = contacts.compute(&world, &Passage { records, elapsed, dt });
+        trial.bond_damping = network.compute(grains, &grains.motion(), &trial.motion(), elapsed);
         if let Some(hook) = hook {
-            hook.look(&Scene { time, grains, motion: now });
+            hook.look(&Scene { time, grains, motion: trial.motion() });
         }
+    }
+
+    /// Gathers the loads at the trial motion, at a time [s].
+    fn gather(&mut self, time: f64) {
+        let Self { grains, laws, network, contacts, near, trial, hook, records, .. } = self;
         let hook = hook.as_ref().map(|hook| &hook.loads);
-        let gather = Gather { grains, laws, network, contacts, near, now, time, hook };
-        let supplies = parallel::over(
-            0..grains.len(),
-            LEAF,
-            trial.loads.views(),
-            &|range, mut views| gather.leaf(range, &mut views),
-            &|a, b| a + b,
-        );
-        trial.rates = Rates::new(&trial.contact, bond_damping, supplies);
+        let positions = &trial.position[..];
+        let gather = Gather { grains, laws, network, contacts, near, positions, time, hook };
+        let leaf = |range: Range<usize>, loads: LoadViews<'_>| {
+            let mut supplies = Supplies::default();
+            for (slot, grain) in range.enumerate() {
+                let now = records[grain].now();
+                (loads.force[slot], loads.torque[slot]) = gather.on(grain, now, &mut supplies);
+            }
+            supplies
+        };
+        let supplies = parallel::over(0..grains.len(), LEAF, trial.loads.views(), &leaf, &|a, b| a + b);
+        trial.rates = Rates::new(&trial.contact, trial.bond_damping, supplies);
+    }
+
+    /// Fills the columns of the trial motion, if they are not.
+    pub(super) fn look_at_trial(&mut self) {
+        let Self { trial, records, .. } = self;
+        if trial.is_looked_at {
+            return;
+        }
+        trial.is_looked_at = true;
+        let columns = [&mut trial.position, &mut trial.velocity, &mut trial.angular_velocity];
+        for column in columns {
+            column.resize(records.len(), Vec3::ZERO);
+        }
+        let views = (&mut trial.position[..], &mut trial.velocity[..], &mut trial.angular_velocity[..]);
+        let leaf = |range: Range<usize>, (r, v, w): (&mut [Vec3], &mut [Vec3], &mut [Vec3])| {
+            for (slot, grain) in range.enumerate() {
+                (r[slot], v[slot], w[slot]) = records[grain].now();
+            }
+        };
+        parallel::over(0..records.len(), LEAF, views, &leaf, &|(), ()| ());
+    }
+
+    /// Takes note that no grain is farther than this [m] from where it was tried last.
+    pub(super) fn note_way(&mut self, longest: f64) {
+        self.trial.is_looked_at = false;
+        self.list.note_way(longest);
+        self.near.note_way(longest);
     }
 
     /// What a hook sees of the committed motion at a time [s].
     fn scene(&self, time: f64) -> Scene<'_> {
-        Scene { time, grains: &self.grains, motion: self.motion() }
+        Scene { time, grains: &self.grains, motion: self.grains.motion() }
     }
 
     /// Attaches a hook at a time [s]; unless `is_in_loads` its forces are added to those of the committed motion.
@@ -187,7 +216,7 @@ impl System {
         attached.look(&self.scene(time));
         if !is_in_loads {
             for at in 0..self.grains.len() {
-                let supply = Attached::supply(&attached.loads, &self.motion(), at);
+                let supply = Attached::supply(&attached.loads, self.grains.motion_of(at), at);
                 self.rates.supplies.hook = self.rates.supplies.hook + supply;
                 self.loads.force[at] += attached.loads.force[at];
                 self.loads.torque[at] += attached.loads.torque[at];
@@ -209,20 +238,20 @@ impl System {
         self.hook.as_ref().and_then(|attached| attached.hook.pace(&self.scene(time)))
     }
 
-    /// Makes the trial the state.
-    pub fn commit(&mut self) {
-        self.commit_motion();
-        self.contacts.commit();
+    /// Makes the trial motion, as it was tried last, that of the grains.
+    pub(super) fn settle(&mut self) {
+        let Self { grains, records, loads, trial, .. } = self;
+        for (at, record) in records.iter().enumerate() {
+            (grains.position[at], grains.velocity[at], grains.angular_velocity[at]) = record.now();
+        }
+        std::mem::swap(loads, &mut trial.loads);
     }
 
-    fn commit_motion(&mut self) {
-        let Self { grains, trial, .. } = self;
-        std::mem::swap(&mut grains.position, &mut trial.position);
-        std::mem::swap(&mut grains.velocity, &mut trial.velocity);
-        std::mem::swap(&mut grains.angular_velocity, &mut trial.angular_velocity);
-        std::mem::swap(&mut self.loads, &mut trial.loads);
-        self.rates = trial.rates;
+    /// Makes rates and memory of the trial those of the state.
+    pub fn commit(&mut self) {
+        self.rates = self.trial.rates;
         self.network.commit();
+        self.contacts.commit();
     }
 
     /// Evaluates the loads at the committed motion, before the first step; `dt` [s] is the length of that. No time
@@ -234,16 +263,19 @@ impl System {
     /// The same at a time [s], where velocities were changed from outside.
     pub fn evaluate_again(&mut self, time: f64, dt: f64) {
         self.list_neighbors();
-        self.evaluate_after(0.0, time, dt);
-        self.commit_motion();
+        self.meet(0.0, time, dt);
+        self.gather(time);
+        std::mem::swap(&mut self.loads, &mut self.trial.loads);
+        self.rates = self.trial.rates;
+        self.network.commit();
         self.contacts.commit_unmoved();
     }
 
     /// Lists the neighbors at the committed motion, so that pairs can be looked at before the first step.
     pub fn list_neighbors(&mut self) {
-        self.trial.position.clone_from(&self.grains.position);
-        self.trial.velocity.clone_from(&self.grains.velocity);
-        self.trial.angular_velocity.clone_from(&self.grains.angular_velocity);
+        self.records = records(&self.grains, &self.inertial_mass);
+        // Where grains were before is not known.
+        self.note_way(f64::INFINITY);
         self.bring_lists_up_to_date();
     }
 
@@ -254,29 +286,21 @@ impl System {
     }
 
     /// Shows what the contact laws see at the committed motion.
-    pub fn with_contacts<R>(&self, look: impl FnOnce(&ContactWorld<'_>) -> R) -> R {
-        self.with_contacts_at(self.motion(), look)
+    pub fn with_contacts<R>(&self, look: impl FnOnce(&Snapshot<'_>) -> R) -> R {
+        self.with_contacts_at(self.grains.motion(), look)
     }
 
     /// The same at the trial motion.
-    pub fn with_trial_contacts<R>(&self, look: impl FnOnce(&ContactWorld<'_>) -> R) -> R {
-        let Trial { position, velocity, angular_velocity, .. } = &self.trial;
-        self.with_contacts_at(Motion { position, velocity, angular_velocity }, look)
+    pub fn with_trial_contacts<R>(&mut self, look: impl FnOnce(&Snapshot<'_>) -> R) -> R {
+        self.look_at_trial();
+        self.with_contacts_at(self.trial.motion(), look)
     }
 
-    fn with_contacts_at<R>(&self, motion: Motion<'_>, look: impl FnOnce(&ContactWorld<'_>) -> R) -> R {
-        let laws = &self.laws;
-        look(&ContactWorld {
-            grains: &self.grains,
-            laws: laws.contact.as_ref(),
-            bonds: laws.bonds.as_ref(),
-            pairs: &laws.pairs,
-            list: &self.list,
-            before: motion,
-            now: motion,
-            elapsed: 0.0,
-            dt: 0.0,
-        })
+    fn with_contacts_at<R>(&self, now: Motion<'_>, look: impl FnOnce(&Snapshot<'_>) -> R) -> R {
+        let Self { grains, laws, list, .. } = self;
+        let (contact, bonds) = (laws.contact.as_ref(), laws.bonds.as_ref());
+        let world = ContactWorld { laws: contact, bonds, pairs: &laws.pairs, list };
+        look(&Snapshot { world, grains, now })
     }
 
     /// Takes out the bonds that bear more than their strength, with their loads: a load that went on to act in the
@@ -309,11 +333,12 @@ impl System {
     }
 
     /// The same at the trial motion, where neither a contact nor the law's own cap keeps grains apart; else nothing.
-    pub fn near_pace_at_trial(&self) -> Pace {
+    pub fn near_pace_at_trial(&mut self) -> Pace {
         let is_capped = self.laws.fields.near_field.as_ref().is_none_or(|law| law.law.is_capped());
         if is_capped || self.laws.contact.is_some() {
             return Pace::NONE;
         }
+        self.look_at_trial();
         self.near_pace(&self.trial.position)
     }
 
@@ -349,6 +374,10 @@ impl System {
 
     fn bring_lists_up_to_date(&mut self) {
         self.skin.age();
+        if self.list.holds() && (self.near_list().is_none() || self.near.holds()) {
+            return;
+        }
+        self.look_at_trial();
         if !self.list.holds_for(&self.trial.position) {
             let remembered = self.contacts.remembered(&self.list);
             self.skin.adapt(self.list.len(), self.grains.len());
@@ -398,6 +427,7 @@ impl System {
         self.loads.reorder(order);
         self.ray_loads.reorder(order);
         self.inertial_mass = order.iter().map(|&at| self.inertial_mass[at as usize]).collect();
+        self.records = records(&self.grains, &self.inertial_mass);
         self.network.reindex(&place);
         self.rebuild(false, &remembered);
         self.list_near(false);
@@ -405,56 +435,7 @@ impl System {
     }
 }
 
-/// What the grains read while they gather their loads.
-struct Gather<'a> {
-    grains: &'a Particles,
-    laws: &'a Laws,
-    network: &'a Network,
-    contacts: &'a Contacts,
-    near: &'a PairList,
-    now: Motion<'a>,
-    time: f64,
-    /// What a hook adds.
-    hook: Option<&'a Loads>,
-}
-
-impl Gather<'_> {
-    fn leaf(&self, range: Range<usize>, views: &mut LoadViews<'_>) -> Supplies {
-        let (mut supplies, mut hooked) = (Supplies::default(), Supply::default());
-        let has_single = self.laws.has_single();
-        for (slot, grain) in range.enumerate() {
-            let (mut force, mut torque) = self.contacts.load_on(grain);
-            self.network.gather(grain, &mut force, &mut torque);
-            if let Some(law) = &self.laws.fields.near_field {
-                let push = |other: usize| near_force(law, self.grains, self.now.position, grain, other);
-                if law.cutoff.is_some() {
-                    let owners = self.near.owners();
-                    force += self
-                        .near
-                        .joined(grain)
-                        .iter()
-                        .map(|pair| push(owners[*pair as usize] as usize))
-                        .sum();
-                    force +=
-                        self.near.owned(grain).map(|pair| push(self.near.partners()[pair] as usize)).sum();
-                } else {
-                    force += (0..self.grains.len()).filter(|other| *other != grain).map(push).sum();
-                }
-            }
-            if has_single {
-                let single = self.laws.on_single(self.grains, &self.now, grain, self.time, &mut supplies);
-                force += single.force;
-                torque += single.torque;
-            }
-            if let Some(loads) = self.hook {
-                hooked = hooked + Attached::supply(loads, &self.now, grain);
-                force += loads.force[grain];
-                torque += loads.torque[grain];
-            }
-            views.force[slot] = force;
-            views.torque[slot] = torque;
-        }
-        supplies.hook = hooked;
-        supplies
-    }
+/// All grains at the start of a step.
+fn records(grains: &Particles, inertial_mass: &[f64]) -> Vec<Record> {
+    inertial_mass.iter().enumerate().map(|(at, mass)| Record::at_start(grains, at, *mass)).collect()
 }

@@ -3,6 +3,7 @@ use crate::math::Vector;
 use crate::math::rng::{Purpose, Stream};
 
 /// Every operation on rows of four numbers, and what comes of it in bits.
+#[derive(Clone)]
 struct Everything<'a>(&'a [[f64; 4]]);
 
 impl Work for Everything<'_> {
@@ -34,11 +35,18 @@ impl Work for Everything<'_> {
                 v.cross(w).norm(),
                 F::from_lanes(|lane| self.0[first + lane][2]),
                 F::select(F::mask_from_lanes(|lane| self.0[first + lane][1] > 0.0), a, b),
+                F::select(F::mask_from_flags(&[7, 2, 0, 255, 1, 6, 2, 5][first % 8..], 2), a, b),
             ];
             for lane in 0..F::COUNT {
                 let bits = numbers.map(|number| number.lane(lane).to_bits());
                 found[first + lane].extend(bits);
-                found[first + lane].push(u64::from(F::lane_of_mask(less, lane)));
+                found[first + lane].push(u64::from(F::bits(less) >> lane & 1));
+            }
+            let items: Vec<u32> = (0..F::COUNT).map(|lane| (first + lane) as u32).collect();
+            let mut squeezed = vec![0; F::COUNT];
+            F::squeeze(F::bits(less), &items, &mut squeezed);
+            for item in &squeezed[..F::bits(less).count_ones() as usize] {
+                found[*item as usize].push(u64::from(*item));
             }
             F::to_rows([d, c, b, a], |lane, row| found[first + lane].extend(row.map(f64::to_bits)));
         }
@@ -66,12 +74,16 @@ fn lanes_give_the_bits_of_single_numbers() {
     }
     rows.truncate(rows.len() / WIDEST * WIDEST);
     let single = plain(Everything(&rows).with::<f64>());
-    assert_eq!(plain(widest(Everything(&rows))), single);
-    assert_eq!(single.len(), rows.len() * 24);
+    for found in in_every_width(&Everything(&rows)) {
+        assert_true!(plain(found) == single, "the same bits");
+    }
+    let less = rows.iter().filter(|row| row[0] < row[1]).count();
+    assert_eq!(single.len(), rows.len() * 25 + less);
 }
 
 #[test]
 fn all_is_all_lanes() {
+    #[derive(Clone)]
     struct All;
     impl Work for All {
         type Out = ();
@@ -83,6 +95,5 @@ fn all_is_all_lanes() {
             }
         }
     }
-    widest(All);
-    All.with::<f64>();
+    in_every_width(&All);
 }

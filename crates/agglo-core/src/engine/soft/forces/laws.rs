@@ -7,7 +7,7 @@ use crate::fields::{Channel, Drag, Fields, Flow, FlowAt, Grain, Part, rotational
 use crate::law::Chosen;
 use crate::ledger::{Supplies, Supply};
 use crate::math::Vec3;
-use crate::particles::{Material, Motion, Particles};
+use crate::particles::{Material, Particles};
 
 use super::response::Response;
 use crate::engine::soft::settings::Settings;
@@ -121,17 +121,18 @@ impl Laws {
         grains.mass[at] + added
     }
 
-    /// Force and torque of gravity, drag and fields on one grain; what each supplies is added to `supplies`.
+    /// Force and torque of gravity, drag and fields on one grain at a position [m] with a velocity [m/s] and an angular velocity
+    /// [rad/s]; what each supplies is added to `supplies`.
     #[inline]
     pub fn on_single(
         &self,
         grains: &Particles,
-        motion: &Motion<'_>,
         at: usize,
+        (position, velocity, angular_velocity): (Vec3, Vec3, Vec3),
         time: f64,
         supplies: &mut Supplies,
     ) -> SingleLoad {
-        let (position, velocity, radius) = (motion.position[at], motion.velocity[at], grains.radius[at]);
+        let radius = grains.radius[at];
         let mut total = SingleLoad::default();
         let mut book = |channel: &mut Supply, force: Vec3, power: f64| {
             *channel = *channel + Supply { power, force, torque: position.cross(force) };
@@ -144,7 +145,7 @@ impl Laws {
             Channel::Drag => book(&mut supplies.drag, force, power),
         });
         if let Some(drag) = &self.fields.drag {
-            let (flow, angular_velocity) = (self.flow_at(position, time), motion.angular_velocity[at]);
+            let flow = self.flow_at(position, time);
             let force = drag.force(&self.medium, radius, velocity, &flow);
             book(&mut supplies.drag, force, force.dot(velocity));
             total.torque = Drag::torque(&self.medium, radius, angular_velocity, &flow);

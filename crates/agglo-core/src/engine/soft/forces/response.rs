@@ -23,8 +23,6 @@
 use crate::ledger::Correction;
 use crate::math::Vec3;
 
-use super::loads::LoadViews;
-
 /// Slopes of the forces on one grain over its velocity and angular velocity.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Response {
@@ -85,11 +83,11 @@ pub struct Solved {
 }
 
 impl Solved {
-    /// Brings the loads of the grain in this slot and at this position [m] along.
+    /// Brings force [N] and torque [N m] of the grain at this position [m] along.
     #[inline]
-    pub fn correct(&self, slot: usize, loads: &mut LoadViews<'_>, position: Vec3, ledger: &mut Correction) {
-        loads.force[slot] += self.drag + self.magnetic;
-        loads.torque[slot] += self.torque;
+    pub fn correct(&self, loads: &mut (Vec3, Vec3), position: Vec3, ledger: &mut Correction) {
+        loads.0 += self.drag + self.magnetic;
+        loads.1 += self.torque;
         ledger.supplies.note_correction(position, self.drag, self.magnetic, self.torque);
     }
 }

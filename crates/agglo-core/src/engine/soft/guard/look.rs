@@ -27,8 +27,12 @@ impl Simulation {
     /// # Errors
     /// [`SimError::LedgerNotFinite`] where an entry of the ledger is not finite, [`SimError::Unexplained`] where more energy is unexplained than limits allow.
     pub(in crate::engine::soft) fn look_when_due(&mut self) -> Result<(), SimError> {
-        let is_due = self.clock().step.is_multiple_of(self.look_every()) || self.is_finished();
-        if is_due { self.look() } else { Ok(()) }
+        if self.look_is_due() { self.look() } else { Ok(()) }
+    }
+
+    /// Whether it is time to look.
+    pub(in crate::engine::soft) fn look_is_due(&self) -> bool {
+        self.clock().step.is_multiple_of(self.look_every()) || self.is_finished()
     }
 
     /// # Errors

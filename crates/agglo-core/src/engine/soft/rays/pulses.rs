@@ -304,18 +304,17 @@ impl Pulses {
         system.has_ray_loads = !self.hit_grains.is_empty();
     }
 
-    /// Energy, impulse and angular impulse that the rays' loads give in the step that is tried.
+    /// Energy, impulse and angular impulse that the rays' loads gave in the step of `dt` [s] that led to where the grains are.
     pub fn supply(&self, system: &System, dt: f64) -> Supply {
         let scale = system.ray_load_scale(dt) * dt;
-        let (grains, trial) = (&system.grains, &system.trial);
+        let grains = &system.grains;
         let mut sum = Supply::default();
         for &grain in &self.hit_grains {
             let grain = grain as usize;
             let impulse = system.ray_loads.force[grain] * scale;
             let twist = system.ray_loads.torque[grain] * scale;
-            let (r, s) = (grains.position[grain], trial.position[grain]);
-            let mean_angular_velocity =
-                (grains.angular_velocity[grain] + trial.angular_velocity[grain]) * 0.5;
+            let ((r, _, spin_before), s) = (system.records[grain].before(), grains.position[grain]);
+            let mean_angular_velocity = (spin_before + grains.angular_velocity[grain]) * 0.5;
             let work = impulse.dot(s - r) / dt + twist.dot(mean_angular_velocity);
             let torque = ((r + s) * 0.5).cross(impulse) + twist;
             sum = sum + Supply { power: work, force: impulse, torque };

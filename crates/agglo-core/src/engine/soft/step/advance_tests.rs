@@ -1,6 +1,7 @@
 //! What an update of the trial motion amounts to, for more grains than one thread takes at a time.
 
 use super::*;
+use crate::contact::pass::deepest_pair;
 use crate::engine::soft::Simulation;
 use crate::engine::soft::skin::Skin;
 use crate::particles::{Particles, Row};
@@ -41,7 +42,7 @@ fn a_change_is_that_of_all_grains() {
         let mut system = row(MANY, fast);
         let change = system.move_trial(0.0, DT, 0.5, Ahead::AsAtStart);
         let ways: Vec<f64> =
-            (0..MANY).map(|at| (system.trial.position[at] - system.grains.position[at]).norm()).collect();
+            system.records.iter().map(|record| (record.now().0 - record.before().0).norm()).collect();
         let all: f64 = ways.iter().sum();
         assert_close!(change.since_start, all, 1e-9, "in m, {fast}");
         assert_close!(change.since_last, all, 1e-9, "in m, {fast}");
@@ -64,13 +65,13 @@ fn the_deepest_contact_is_that_of_all_grains() {
             let part = if at == deep { 0.8 } else { 0.9 };
             let place = system.grains.position[at] + Vec3::AXES[0] * (2.0 * RADIUS * part);
             system.grains.position[at + 1] = place;
-            system.trial.position[at + 1] = place;
         }
         system.skin = Skin::new(&system.grains.radius);
+        system.list_neighbors();
         system.evaluate(0.0, DT);
         let found = system.trial.contact;
         assert_close!(found.worst_strain, 0.2, 1e-9);
-        assert_eq!(found.worst_pair, [deep as u32, deep as u32 + 1]);
+        assert_eq!(system.with_trial_contacts(deepest_pair), Some([deep, deep + 1]));
     }
 }
 
@@ -90,18 +91,23 @@ fn rays_push_and_turn_each_grain() {
         let inertia = 0.4 * 1e-8 * RADIUS * RADIUS;
         for is_corrected in [false, true] {
             if is_corrected {
-                system.evaluate(dt, dt);
-                system.correct_velocities(dt, dt);
+                system.meet(dt, dt, dt);
+                system.finish(dt, dt);
             } else {
                 system.move_trial(0.0, dt, 0.5, Ahead::AsAtStart);
             }
+            let found: Vec<(Vec3, Vec3, Vec3)> = if is_corrected {
+                (0..3).map(|grain| system.grains.motion_of(grain)).collect()
+            } else {
+                system.records.iter().map(Record::now).collect()
+            };
             for grain in 0..3 {
                 let (velocity, angular_velocity) =
                     (Vec3::AXES[0] + push * (grain as f64 / 1e-8), twist * (grain as f64 / inertia));
                 // Drag takes 6 π η R dt/m = 1e-6 of a speed in 5 ns, and 1.3e-5 of an angular velocity.
-                assert_near_vector!(system.trial.velocity[grain], velocity, 2e-6 * velocity.norm(), "in m/s");
+                assert_near_vector!(found[grain].1, velocity, 2e-6 * velocity.norm(), "in m/s");
                 assert_near_vector!(
-                    system.trial.angular_velocity[grain],
+                    found[grain].2,
                     angular_velocity,
                     2e-5 * angular_velocity.norm(),
                     "in rad/s"
@@ -116,20 +122,18 @@ fn rays_push_and_turn_each_grain() {
 fn corrections_are_those_of_all_grains() {
     let corrected = |count: usize| {
         let mut system = row(count, usize::MAX);
-        for velocity in &mut system.trial.velocity {
-            velocity.x += 0.1;
-        }
         let before = system.rates.supplies.drag.force.x;
         system.trial.rates = system.rates;
         system.move_trial(0.0, DT, 0.5, Ahead::AsAtStart);
         let moved = (system.trial.rates.supplies.drag.force.x - before, system.trial.rates.bend);
-        system.evaluate(DT, DT);
         // A guess that is off, so that there is something to correct.
-        for velocity in &mut system.trial.velocity {
-            velocity.x += 0.1;
+        for record in &mut system.records {
+            let (place, (kick, twist)) = (record.now().0, record.changes());
+            record.end(place, kick + Vec3::AXES[0] * 0.1, twist);
         }
+        system.evaluate(DT, DT);
         let before = system.trial.rates.supplies.drag.force.x;
-        system.correct_velocities(DT, DT);
+        system.finish(DT, DT);
         let rates = &system.trial.rates;
         [moved.0, moved.1, rates.supplies.drag.force.x - before, rates.bend]
     };

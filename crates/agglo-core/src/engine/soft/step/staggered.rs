@@ -44,7 +44,8 @@
 //! implicitness = 0.5
 //! ```
 
-use super::advance::{Ahead, Change};
+use super::advance::Ahead;
+use super::change::Change;
 use crate::engine::soft::system::System;
 use crate::engine::soft::types::Staggered;
 

@@ -117,7 +117,7 @@ pub struct Fast {
 
 impl Fast {
     /// At the trial motion; the strain is what the limits allow.
-    pub fn at_trial(system: &System, strain: f64) -> Self {
+    pub fn at_trial(system: &mut System, strain: f64) -> Self {
         let laws = &system.laws;
         let by_area = laws.contact.as_ref().is_some_and(ContactLaws::outgrow_contact)
             || laws.bonds.as_ref().and_then(Bonds::in_contact).is_some()

@@ -27,13 +27,28 @@
 //! safety = 0.03
 //! ```
 
-use super::advance::{Ahead, Change};
+use super::advance::Ahead;
+use super::change::Change;
 use crate::engine::soft::system::System;
 
-/// Makes the trial the motion after `dt` [s] from `time` [s].
+/// Makes the trial the motion after `dt` [s] from `time` [s], where grains meet; it may have been begun with the step before.
 pub fn step(system: &mut System, time: f64, dt: f64) -> Change {
-    let change = system.move_trial(time, dt, 0.5, Ahead::AsAtStart);
-    system.evaluate(time + dt, dt);
-    system.correct_velocities(time + dt, dt);
+    let begun = system.afloat.map(|afloat| afloat.change);
+    let change = begun.unwrap_or_else(|| system.move_trial(time, dt, 0.5, Ahead::AsAtStart));
+    system.meet(dt, time + dt, dt);
+    change
+}
+
+/// The same after a shorter time than the `tried` [s] that was too long.
+pub fn again(system: &mut System, time: f64, tried: f64, dt: f64) -> Change {
+    let change = if system.flies_freely() {
+        system.shorten(tried, dt)
+    } else {
+        system.move_trial(time, dt, 0.5, Ahead::AsAtStart)
+    };
+    if let Some(afloat) = &mut system.afloat {
+        afloat.dt = dt;
+    }
+    system.meet(dt, time + dt, dt);
     change
 }

@@ -1,0 +1,68 @@
+//! All forces on one grain, gathered from whoever has them.
+
+use crate::contact::network::Network;
+use crate::contact::pass::Contacts;
+use crate::ledger::Supplies;
+use crate::math::Vec3;
+use crate::neighbors::PairList;
+use crate::particles::Particles;
+
+use super::laws::{Laws, near_force};
+use super::loads::Loads;
+use crate::engine::soft::hook::Attached;
+
+/// What the grains read while they gather their loads.
+pub struct Gather<'a> {
+    /// The grains' constant columns.
+    pub grains: &'a Particles,
+    /// The laws.
+    pub laws: &'a Laws,
+    /// Bonds, with their loads.
+    pub network: &'a Network,
+    /// Contacts, with theirs.
+    pub contacts: &'a Contacts,
+    /// Pairs of the near field.
+    pub near: &'a PairList,
+    /// Centers of all grains [m], for the near field.
+    pub positions: &'a [Vec3],
+    /// Time [s].
+    pub time: f64,
+    /// What a hook adds.
+    pub hook: Option<&'a Loads>,
+}
+
+impl Gather<'_> {
+    /// Force [N] and torque [N m] on a grain at a place [m] with a velocity [m/s] and an angular velocity [rad/s].
+    #[inline(always)]
+    pub fn on(&self, grain: usize, motion: (Vec3, Vec3, Vec3), supplies: &mut Supplies) -> (Vec3, Vec3) {
+        let (mut force, mut torque) = self.contacts.load_on(grain);
+        self.network.gather(grain, &mut force, &mut torque);
+        if self.laws.fields.near_field.is_some() {
+            self.near_field(grain, &mut force);
+        }
+        if self.laws.has_single() {
+            let single = self.laws.on_single(self.grains, grain, motion, self.time, supplies);
+            force += single.force;
+            torque += single.torque;
+        }
+        if let Some(loads) = self.hook {
+            supplies.hook = supplies.hook + Attached::supply(loads, motion, grain);
+            force += loads.force[grain];
+            torque += loads.torque[grain];
+        }
+        (force, torque)
+    }
+
+    /// Adds the near-field force [N].
+    fn near_field(&self, grain: usize, force: &mut Vec3) {
+        let Some(law) = &self.laws.fields.near_field else { return };
+        let push = |other: usize| near_force(law, self.grains, self.positions, grain, other);
+        if law.cutoff.is_some() {
+            let (owners, partners) = (self.near.owners(), self.near.partners());
+            *force += self.near.joined(grain).iter().map(|pair| push(owners[*pair as usize] as usize)).sum();
+            *force += self.near.owned(grain).map(|pair| push(partners[pair] as usize)).sum();
+        } else {
+            *force += (0..self.grains.len()).filter(|other| *other != grain).map(push).sum();
+        }
+    }
+}
