@@ -189,13 +189,7 @@ impl System {
         for column in columns {
             column.resize(records.len(), Vec3::ZERO);
         }
-        let views = (&mut trial.position[..], &mut trial.velocity[..], &mut trial.angular_velocity[..]);
-        let leaf = |range: Range<usize>, (r, v, w): (&mut [Vec3], &mut [Vec3], &mut [Vec3])| {
-            for (slot, grain) in range.enumerate() {
-                (r[slot], v[slot], w[slot]) = records[grain].now();
-            }
-        };
-        parallel::over(0..records.len(), LEAF, views, &leaf, &|(), ()| ());
+        show_now(records, (&mut trial.position, &mut trial.velocity, &mut trial.angular_velocity));
     }
 
     /// Takes note that no grain is farther than this [m] from where it was tried last.
@@ -241,9 +235,7 @@ impl System {
     /// Makes the trial motion, as it was tried last, that of the grains.
     pub(super) fn settle(&mut self) {
         let Self { grains, records, loads, trial, .. } = self;
-        for (at, record) in records.iter().enumerate() {
-            (grains.position[at], grains.velocity[at], grains.angular_velocity[at]) = record.now();
-        }
+        show_now(records, (&mut grains.position, &mut grains.velocity, &mut grains.angular_velocity));
         std::mem::swap(loads, &mut trial.loads);
     }
 
@@ -438,4 +430,14 @@ impl System {
 /// All grains at the start of a step.
 fn records(grains: &Particles, inertial_mass: &[f64]) -> Vec<Record> {
     inertial_mass.iter().enumerate().map(|(at, mass)| Record::at_start(grains, at, *mass)).collect()
+}
+
+/// Writes positions [m], velocities [m/s] and angular velocities [rad/s] at the end of the step into columns.
+fn show_now(records: &[Record], (position, velocity, spin): (&mut [Vec3], &mut [Vec3], &mut [Vec3])) {
+    let leaf = |range: Range<usize>, (r, v, w): (&mut [Vec3], &mut [Vec3], &mut [Vec3])| {
+        for (slot, grain) in range.enumerate() {
+            (r[slot], v[slot], w[slot]) = records[grain].now();
+        }
+    };
+    parallel::over(0..records.len(), LEAF, (position, velocity, spin), &leaf, &|(), ()| ());
 }
