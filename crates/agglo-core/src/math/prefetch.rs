@@ -1,6 +1,7 @@
 //! Asks the processor for memory that will be read soon.
 
 /// Bytes of a cache line.
+#[cfg(target_arch = "x86_64")]
 const LINE: usize = 64;
 
 /// Asks for the cache lines of an item; nothing happens where there is no such item, or on processors without the hint.

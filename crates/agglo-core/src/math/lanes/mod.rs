@@ -9,6 +9,7 @@ mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
 mod number;
+#[cfg(any(test, target_arch = "x86_64"))]
 mod twice;
 
 pub use number::{Lanes, WIDEST, Work};
@@ -27,10 +28,12 @@ pub fn widest<W: Work>(work: W) -> W::Out {
 /// Does work in lanes of every width that the processor has.
 #[cfg(test)]
 pub fn in_every_width<W: Work + Clone>(work: &W) -> Vec<W::Out> {
-    let mut all = vec![work.clone().with::<f64>(), work.clone().with::<Twice<f64>>()];
+    let plain = [work.clone().with::<f64>(), work.clone().with::<Twice<f64>>()];
     #[cfg(target_arch = "x86_64")]
-    all.extend(avx2::with(work.clone()).ok().into_iter().chain(avx512::with(work.clone()).ok()));
-    all
+    let wide = [avx2::with(work.clone()).ok(), avx512::with(work.clone()).ok()];
+    #[cfg(not(target_arch = "x86_64"))]
+    let wide = [None, None];
+    plain.into_iter().chain(wide.into_iter().flatten()).collect()
 }
 
 #[cfg(test)]
