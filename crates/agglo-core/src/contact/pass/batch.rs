@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::blocks::Slot;
-use super::given::{Given, rows, scalars, vectors};
+use super::given::{Given, ends, rows, scalars, vectors};
 use super::memory::{SLIDES, TOUCHES};
 use super::touch::Touch;
 use super::touching::Touching;
@@ -121,11 +121,8 @@ fn contacts<F: Lanes>(
     sums: &mut Sums<F>,
 ) {
     let (ContactWorld { laws, pairs, .. }, Passage { records, elapsed, dt }) = (given.world, given.passage);
-    let mut ends = [[&records[0]; WIDEST]; 2];
-    for lane in 0..F::COUNT {
-        ends[0][lane] = &records[touching.owners[first + lane] as usize];
-        ends[1][lane] = &records[touching.partners[first + lane] as usize];
-    }
+    let lanes = first..first + F::COUNT;
+    let ends = ends(records, &touching.owners[lanes.clone()], &touching.partners[lanes]);
     let place = rows::<F>(&ends, |of| &of.place);
     let motion = rows::<F>(&ends, |of| &of.motion);
     let spin = rows::<F>(&ends, |of| &of.spin);

@@ -18,6 +18,17 @@ pub(super) struct Given<'a> {
     pub first: [usize; 2],
 }
 
+/// Both ends of as many pairs as there are lanes.
+#[inline(always)]
+pub(super) fn ends<'a>(records: &'a [Record], owners: &[u32], partners: &[u32]) -> [[&'a Record; WIDEST]; 2] {
+    let mut ends = [[&records[0]; WIDEST]; 2];
+    for (lane, (owner, partner)) in owners.iter().zip(partners).enumerate() {
+        ends[0][lane] = &records[*owner as usize];
+        ends[1][lane] = &records[*partner as usize];
+    }
+    ends
+}
+
 /// Rows of both ends of each contact.
 #[inline(always)]
 pub(super) fn rows<F: Lanes>(

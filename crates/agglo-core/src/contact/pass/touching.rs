@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::given::{Given, rows, scalars, vectors};
+use super::given::{Given, ends, rows, scalars, vectors};
 use super::memory::TOUCHES;
 use super::record::Record;
 use crate::math::lanes::{Lanes, WIDEST};
@@ -109,11 +109,7 @@ impl Touching {
 /// Whether grains touch, or are within the reach of a law.
 #[inline(always)]
 fn touch<F: Lanes>(given: &Given<'_>, records: &[Record], owners: &[u32], partners: &[u32]) -> F::Mask {
-    let mut ends = [[&records[0]; WIDEST]; 2];
-    for (lane, (owner, partner)) in owners.iter().zip(partners).enumerate() {
-        ends[0][lane] = &records[*owner as usize];
-        ends[1][lane] = &records[*partner as usize];
-    }
+    let ends = ends(records, owners, partners);
     let place = rows::<F>(&ends, |of| &of.place);
     let (centers, radii) = (vectors(&place), scalars(&place));
     let reach = radii[0] + radii[1] + F::of(given.world.beyond());

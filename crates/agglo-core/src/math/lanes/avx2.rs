@@ -15,6 +15,7 @@ use std::arch::x86_64::{
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::number::{Lanes, Work};
+use super::register::{numbers, register};
 use super::twice::Twice;
 use crate::math::Real;
 
@@ -34,62 +35,15 @@ fn with_avx2<W: Work>(work: W) -> W::Out {
     work.with::<Twice<Four>>()
 }
 
-/// Four numbers.
-#[derive(Clone, Copy)]
-struct Four(__m256d);
-
-/// Gives a number or a mask from instructions without memory.
-macro_rules! numbers {
-    ($instructions:expr) => {{
-        // SAFETY: a value of this type exists only where the processor has AVX2 (see above), and the instructions
-        // read and write registers alone.
-        #[allow(clippy::macro_metavars_in_unsafe, reason = "the macro is this file's own")]
-        unsafe {
-            $instructions
-        }
-    }};
+register! {
+    /// Four numbers.
+    Four(__m256d) of 4,
+    _mm256_setzero_pd, _mm256_loadu_pd, _mm256_storeu_pd,
+    Add::add is _mm256_add_pd,
+    Sub::sub is _mm256_sub_pd,
+    Mul::mul is _mm256_mul_pd,
+    Div::div is _mm256_div_pd
 }
-
-impl Four {
-    #[inline(always)]
-    fn to_array(self) -> [f64; 4] {
-        let mut lanes = [0.0; 4];
-        // SAFETY: as above; the array has four numbers.
-        unsafe { _mm256_storeu_pd(lanes.as_mut_ptr(), self.0) };
-        lanes
-    }
-
-    #[inline(always)]
-    fn from_array(lanes: &[f64; 4]) -> Self {
-        // SAFETY: as above; the array has four numbers.
-        unsafe { Self(_mm256_loadu_pd(lanes.as_ptr())) }
-    }
-}
-
-impl Default for Four {
-    #[inline(always)]
-    fn default() -> Self {
-        numbers!(Self(_mm256_setzero_pd()))
-    }
-}
-
-/// An operation of two numbers.
-macro_rules! operation {
-    ($trait:ident $name:ident $instruction:ident) => {
-        impl $trait for Four {
-            type Output = Self;
-            #[inline(always)]
-            fn $name(self, other: Self) -> Self {
-                numbers!(Self($instruction(self.0, other.0)))
-            }
-        }
-    };
-}
-
-operation!(Add add _mm256_add_pd);
-operation!(Sub sub _mm256_sub_pd);
-operation!(Mul mul _mm256_mul_pd);
-operation!(Div div _mm256_div_pd);
 
 impl Neg for Four {
     type Output = Self;

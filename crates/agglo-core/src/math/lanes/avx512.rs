@@ -16,6 +16,7 @@ use std::arch::x86_64::{
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::number::{Lanes, Work};
+use super::register::{numbers, register};
 use crate::math::Real;
 
 /// Does work in eight lanes, if the processor has AVX-512 as servers have it.
@@ -35,66 +36,19 @@ fn with_avx512<W: Work>(work: W) -> W::Out {
     work.with::<Eight>()
 }
 
-/// Eight numbers.
-#[derive(Clone, Copy)]
-struct Eight(__m512d);
+register! {
+    /// Eight numbers.
+    Eight(__m512d) of 8,
+    _mm512_setzero_pd, _mm512_loadu_pd, _mm512_storeu_pd,
+    Add::add is _mm512_add_pd,
+    Sub::sub is _mm512_sub_pd,
+    Mul::mul is _mm512_mul_pd,
+    Div::div is _mm512_div_pd
+}
 
 /// A truth for each of them, as bits.
 #[derive(Clone, Copy, Default)]
 struct Mask(__mmask8);
-
-/// Gives a number or a mask from instructions without memory.
-macro_rules! numbers {
-    ($instructions:expr) => {{
-        // SAFETY: a value of this type exists only where the processor has AVX-512 (see above), and the instructions
-        // read and write registers alone.
-        #[allow(clippy::macro_metavars_in_unsafe, reason = "the macro is this file's own")]
-        unsafe {
-            $instructions
-        }
-    }};
-}
-
-impl Eight {
-    #[inline(always)]
-    fn to_array(self) -> [f64; 8] {
-        let mut lanes = [0.0; 8];
-        // SAFETY: as above; the array has eight numbers.
-        unsafe { _mm512_storeu_pd(lanes.as_mut_ptr(), self.0) };
-        lanes
-    }
-
-    #[inline(always)]
-    fn from_array(lanes: &[f64; 8]) -> Self {
-        // SAFETY: as above; the array has eight numbers.
-        unsafe { Self(_mm512_loadu_pd(lanes.as_ptr())) }
-    }
-}
-
-impl Default for Eight {
-    #[inline(always)]
-    fn default() -> Self {
-        numbers!(Self(_mm512_setzero_pd()))
-    }
-}
-
-/// An operation of two numbers.
-macro_rules! operation {
-    ($trait:ident $name:ident $instruction:ident) => {
-        impl $trait for Eight {
-            type Output = Self;
-            #[inline(always)]
-            fn $name(self, other: Self) -> Self {
-                numbers!(Self($instruction(self.0, other.0)))
-            }
-        }
-    };
-}
-
-operation!(Add add _mm512_add_pd);
-operation!(Sub sub _mm512_sub_pd);
-operation!(Mul mul _mm512_mul_pd);
-operation!(Div div _mm512_div_pd);
 
 impl Neg for Eight {
     type Output = Self;

@@ -9,6 +9,8 @@ mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
 mod number;
+#[cfg(target_arch = "x86_64")]
+mod register;
 #[cfg(any(test, target_arch = "x86_64"))]
 mod twice;
 
