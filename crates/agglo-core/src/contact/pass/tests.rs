@@ -221,3 +221,48 @@ fn loads_are_those_of_all_pairs() {
         assert_near!(rates.tangential, lost[1], 1e-11 * lost[1].abs(), "in W");
     }
 }
+
+/// By hand: a spring is loaded by the stiffness times the mean slip over the step, (v + v')/2 dt, and where both grains spin about
+/// the normal at w it turns with them by w dt.
+#[test]
+fn springs_follow_the_mean_motion_of_the_step() {
+    let mindlin =
+        Mindlin { static_friction: 1e6, dynamic_friction: None, stiffness_ratio: Some(0.5), dashpot: 0.0 };
+    let laws = ContactLaws {
+        normal: Some(Normal::Hooke(Hooke { stiffness: Quantity(20.0) })),
+        custom: None,
+        damping: None,
+        friction: Some(Friction::Mindlin(mindlin)),
+    };
+    let mut grains = Particles::default();
+    for id in 0..2 {
+        let position = Vec3::AXES[0] * (1.9e-6 * f64::from(id));
+        grains.push(Row { id, radius: 1e-6, mass: 1e-14, position, ..Row::default() });
+    }
+    let pairs = PairTable::new(&materials(), &[], Some(&laws));
+    let mut list = PairList::default();
+    list.build(&grains.position, &grains.radius, 0.0, 1e-7);
+    let mut contacts = Contacts::default();
+    contacts.relist(&list, 2, &[], Some(&laws));
+    let mut pass = |velocities: [f64; 2], spins: [f64; 2]| {
+        let record = |at: usize| {
+            let mut record = Record::at_start(&grains, at, grains.mass[at]);
+            let slip = Vec3::AXES[1] * at as f64;
+            record.begin(grains.position[at], slip * velocities[0], Vec3::AXES[0] * spins[0]);
+            let kick = slip * (velocities[1] - velocities[0]);
+            record.end(grains.position[at], kick, Vec3::AXES[0] * (spins[1] - spins[0]));
+            record
+        };
+        let records = [record(0), record(1)];
+        let world = ContactWorld { laws: Some(&laws), bonds: None, pairs: &pairs, list: &list };
+        contacts.compute(&world, &Passage { records: &records, elapsed: DT, dt: DT });
+        contacts.commit();
+        contacts.remembered(&list)[0].2.force
+    };
+    let loaded = pass([0.1, 0.3], [0.0; 2]);
+    let size = 0.5 * 20.0 * 0.2 * DT;
+    assert_near_vector!(loaded, Vec3::AXES[1] * size, 1e-12 * size, "in N");
+    let turned = pass([0.0; 2], [1e6, 3e6]);
+    assert_close!(turned.norm(), size, 1e-12, "in N");
+    assert_close!(turned.z / turned.y, 2e6 * DT, 1e-12);
+}
