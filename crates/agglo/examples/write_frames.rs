@@ -6,6 +6,7 @@
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
+use agglo::domain::Space;
 use agglo::math::Vec3;
 use agglo::particles::{Particles, Row};
 use agglo::record::frames::{Collection, Field, write_bonds, write_grains, write_rays};
@@ -57,7 +58,14 @@ fn main() -> Result<(), Box<dyn Error>> {
         write_grains(&path("grains"), time, &grains, &[Field::new("cluster", clusters.as_slice())])?;
         let strain = [0.125, -0.25];
         let pairs = [[4, 3], [2, 1]];
-        write_bonds(&path("bonds"), time, &grains, &pairs, &[Field::new("strain", strain.as_slice())])?;
+        write_bonds(
+            &path("bonds"),
+            time,
+            &grains,
+            &Space::OPEN,
+            &pairs,
+            &[Field::new("strain", strain.as_slice())],
+        )?;
         let directions = [Vec3::AXES[2], Vec3::new(0.6, 0.0, 0.8)];
         write_rays(&path("rays"), time, &grains.position[..2], &directions, &[1.5, 0.75])?;
         list.add(time, &name("grains"));

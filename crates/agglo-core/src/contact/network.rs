@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::bond::{Beam, BeamLoad, BeamPair, BeamState, Break};
 use super::closeness::are_close;
 use super::lever_arms;
+use crate::domain::Space;
 use crate::math::{Groups, Pace, Vec3, parallel};
 use crate::neighbors::PairList;
 use crate::particles::{Motion, Particles};
@@ -38,8 +39,8 @@ pub struct BondEvent {
 }
 
 /// Bonds that are made now between pairs of grains, which are named by their places; at rest as they are.
-pub fn bonds_between(law: &Beam, grains: &Particles, pairs: &[[u32; 2]]) -> Vec<Bond> {
-    pairs.iter().map(|&[a, b]| bond_between(law, grains, a, b)).collect()
+pub fn bonds_between(law: &Beam, grains: &Particles, space: &Space, pairs: &[[u32; 2]]) -> Vec<Bond> {
+    pairs.iter().map(|&[a, b]| bond_between(law, grains, space, a, b)).collect()
 }
 
 /// All bonds, sorted by the grains' names.
@@ -55,17 +56,17 @@ pub struct Network {
 
 impl Network {
     /// Bonds all grains whose surfaces are no farther apart than the law's gap.
-    pub fn bond_neighbors(law: Option<&Beam>, grains: &Particles) -> Self {
+    pub fn bond_neighbors(law: Option<&Beam>, grains: &Particles, space: &Space) -> Self {
         let mut network = Self { law: law.cloned(), ..Self::default() };
         if let Some(law) = law {
             let largest = grains.radius.iter().copied().fold(0.0, f64::max);
             let mut list = PairList::default();
-            list.build(&grains.position, &grains.radius, 0.0, law.gap * largest);
+            list.build(space, &grains.position, &grains.radius, 0.0, law.gap * largest);
             for (a, b) in list.pairs() {
                 let (i, j) = (a as usize, b as usize);
-                let distance_squared = (grains.position[i] - grains.position[j]).norm_squared();
+                let distance_squared = space.shortest(grains.position[i] - grains.position[j]).norm_squared();
                 if are_close(distance_squared, grains.radius[i], grains.radius[j], law.gap) {
-                    network.bonds.push(bond_between(law, grains, a, b));
+                    network.bonds.push(bond_between(law, grains, space, a, b));
                 }
             }
         }
@@ -75,13 +76,13 @@ impl Network {
     }
 
     /// Takes the bonds that grains bring along; without them bonds neighbors.
-    pub fn start(law: Option<&Beam>, bonds: Option<Vec<Bond>>, grains: &Particles) -> Self {
+    pub fn start(law: Option<&Beam>, bonds: Option<Vec<Bond>>, grains: &Particles, space: &Space) -> Self {
         match bonds {
             Some(bonds) => {
                 let held = bonds.len();
                 Self::restored(law, bonds, held, grains.len())
             }
-            None => Self::bond_neighbors(law, grains),
+            None => Self::bond_neighbors(law, grains, space),
         }
     }
 
@@ -124,7 +125,14 @@ impl Network {
     }
 
     /// Computes all bonds' loads at the end of a step of `dt` [s]; returns the power lost in their dashpots [W].
-    pub fn compute(&mut self, grains: &Particles, before: &Motion<'_>, now: &Motion<'_>, dt: f64) -> f64 {
+    pub fn compute(
+        &mut self,
+        grains: &Particles,
+        space: &Space,
+        before: &Motion<'_>,
+        now: &Motion<'_>,
+        dt: f64,
+    ) -> f64 {
         let Some(law) = &self.law else { return 0.0 };
         let bonds = &self.bonds;
         parallel::over(
@@ -134,7 +142,8 @@ impl Network {
             &|range, trial: &mut [(BeamState, BeamLoad)]| {
                 let mut lost = 0.0;
                 for (bond, place) in bonds[range].iter().zip(trial) {
-                    let (load, state) = law.advance(&bond.state, &pair_of(bond, grains, before, now, dt));
+                    let (load, state) =
+                        law.advance(&bond.state, &pair_of(bond, grains, space, before, now, dt));
                     lost += load.damping_power;
                     *place = (state, load);
                 }
@@ -173,6 +182,7 @@ impl Network {
     pub fn break_overloaded(
         &mut self,
         grains: &Particles,
+        space: &Space,
         time: f64,
         mut loads: impl FnMut([u32; 2], &BeamLoad),
     ) -> Vec<BondEvent> {
@@ -185,7 +195,7 @@ impl Network {
         for (bond, (_, load)) in self.bonds.iter().zip(&self.trial) {
             let broke = load.breaks();
             if broke.is_some() {
-                let energy = law.energy(&bond.state, distance_of(bond, grains));
+                let energy = law.energy(&bond.state, distance_of(bond, grains, space));
                 events.push(BondEvent { time, ids: bond.ids, broke, energy });
                 loads(bond.grains, load);
             } else {
@@ -200,16 +210,22 @@ impl Network {
     }
 
     /// Bonds grains that overlap by more than the law's forming strain and are not bonded yet.
-    pub fn bond_pressed(&mut self, grains: &Particles, list: &PairList, time: f64) -> Vec<BondEvent> {
+    pub fn bond_pressed(
+        &mut self,
+        grains: &Particles,
+        space: &Space,
+        list: &PairList,
+        time: f64,
+    ) -> Vec<BondEvent> {
         let Some(law) = &self.law else { return Vec::new() };
         let Some(strain) = law.forming_strain else { return Vec::new() };
         let pressed = list.pairs().filter(|(a, b)| {
             let (i, j) = (*a as usize, *b as usize);
             let reach = (grains.radius[i] + grains.radius[j]) * (1.0 - strain);
-            (grains.position[i] - grains.position[j]).norm_squared() <= reach * reach
+            space.shortest(grains.position[i] - grains.position[j]).norm_squared() <= reach * reach
         });
         let fresh: Vec<Bond> = pressed
-            .map(|(a, b)| bond_between(law, grains, a, b))
+            .map(|(a, b)| bond_between(law, grains, space, a, b))
             .filter(|bond| self.bonds.binary_search_by_key(&bond.ids, |known| known.ids).is_err())
             .collect();
         let events =
@@ -241,10 +257,13 @@ impl Network {
     }
 
     /// Energy [J] stored in all bonds.
-    pub fn energy(&self, grains: &Particles) -> f64 {
+    pub fn energy(&self, grains: &Particles, space: &Space) -> f64 {
         let Some(law) = &self.law else { return 0.0 };
-        let energies: Vec<f64> =
-            self.bonds.par_iter().map(|bond| law.energy(&bond.state, distance_of(bond, grains))).collect();
+        let energies: Vec<f64> = self
+            .bonds
+            .par_iter()
+            .map(|bond| law.energy(&bond.state, distance_of(bond, grains, space)))
+            .collect();
         energies.iter().sum()
     }
 
@@ -257,28 +276,35 @@ impl Network {
     }
 }
 
-fn distance_of(bond: &Bond, grains: &Particles) -> f64 {
+fn distance_of(bond: &Bond, grains: &Particles, space: &Space) -> f64 {
     let [i, j] = bond.grains.map(|grain| grains.position[grain as usize]);
-    (j - i).norm()
+    space.shortest(j - i).norm()
 }
 
-fn bond_between(law: &Beam, grains: &Particles, a: u32, b: u32) -> Bond {
+fn bond_between(law: &Beam, grains: &Particles, space: &Space, a: u32, b: u32) -> Bond {
     let (a, b) = if grains.id[a as usize] < grains.id[b as usize] { (a, b) } else { (b, a) };
     let (i, j) = (a as usize, b as usize);
-    let apart = grains.position[j] - grains.position[i];
+    let apart = space.shortest(grains.position[j] - grains.position[i]);
     let distance = apart.norm();
     let state = law.new_state(grains.radius[i], grains.radius[j], distance, apart / distance);
     Bond { ids: [grains.id[i], grains.id[j]], grains: [a, b], state }
 }
 
 /// The motion of a bond's two ends over a step.
-fn pair_of(bond: &Bond, grains: &Particles, before: &Motion<'_>, now: &Motion<'_>, dt: f64) -> BeamPair {
+fn pair_of(
+    bond: &Bond,
+    grains: &Particles,
+    space: &Space,
+    before: &Motion<'_>,
+    now: &Motion<'_>,
+    dt: f64,
+) -> BeamPair {
     let [i, j] = bond.grains.map(|grain| grain as usize);
-    let apart = now.position[j] - now.position[i];
+    let apart = space.shortest(now.position[j] - now.position[i]);
     let distance = apart.norm();
     let normal = apart * (1.0 / distance);
     // Slip over the step is taken across the normal of its middle, so that a turning pair slips by nothing.
-    let apart_before = before.position[j] - before.position[i];
+    let apart_before = space.shortest(before.position[j] - before.position[i]);
     let middle = (apart + apart_before).normalized();
     let lever_arms = lever_arms([grains.radius[i], grains.radius[j]], distance);
     let ends = |motion: &Motion<'_>| {

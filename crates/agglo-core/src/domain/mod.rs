@@ -1,12 +1,15 @@
-//! Where things are: regions of space, the volume that a hard-sphere run is about with its faces, and where doubles end.
+//! Where things are: regions of space, the volume that a run is about with its faces, space that repeats itself, and where
+//! doubles end.
 
 mod disc;
 mod extent;
 mod region;
 pub mod resolution;
+mod space;
 mod volume;
 
 pub use disc::Disc;
 pub use extent::extent;
 pub use region::{Ball, Block, Cylinder, Region};
-pub use volume::{Boundary, Volume};
+pub use space::{Image, Space};
+pub use volume::{Boundary, Faces, Volume};

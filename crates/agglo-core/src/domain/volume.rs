@@ -1,8 +1,9 @@
-//! The control volume of hard spheres: a block, and what its faces do.
+//! The control volume: a block, and what its faces do.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::space::Space;
 use crate::math::Vec3;
 use crate::units::{Length, Triple, vector};
 
@@ -17,6 +18,24 @@ pub struct Volume {
     /// What its faces do.
     #[serde(default)]
     pub boundary: Boundary,
+    /// What faces do where they differ from `boundary`; soft spheres only.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub faces: Option<Faces>,
+}
+
+/// What the two faces across an axis do, where they differ from the others.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Faces {
+    /// Those across the x axis.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub x: Option<Boundary>,
+    /// Those across the y axis.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub y: Option<Boundary>,
+    /// Those across the z axis.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub z: Option<Boundary>,
 }
 
 /// What the faces of the control volume do.
@@ -64,6 +83,22 @@ impl Volume {
         edges.x * edges.y * edges.z
     }
 
+    /// What the faces across each axis do.
+    pub fn boundaries(&self) -> [Boundary; 3] {
+        let Faces { x, y, z } = self.faces.unwrap_or_default();
+        [x, y, z].map(|across| across.unwrap_or(self.boundary))
+    }
+
+    /// Whether space repeats itself along each axis.
+    pub fn repeats(&self) -> [bool; 3] {
+        self.boundaries().map(|boundary| boundary == Boundary::Periodic)
+    }
+
+    /// Space as its faces make it.
+    pub fn space(&self) -> Space {
+        Space::repeating([self.lower(), self.upper()], self.repeats())
+    }
+
     /// Whether a point [m] lies inside. The lower faces belong to the volume, the upper ones do not, so that of the
     /// images of a point exactly one is inside.
     #[inline]
@@ -87,12 +122,11 @@ impl Volume {
     #[inline]
     #[must_use]
     pub fn wrap(&self, position: Vec3) -> Vec3 {
-        if !self.boundary.wraps() || self.contains(position) {
+        let wraps = self.boundaries().map(Boundary::wraps);
+        if wraps == [false; 3] || self.contains(position) {
             return position;
         }
-        let (lower, upper) = (self.lower(), self.upper());
-        let inside = |axis: usize| wrapped(position[axis], lower[axis], upper[axis]);
-        Vec3::new(inside(0), inside(1), inside(2))
+        Space::repeating([self.lower(), self.upper()], wraps).home(position).0
     }
 
     /// Where a grain that a step has taken out of an antipodal volume goes on ([B], section 7: r_x -> -r_x, its velocity
@@ -117,13 +151,7 @@ impl Volume {
     #[inline]
     #[must_use]
     pub fn shortest(&self, displacement: Vec3) -> Vec3 {
-        if self.boundary != Boundary::Periodic {
-            return displacement;
-        }
-        let edges = self.edges();
-        let along =
-            |axis: usize| displacement[axis] - edges[axis] * (displacement[axis] / edges[axis]).round();
-        Vec3::new(along(0), along(1), along(2))
+        self.space().shortest(displacement)
     }
 
     /// The image of `place` that is nearest to `from`, where images meet [m].
@@ -141,15 +169,6 @@ impl Volume {
     }
 }
 
-fn wrapped(coordinate: f64, lower: f64, upper: f64) -> f64 {
-    if lower <= coordinate && coordinate < upper {
-        return coordinate;
-    }
-    let inside = lower + (coordinate - lower).rem_euclid(upper - lower);
-    // A hair below the lower face is rounded to the upper one. What is not a number stays that: it must be noticed.
-    if inside >= upper { lower } else { inside }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -158,7 +177,7 @@ mod tests {
 
     fn volume(boundary: Boundary) -> Volume {
         let (lower, upper) = ([-0.3, 1.0, -7.0], [0.7, 1.1, -2.5]);
-        Volume { lower: lower.map(Quantity), upper: upper.map(Quantity), boundary }
+        Volume { lower: lower.map(Quantity), upper: upper.map(Quantity), boundary, faces: None }
     }
 
     #[test]

@@ -110,6 +110,17 @@ pub enum SimError {
         /// What is allowed.
         limit: f64,
     },
+    /// Grains would meet two images of one another.
+    #[error(
+        "[volume] is too narrow: grains act on one another up to {reach:.3e} m from center to center, which is not below half of \
+         the shortest edge across which space repeats itself, {period:.3e} m; enlarge it, or let its faces be open"
+    )]
+    NarrowSpace {
+        /// The shortest period [m].
+        period: f64,
+        /// How far grains act on one another, from center to center [m].
+        reach: f64,
+    },
     /// The observer asked to stop before the clock started.
     #[error("stopped while grains came to rest (start.relax); nothing is kept of that")]
     StoppedAtRest,

@@ -23,6 +23,12 @@ impl<T: Send> Split for &mut [T] {
     }
 }
 
+impl<S: Split> Split for Option<S> {
+    fn split(self, range: &Range<usize>, at: usize) -> (Self, Self) {
+        self.map(|views| views.split(range, at)).unzip()
+    }
+}
+
 impl<A: Split, B: Split> Split for (A, B) {
     fn split(self, range: &Range<usize>, at: usize) -> (Self, Self) {
         let (a, b) = (self.0.split(range, at), self.1.split(range, at));

@@ -33,6 +33,10 @@ pub trait Real:
     #[must_use]
     fn abs(self) -> Self;
 
+    /// The nearest whole number, the even one of two that are equally near.
+    #[must_use]
+    fn round(self) -> Self;
+
     /// The smaller of two; the other one where they cannot be compared.
     #[must_use]
     fn min(self, other: Self) -> Self;
@@ -83,6 +87,11 @@ impl Real for f64 {
     #[inline(always)]
     fn abs(self) -> Self {
         self.abs()
+    }
+
+    #[inline(always)]
+    fn round(self) -> Self {
+        self.round_ties_even()
     }
 
     #[inline(always)]

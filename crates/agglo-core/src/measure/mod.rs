@@ -10,6 +10,7 @@ mod shape;
 mod size_classes;
 mod size_rates;
 mod size_totals;
+mod whole;
 
 pub use biot::{biot_number, is_uniform};
 pub use clusters::{Clusters, Joiner};
@@ -21,3 +22,4 @@ pub use shape::{ClusterSummary, center_of_mass, fractal_dimension, radius_of_gyr
 pub use size_classes::{SizeClass, SizeClasses, end_of_class};
 pub use size_rates::{BreakageRow, DaughterRow, KernelRow, SizeRates};
 pub use size_totals::SizeTotals;
+pub use whole::whole;

@@ -1,6 +1,7 @@
 //! Grains whose surfaces are close to one another.
 
 use crate::contact::closeness::are_close;
+use crate::domain::Space;
 use crate::math::Vec3;
 use crate::neighbors::{CellIndex, Sorted, Span};
 
@@ -8,18 +9,24 @@ use crate::neighbors::{CellIndex, Sorted, Span};
 /// smaller radius: |r_i - r_j| <= R_i + R_j + gap min(R_i, R_j). With `gap` 0 grains that are placed as touching are
 /// found or not by round-off; see [`crate::contact::closeness::TOUCHING`].
 ///
-/// `positions` [n] and `radii` [n] in m. The order of the calls says nothing. Memory is in proportion to n however far the grains
+/// `positions` [n] and `radii` [n] in m; of images in a space that repeats itself the nearest counts. The order of the calls says nothing. Memory is in proportion to n however far the grains
 /// have spread.
-pub fn close_pairs(positions: &[Vec3], radii: &[f64], gap: f64, found: &mut impl FnMut(u32, u32)) {
+pub fn close_pairs(
+    space: &Space,
+    positions: &[Vec3],
+    radii: &[f64],
+    gap: f64,
+    found: &mut impl FnMut(u32, u32),
+) {
     let smallest = radii.iter().copied().fold(f64::INFINITY, f64::min);
     let mut cells = CellIndex::<Sorted>::default();
-    cells.fill(&(positions, radii), &Span::Free, gap * smallest);
+    cells.fill(&(positions, radii), &Span::Free(*space), gap * smallest);
     for of in 0..positions.len() as u32 {
         let (center, radius) = (positions[of as usize], radii[of as usize]);
         cells.visit_partners(of, center, radius + gap * radius, &mut |other, _| {
             let (i, j) = (of.min(other), of.max(other));
             let (i_at, j_at) = (i as usize, j as usize);
-            let distance_squared = (positions[i_at] - positions[j_at]).norm_squared();
+            let distance_squared = space.shortest(positions[i_at] - positions[j_at]).norm_squared();
             if are_close(distance_squared, radii[i_at], radii[j_at], gap) {
                 found(i, j);
             }
@@ -36,7 +43,7 @@ mod tests {
 
     fn close(positions: &[Vec3], radii: &[f64], gap: f64) -> Vec<(u32, u32)> {
         let mut pairs = Vec::new();
-        close_pairs(positions, radii, gap, &mut |i, j| pairs.push((i, j)));
+        close_pairs(&Space::OPEN, positions, radii, gap, &mut |i, j| pairs.push((i, j)));
         let count = pairs.len();
         pairs.sort_unstable();
         pairs.dedup();

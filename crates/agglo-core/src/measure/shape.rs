@@ -73,7 +73,8 @@ pub struct ClusterSummary {
     pub largest_fractal_dimension: Option<f64>,
 }
 
-/// The quantities of `clusters` of grains with `positions` [n] [m], `radii` [n] [m] and `masses` [n] [kg].
+/// The quantities of `clusters` of grains with `positions` [n] [m], `radii` [n] [m] and `masses` [n] [kg]; faces across which space
+/// repeats itself must not cut the heaviest cluster in two (see [`super::whole`]).
 pub fn summarize(clusters: &Clusters, positions: &[Vec3], radii: &[f64], masses: &[f64]) -> ClusterSummary {
     let all: Vec<u32> = (0..positions.len() as u32).collect();
     let largest = clusters.members(0);
@@ -262,7 +263,9 @@ mod tests {
         positions.push(Vec3::new(0.0, 50.0, 0.0));
         let (radii, masses) = (vec![0.5; 22], vec![3.0; 22]);
         let mut edges = Vec::new();
-        crate::measure::close_pairs(&positions, &radii, 0.01, &mut |i, j| edges.push((i, j)));
+        crate::measure::close_pairs(&crate::domain::Space::OPEN, &positions, &radii, 0.01, &mut |i, j| {
+            edges.push((i, j))
+        });
         let clusters = Clusters::new(&masses, edges);
         let found = summarize(&clusters, &positions, &radii, &masses);
         assert_eq!((found.count, found.largest_size), (2, 21));

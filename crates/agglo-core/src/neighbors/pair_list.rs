@@ -9,6 +9,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::cells::{CellIndex, Sorted, Span};
+use crate::domain::Space;
 use crate::math::{Groups, Vec3, parallel};
 
 /// Grains per task of the search.
@@ -26,19 +27,20 @@ pub struct PairList {
     /// Pairs by their partners.
     back: Groups,
     reference: Vec<Vec3>,
+    space: Space,
     skin: f64,
     /// No sphere is farther from where it was listed [m].
     strayed: f64,
 }
 
 impl PairList {
-    /// Lists all pairs whose surfaces are closer than `reach` + `skin` [m]; valid until a grain has moved by half
+    /// Lists all pairs whose surfaces are closer than `reach` + `skin` [m] in a space; valid until a grain has moved by half
     /// the skin.
-    pub fn build(&mut self, positions: &[Vec3], radii: &[f64], reach: f64, skin: f64) {
+    pub fn build(&mut self, space: &Space, positions: &[Vec3], radii: &[f64], reach: f64, skin: f64) {
         let n = positions.len();
         let margin = reach + skin;
-        self.skin = skin;
-        self.cells.fill(&(positions, radii), &Span::Free, margin);
+        (self.skin, self.space) = (skin, *space);
+        self.cells.fill(&(positions, radii), &Span::Free(*space), margin);
         self.found.resize_with(n.div_ceil(CHUNK), Default::default);
         let cells = &self.cells;
         self.found.par_iter_mut().enumerate().for_each(|(chunk, (counts, partners))| {
@@ -49,7 +51,8 @@ impl PairList {
                 let near = radii[owner] + margin;
                 cells.visit_partners(owner as u32, positions[owner], near, &mut |other, _| {
                     let reach = radii[owner] + radii[other as usize] + margin;
-                    if (positions[other as usize] - positions[owner]).norm_squared() < reach * reach {
+                    let apart = space.shortest(positions[other as usize] - positions[owner]);
+                    if apart.norm_squared() < reach * reach {
                         partners.push(other);
                     }
                 });
@@ -91,14 +94,14 @@ impl PairList {
         if self.reference.len() != positions.len() {
             return false;
         }
-        let reference = &self.reference;
+        let (reference, space) = (&self.reference, &self.space);
         let squared = parallel::over(
             0..positions.len(),
             4096,
             (),
             &|range: Range<usize>, ()| {
                 let ways = positions[range.clone()].iter().zip(&reference[range]);
-                ways.map(|(now, then)| (*now - *then).norm_squared()).fold(0.0, f64::max)
+                ways.map(|(now, then)| space.shortest(*now - *then).norm_squared()).fold(0.0, f64::max)
             },
             &f64::max,
         );
@@ -190,7 +193,7 @@ mod tests {
         for (spread, ratio) in [(1.0, 1.0), (1.0, 10.0), (200.0, 1.0), (200.0, 30.0), (0.05, 2.0)] {
             let (positions, radii) = cloud(400, spread, ratio);
             let mut list = PairList::default();
-            list.build(&positions, &radii, 0.0, 0.02);
+            list.build(&Space::OPEN, &positions, &radii, 0.0, 0.02);
             let mut pairs: Vec<(u32, u32)> = list.pairs().map(|(a, b)| (a.min(b), a.max(b))).collect();
             pairs.sort_unstable();
             assert_eq!(pairs, brute(&positions, &radii, 0.02), "spread {spread}, ratio {ratio}");
@@ -201,11 +204,44 @@ mod tests {
         }
     }
 
+    /// Against all pairs in their nearest images, for boxes down to two diameters across, open along some axes or none, and
+    /// spheres that lie a little out of them.
+    #[test]
+    fn agrees_with_all_pairs_in_space_that_repeats_itself() {
+        let mut stream = Stream::new(8, Purpose::Sampling, 0);
+        for round in 0..60 {
+            let edges = Vec3::new(0.3, 0.3, 0.3) + Vec3::new(3.0, 3.0, 3.0) * stream.uniform().powi(2);
+            let edges = Vec3::new(edges.x, edges.y * (1.0 + stream.uniform()), edges.z);
+            let axes = [0, 1, 2].map(|axis| round >> axis & 1 == 0);
+            let lower = Vec3::new(-1.0, 4.0, 0.3);
+            let space = Space::repeating([lower, lower + edges], axes);
+            let mut within = |edge: f64| edge * (1.02 * stream.uniform() - 0.01);
+            let positions: Vec<Vec3> = (0..200)
+                .map(|_| lower + Vec3::new(within(edges.x), within(edges.y), within(edges.z)))
+                .collect();
+            let radii: Vec<f64> = (0..200).map(|_| 0.07 * 0.1_f64.powf(stream.uniform())).collect();
+            let mut list = PairList::default();
+            list.build(&space, &positions, &radii, 0.0, 0.01);
+            let mut pairs: Vec<(u32, u32)> = list.pairs().map(|(a, b)| (a.min(b), a.max(b))).collect();
+            pairs.sort_unstable();
+            let mut wanted = Vec::new();
+            for i in 0..200 {
+                for j in i + 1..200 {
+                    let apart = space.shortest(positions[i] - positions[j]).norm();
+                    if apart < radii[i] + radii[j] + 0.01 {
+                        wanted.push((i as u32, j as u32));
+                    }
+                }
+            }
+            assert_eq!(pairs, wanted, "edges {edges:?}, repeating {axes:?}");
+        }
+    }
+
     #[test]
     fn holds_until_half_the_skin() {
         let (mut positions, radii) = cloud(50, 1.0, 1.0);
         let mut list = PairList::default();
-        list.build(&positions, &radii, 0.0, 0.02);
+        list.build(&Space::OPEN, &positions, &radii, 0.0, 0.02);
         positions[7].x += 0.0099;
         assert_true!(
             list.holds_for(&positions) && list.holds(),

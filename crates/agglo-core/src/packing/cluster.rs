@@ -150,6 +150,7 @@ fn settle(heap: &Heap, order: &[usize], radii: &[f64], masses: &[f64]) -> Packed
 mod tests {
     use super::*;
     use crate::contact::closeness::TOUCHING;
+    use crate::domain::Space;
     use crate::math::rng::Purpose;
     use crate::measure::{Clusters, close_pairs};
 
@@ -168,7 +169,7 @@ mod tests {
     /// No overlap beyond round-off, one connected piece by contacts alone, and the center of mass at the origin.
     fn assert_sound(found: &PackedCluster, radii: &[f64]) {
         let mut edges = Vec::new();
-        close_pairs(&found.positions, radii, TOUCHING, &mut |a, b| {
+        close_pairs(&Space::OPEN, &found.positions, radii, TOUCHING, &mut |a, b| {
             let (i, j) = (a as usize, b as usize);
             let distance = (found.positions[i] - found.positions[j]).norm();
             assert_above!(distance, (radii[i] + radii[j]) * (1.0 - 1e-8), "spheres {i} and {j}");

@@ -27,7 +27,7 @@ impl<'a> Groups<'a> {
     /// The control volume, where there is one.
     pub fn volume(&self) -> Option<&'a Volume> {
         match self.kind {
-            SphereKind::Soft => None,
+            SphereKind::Soft { volume } => volume,
             SphereKind::Hard { volume, .. } => Some(volume),
         }
     }
@@ -36,8 +36,11 @@ impl<'a> Groups<'a> {
 /// What kind of spheres grains are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SphereKind<'a> {
-    /// They may overlap and be anywhere.
-    Soft,
+    /// They may overlap, and be anywhere but beyond faces across which space repeats itself.
+    Soft {
+        /// The control volume, if there is one.
+        volume: Option<&'a Volume>,
+    },
     /// They may not overlap, and lie in the control volume.
     Hard {
         /// The control volume.

@@ -13,11 +13,11 @@ pub(super) struct Occupied {
 impl Occupied {
     /// Empty space in the box `bounds` [m] that will take spheres of the given radii [m].
     ///
-    /// If it `repeats` itself, the images of all spheres are kept clear of too; centers must then lie in the box, and
-    /// no diameter may be above an edge.
+    /// Along axes on which it `repeats` itself, the images of all spheres are kept clear of too; centers must then lie in the box,
+    /// and no diameter may be above an edge.
     pub fn new(
         (lower, upper): (Vec3, Vec3),
-        repeats: bool,
+        repeats: [bool; 3],
         gap: f64,
         radii: impl Iterator<Item = f64> + Clone,
     ) -> Self {
@@ -79,7 +79,7 @@ mod tests {
         };
         let spheres: Vec<(Vec3, f64)> =
             (0..400).map(|k| (any(2.4), 0.15 * 0.01_f64.powf(f64::from(k) / 400.0))).collect();
-        let mut occupied = Occupied::new(bounds, false, 0.002, spheres.iter().map(|sphere| sphere.1));
+        let mut occupied = Occupied::new(bounds, [false; 3], 0.002, spheres.iter().map(|sphere| sphere.1));
         for &(center, radius) in &spheres {
             occupied.insert(center, radius);
         }
@@ -117,7 +117,7 @@ mod tests {
             let spheres: Vec<(Vec3, f64)> =
                 (0..40).map(|k| (any(), 0.1 * 0.05_f64.powf(f64::from(k) / 40.0))).collect();
             let radii = spheres.iter().map(|sphere| sphere.1);
-            let mut occupied = Occupied::new((lower, lower + edges), true, 0.002, radii);
+            let mut occupied = Occupied::new((lower, lower + edges), [true; 3], 0.002, radii);
             for &(center, radius) in &spheres {
                 occupied.insert(center, radius);
             }

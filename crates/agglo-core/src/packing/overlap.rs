@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::domain::{Boundary, Volume};
+use crate::domain::{Boundary, Space, Volume};
 use crate::math::{Vec3, parallel};
 use crate::neighbors::{CellIndex, Sorted, Span};
 use crate::particles::Particles;
@@ -40,11 +40,11 @@ pub struct Overlap {
 pub fn first_overlap(grains: &Particles, volume: Option<&Volume>) -> Option<Overlap> {
     let mut crowd =
         Crowd { ids: grains.id.clone(), positions: grains.position.clone(), radii: grains.radius.clone() };
-    if let Some(volume) = volume.filter(|volume| volume.boundary == Boundary::Periodic) {
+    if let Some(volume) = volume {
         crowd.add_images(volume);
     }
     let mut cells = CellIndex::<Sorted>::default();
-    cells.fill(&(&crowd.positions[..], &crowd.radii[..]), &Span::Free, 0.0);
+    cells.fill(&(&crowd.positions[..], &crowd.radii[..]), &Span::Free(Space::OPEN), 0.0);
     let search = |range: Range<usize>, ()| {
         range.fold(None, |found, sphere| first_of(found, crowd.first_partner(&cells, sphere as u32)))
     };
@@ -55,16 +55,21 @@ pub fn first_overlap(grains: &Particles, volume: Option<&Volume>) -> Option<Over
 /// are periodic or antipodal, with any part of it where they are walls, unless it may reach into them.
 pub(super) fn first_outside(grains: &Particles, volume: &Volume, may_reach_in: bool) -> Option<usize> {
     let (lower, upper) = (volume.lower(), volume.upper());
-    let wall = match volume.boundary {
-        Boundary::Open => return None,
-        Boundary::Reflecting if !may_reach_in => 1.0 - TOLERANCE,
-        Boundary::Periodic | Boundary::Antipodal | Boundary::Reflecting => 0.0,
-    };
-    let is_inside = |center: Vec3, margin: f64| {
-        (0..3).all(|axis| lower[axis] + margin <= center[axis] && center[axis] <= upper[axis] - margin)
+    let walls = volume.boundaries().map(|boundary| match boundary {
+        Boundary::Open => None,
+        Boundary::Reflecting if !may_reach_in => Some(1.0 - TOLERANCE),
+        Boundary::Periodic | Boundary::Antipodal | Boundary::Reflecting => Some(0.0),
+    });
+    let is_inside = |center: Vec3, radius: f64| {
+        (0..3).all(|axis| {
+            walls[axis].is_none_or(|wall| {
+                let margin = wall * radius;
+                lower[axis] + margin <= center[axis] && center[axis] <= upper[axis] - margin
+            })
+        })
     };
     let mut spheres = grains.position.iter().zip(&grains.radius);
-    spheres.position(|(&center, &radius)| !is_inside(center, wall * radius))
+    spheres.position(|(&center, &radius)| !is_inside(center, radius))
 }
 
 fn first_of(a: Option<Overlap>, b: Option<Overlap>) -> Option<Overlap> {
@@ -87,8 +92,9 @@ impl Crowd {
     fn add_images(&mut self, volume: &Volume) {
         let (lower, upper, edges) = (volume.lower(), volume.upper(), volume.edges());
         let largest = self.radii.iter().copied().fold(0.0, f64::max);
+        let repeats = volume.repeats();
         // Images along one axis after the other: those of images make edges and corners.
-        for axis in 0..3 {
+        for axis in (0..3).filter(|axis| repeats[*axis]) {
             for at in 0..self.ids.len() {
                 let (position, reach) = (self.positions[at], self.radii[at] + largest);
                 if position[axis] - reach < lower[axis] {

@@ -74,7 +74,7 @@ pub fn place_all<'a>(
         }
         let group_of = Group { request, seed: asked.seed, number: group, volume: asked.volume() };
         let mut spots = group_of.spots(&placed.grains, read, watch)?;
-        if asked.kind == SphereKind::Soft && spots.iter().any(|spot| spot.primaries > 1) {
+        if matches!(asked.kind, SphereKind::Soft { .. }) && spots.iter().any(|spot| spot.primaries > 1) {
             let reason = "its column `primaries` has grains made of several, which only hard spheres can be; \
                           `agglo hand-over` takes them apart";
             return Err(PackingError::Value { group, key: "placement.table", reason: reason.to_owned() });
@@ -108,14 +108,19 @@ pub fn place_all<'a>(
 /// [`PackingError`] where grains are too far out, at one place, overlap as hard spheres or are out of their volume.
 pub fn make_ready(asked: &Groups<'_>, grains: &mut Particles, may_overlap: bool) -> Result<(), PackingError> {
     refuse_far(grains)?;
-    refuse_coincident(grains)?;
-    if let SphereKind::Hard { volume, may_leave } = asked.kind {
-        bring_inside(volume, grains, may_overlap && may_leave, may_overlap)?;
-        if !may_overlap {
-            refuse_overlapping(grains, volume)?;
+    match asked.kind {
+        SphereKind::Soft { volume } => {
+            if let Some(volume) = volume {
+                bring_inside(volume, grains, false, true)?;
+            }
+            refuse_coincident(grains)
+        }
+        SphereKind::Hard { volume, may_leave } => {
+            refuse_coincident(grains)?;
+            bring_inside(volume, grains, may_overlap && may_leave, may_overlap)?;
+            if may_overlap { Ok(()) } else { refuse_overlapping(grains, volume) }
         }
     }
-    Ok(())
 }
 
 /// Where a grain is, how large, and what its row of a table or list says of it.
@@ -233,7 +238,7 @@ fn scatter(request: &GrainGroup, seed: u64, group: usize, spots: &mut [Spot]) {
     }
 }
 
-/// Hard spheres start within the faces; of the images of a grain, the one inside counts.
+/// Grains start within the faces that bring them back; of the images of a grain, the one inside counts.
 fn bring_inside(
     volume: &Volume,
     grains: &mut Particles,

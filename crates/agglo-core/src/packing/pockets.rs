@@ -69,7 +69,7 @@ impl Heap {
         let smallest = radii.iter().copied().fold(f64::INFINITY, f64::min);
         let largest = radii.iter().copied().fold(0.0, f64::max);
         let corner = Vec3::new(reach, reach, reach);
-        let cells = CellIndex::empty([-corner, corner], false, 2.0 * largest, radii.iter().copied());
+        let cells = CellIndex::empty([-corner, corner], [false; 3], 2.0 * largest, radii.iter().copied());
         Self { balls: Vec::new(), cells, pockets: Vec::new(), sizes: [smallest, largest] }
     }
 

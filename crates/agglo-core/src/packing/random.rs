@@ -22,7 +22,7 @@ use super::error::{PackingError, SATURATION};
 use super::occupied::Occupied;
 use super::room::Room;
 use super::{Fill, PlaceWatch, RandomAddition, Size};
-use crate::domain::Volume;
+use crate::domain::{Boundary, Volume};
 use crate::math::Vec3;
 use crate::math::rng::{Purpose, Stream};
 use crate::particles::Particles;
@@ -266,11 +266,10 @@ impl Search<'_> {
 
     fn occupied_by_earlier(&self) -> Occupied {
         let (lower, upper) = self.room.bounds();
-        let repeating = self.volume.filter(|volume| volume.boundary.wraps());
-        let home = |center: Vec3| repeating.map_or(center, |volume| volume.wrap(center));
+        let home = |center: Vec3| self.volume.map_or(center, |volume| volume.wrap(center));
         // A room that repeats itself finds images of its own accord.
-        let shifts = match repeating {
-            Some(volume) if !self.room.repeats() => shifts(volume.edges()),
+        let shifts = match self.volume {
+            Some(volume) if self.room.repeats() == [false; 3] => shifts(volume),
             _ => vec![Vec3::ZERO],
         };
         let grains = self.earlier.position.iter().zip(&self.earlier.radius);
@@ -338,11 +337,16 @@ impl Search<'_> {
     }
 }
 
-/// The vectors [m] to a box with these edges and to the 26 about it.
-fn shifts(edges: Vec3) -> Vec<Vec3> {
-    let steps = [-1.0, 0.0, 1.0];
-    let plane = steps.iter().flat_map(|&k| steps.iter().map(move |&j| (j * edges.y, k * edges.z)));
-    plane.flat_map(|(y, z)| steps.iter().map(move |&i| Vec3::new(i * edges.x, y, z))).collect()
+/// The vectors [m] to a volume and to those about it that it repeats itself in.
+fn shifts(volume: &Volume) -> Vec<Vec3> {
+    let (edges, wraps) = (volume.edges(), volume.boundaries().map(Boundary::wraps));
+    let along = |axis: usize| -> Vec<f64> {
+        let steps: &[f64] = if wraps[axis] { &[-1.0, 0.0, 1.0] } else { &[0.0] };
+        steps.iter().map(|step| step * edges[axis]).collect()
+    };
+    let [xs, ys, zs] = [along(0), along(1), along(2)];
+    let plane = zs.iter().flat_map(|&z| ys.iter().map(move |&y| (y, z)));
+    plane.flat_map(|(y, z)| xs.iter().map(move |&x| Vec3::new(x, y, z))).collect()
 }
 
 /// Equal cubes that cover the room that is left.

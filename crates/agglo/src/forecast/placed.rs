@@ -19,7 +19,7 @@ pub(super) fn notes(notes: &mut Vec<String>, scenario: &Scenario, start: &Start)
 fn bonds(scenario: &Scenario, start: &Start) -> Option<String> {
     let bonds = scenario.soft()?.bonds.as_ref();
     let Some(Bonds::Beam(law)) = bonds else { return None };
-    let network = Network::start(Some(law), start.bonds.clone(), &start.grains);
+    let network = Network::start(Some(law), start.bonds.clone(), &start.grains, &scenario.space());
     law.warning(network.made_at_start()).map(str::to_owned)
 }
 
@@ -39,7 +39,7 @@ fn region(scenario: &Scenario, grains: &Particles) -> Option<String> {
 /// What the cut-off of the near field leaves out.
 fn cutoff(scenario: &Scenario, grains: &Particles) -> Option<String> {
     let law = scenario.soft()?.fields.near_field.as_ref()?;
-    let found = truncation(law, grains)?;
+    let found = truncation(law, grains, &scenario.space())?;
     let part = digits(100.0 * found.forces);
     let verdict = if found.forces > law.truncation { "the run will refuse it" } else { "that is allowed" };
     let energy = found.energy.map_or(String::new(), |energy| {

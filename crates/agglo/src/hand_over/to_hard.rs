@@ -15,7 +15,7 @@ use super::record::Cleared;
 use super::{Grown, HandOver, HandOverError, Motion, Options, materials};
 use crate::domain::Volume;
 use crate::math::Vec3;
-use crate::measure::{Clusters, RigidMotion, close_pairs};
+use crate::measure::{Clusters, RigidMotion, close_pairs, whole};
 use crate::particles::{Material, Particles, Row};
 use crate::scenario::Scenario;
 use crate::units::{Quantity, vector};
@@ -58,9 +58,11 @@ fn notes(grown: &Grown) -> Vec<String> {
 /// The clusters of a run as grains.
 fn merge(grown: &Grown, scenario: &Scenario) -> Result<CameOut, HandOverError> {
     let (start, past) = (&grown.state.start, &grown.state.past);
-    let grains = &start.grains;
+    let (mut grains, space) = (start.grains.clone(), past.space());
     let mut edges: Vec<(u32, u32)> = start.bonds.iter().flatten().map(|bond| bond.grains.into()).collect();
-    close_pairs(&grains.position, &grains.radius, past.measures.cluster_gap, &mut |a, b| edges.push((a, b)));
+    let gap = past.measures.cluster_gap;
+    close_pairs(&space, &grains.position, &grains.radius, gap, &mut |a, b| edges.push((a, b)));
+    grains.position = whole(&space, &grains.position, &edges).into_owned();
     let found = Clusters::new(&grains.mass, edges);
     let mut members = vec![Vec::new(); found.count()];
     for (grain, &label) in (0..).zip(&found.labels) {
@@ -69,7 +71,7 @@ fn merge(grown: &Grown, scenario: &Scenario) -> Result<CameOut, HandOverError> {
     let mut rows = Vec::new();
     let mut clusters = Vec::new();
     for (id, members) in (0..).zip(&members) {
-        let (row, cluster) = one(grown, scenario, id, members)?;
+        let (row, cluster) = one(grown, &grains, scenario, (id, members))?;
         rows.push(row);
         clusters.push(cluster);
     }
@@ -91,11 +93,11 @@ fn merge(grown: &Grown, scenario: &Scenario) -> Result<CameOut, HandOverError> {
 /// One cluster as a grain.
 fn one(
     grown: &Grown,
+    grains: &Particles,
     scenario: &Scenario,
-    id: u32,
-    members: &[u32],
+    (id, members): (u32, &[u32]),
 ) -> Result<(Row, Cluster), HandOverError> {
-    let (grains, past) = (&grown.state.start.grains, &grown.state.past);
+    let past = &grown.state.past;
     let body = RigidMotion::of(grains, members);
     let first = members[0] as usize;
     let number = grains.material[first];
@@ -128,7 +130,7 @@ fn one(
     });
     let row = Row {
         id,
-        position: body.center,
+        position: past.space().home(body.center).0,
         velocity,
         radius,
         mass,

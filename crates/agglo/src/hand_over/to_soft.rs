@@ -18,6 +18,7 @@ use super::record::Cleared;
 use super::{Grown, HandOver, HandOverError, Motion, Options, Packing, materials};
 use crate::contact::Bonds;
 use crate::contact::closeness::TOUCHING;
+use crate::domain::Space;
 use crate::math::Vec3;
 use crate::math::rng::{Purpose, Stream};
 use crate::measure::{Clusters, RigidMotion, close_pairs};
@@ -254,7 +255,7 @@ fn placed(grain: &Row, place: Vec3, primaries: &Primaries, about: &[Vec3], scena
 fn connected(apart: &CameOut, gap: Option<f64>) -> Result<usize, HandOverError> {
     let (grains, part) = (&apart.grains, gap.unwrap_or(TOUCHING));
     let mut edges = Vec::new();
-    close_pairs(&grains.position, &grains.radius, part, &mut |a, b| edges.push((a, b)));
+    close_pairs(&Space::OPEN, &grains.position, &grains.radius, part, &mut |a, b| edges.push((a, b)));
     let across =
         edges.iter().find(|(a, b)| apart.told[*a as usize].cluster != apart.told[*b as usize].cluster);
     let pieces = Clusters::new(&grains.mass, edges.iter().copied()).count();

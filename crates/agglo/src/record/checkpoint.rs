@@ -30,7 +30,7 @@ use crate::folder::{files, names};
 use crate::text::cell;
 
 const MAGIC: &[u8; 8] = b"AGGLO\r\n\x8a";
-const FORMAT: u32 = 4;
+const FORMAT: u32 = 5;
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// Checkpoints that are kept.
 const KEPT: usize = 2;

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::acoustics::{Flight, Ray};
 use crate::contact::network::Bond;
+use crate::domain::{Image, Space};
 use crate::folder::names::{self, FRAMES};
 use crate::folder::{Mark, RunFolder};
 use crate::math::Vec3;
@@ -113,24 +114,36 @@ impl Frames {
         self.lists.last_time
     }
 
-    /// Writes the grains at `time` [s] with an integer field [n] of this name.
+    /// Writes the grains at `time` [s] with an integer field [n] of this name and, where space repeats itself, how often each went
+    /// out through the faces across each axis.
     pub fn grains(
         &mut self,
         time: f64,
         grains: &Particles,
+        images: &[Image],
         (field, values): (&str, &[u32]),
     ) -> Result<(), RecordError> {
         // Here and not for each file: those of a moment are written one after another.
         self.folder.hold_on()?;
         self.lists.last_time = Some(time);
         let name = self.lists.grains.next_name("grains");
-        let extra = Field::new(field, ColumnValues::Integers(values));
-        let mark = write_grains(&self.folder.frames().join(&name), time, grains, &[extra])?;
+        let mut extra = vec![Field::new(field, ColumnValues::Integers(values))];
+        let images: Vec<Vec3> = images.iter().map(|image| image.map(f64::from).into()).collect();
+        if !images.is_empty() {
+            extra.push(Field::new("image", ColumnValues::Vectors(&images)));
+        }
+        let mark = write_grains(&self.folder.frames().join(&name), time, grains, &extra)?;
         self.lists.grains.add(time, &name, mark, &self.folder.frame_list("grains"))
     }
 
     /// Writes the bonds at `time` [s] as lines between centers, in the order of the names that they join.
-    pub fn bonds(&mut self, time: f64, grains: &Particles, bonds: &[Bond]) -> Result<(), RecordError> {
+    pub fn bonds(
+        &mut self,
+        time: f64,
+        grains: &Particles,
+        space: &Space,
+        bonds: &[Bond],
+    ) -> Result<(), RecordError> {
         let name = self.lists.bonds.next_name("bonds");
         let mut bonds: Vec<&Bond> = bonds.iter().collect();
         bonds.sort_by_key(|bond| {
@@ -142,11 +155,11 @@ impl Frames {
             .iter()
             .map(|bond| {
                 let [a, b] = bond.grains.map(|grain| grains.position[grain as usize]);
-                (b - a).norm() / bond.state.length - 1.0
+                space.shortest(b - a).norm() / bond.state.length - 1.0
             })
             .collect();
         let fields = [Field::new("stretch", ColumnValues::Scalars(&stretch))];
-        let mark = write_bonds(&self.folder.frames().join(&name), time, grains, &pairs, &fields)?;
+        let mark = write_bonds(&self.folder.frames().join(&name), time, grains, space, &pairs, &fields)?;
         self.lists.bonds.add(time, &name, mark, &self.folder.frame_list("bonds"))
     }
 

@@ -81,7 +81,7 @@ fn bonded(scenario: &Scenario, grains: &Particles, base: &Path) -> Result<Option
     let law = soft.and_then(|soft| soft.bonds.as_ref()).and_then(Bonds::lasting);
     let Some((file, law)) = soft.and_then(|soft| soft.bonded.as_ref()).zip(law) else { return Ok(None) };
     let pairs = pairs(&base.join(file), &ById::of(&grains.id)).map_err(StartError::Bonds)?;
-    Ok(Some(bonds_between(law, grains, &pairs)))
+    Ok(Some(bonds_between(law, grains, &scenario.space(), &pairs)))
 }
 
 /// What grains of a table keep of their parts; nothing where all are primary grains. They are of their material throughout.

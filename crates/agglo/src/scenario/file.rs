@@ -51,7 +51,8 @@ pub(crate) struct ScenarioFile {
     /// What happens before the clock starts.
     #[serde(default)]
     pub start: StartTable,
-    /// The control volume; hard spheres only, which need it.
+    /// The control volume, which hard spheres need; across its faces space may repeat itself. Soft spheres are in open space if it
+    /// is left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub volume: Option<Volume>,
     /// Laws of impact; hard spheres only, which need them.
@@ -128,11 +129,13 @@ impl TryFrom<ScenarioFile> for Scenario {
     /// For hard spheres without a control volume or laws of impact.
     fn try_from(file: ScenarioFile) -> Result<Self, &'static str> {
         let StartTable { from, bonds: bonded, relax } = file.start;
+        let volume = &file.volume;
         let soft = |scheme| {
             Engine::Soft(Box::new(SoftSpheres {
                 scheme,
                 limits: file.limits.unwrap_or_default(),
                 relax,
+                volume: volume.clone(),
                 bonded,
                 contact: file.contact,
                 bonds: file.bonds,
@@ -140,7 +143,7 @@ impl TryFrom<ScenarioFile> for Scenario {
                 acoustics: file.acoustics,
             }))
         };
-        let hard = |driver| match (file.volume, file.impact) {
+        let hard = |driver| match (volume.clone(), file.impact) {
             (Some(volume), Some(impact)) => {
                 Ok(Engine::Hard(Box::new(HardSpheres { driver, volume, impact })))
             }
@@ -202,6 +205,7 @@ impl From<Scenario> for ScenarioFile {
                 Self {
                     limits,
                     fields,
+                    volume: soft.volume,
                     contact: soft.contact,
                     bonds: soft.bonds,
                     acoustics: soft.acoustics,

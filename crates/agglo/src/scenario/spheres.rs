@@ -25,6 +25,7 @@ impl TryFrom<&Scenario> for soft::Settings {
             mixtures: scenario.mixtures.clone(),
             smallest_radius: scenario.grains.iter().map(|group| group.size.smallest()).reduce(f64::min),
             relax: soft.relax.clone(),
+            volume: soft.volume.clone(),
             contact: soft.contact.clone(),
             bonds: soft.bonds.clone(),
             fields: soft.fields.clone(),
@@ -60,7 +61,7 @@ impl TryFrom<&Scenario> for hard::Settings {
 impl<'a> From<&'a Scenario> for Groups<'a> {
     fn from(scenario: &'a Scenario) -> Self {
         let kind = match &scenario.engine {
-            Engine::Soft(_) => SphereKind::Soft,
+            Engine::Soft(soft) => SphereKind::Soft { volume: soft.volume.as_ref() },
             Engine::Hard(hard) => SphereKind::Hard {
                 volume: &hard.volume,
                 may_leave: matches!(hard.driver, Driver::TimeStepped(_)),

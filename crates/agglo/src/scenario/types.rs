@@ -10,7 +10,7 @@ use super::file::ScenarioFile;
 use crate::acoustics::{Acoustics, Medium};
 use crate::contact::closeness::touching;
 use crate::contact::{Bonds, ContactLaws};
-use crate::domain::Volume;
+use crate::domain::{Space, Volume};
 use crate::engine::hard::Driver;
 use crate::engine::soft::{Limits, Relaxation, Scheme};
 use crate::fields::Fields;
@@ -72,6 +72,8 @@ pub struct SoftSpheres {
     pub limits: Limits,
     /// Lets the grains come to rest before the clock starts; not if left out.
     pub relax: Option<Relaxation>,
+    /// The control volume, across whose faces space may repeat itself; open space if left out.
+    pub volume: Option<Volume>,
     /// A table of the grains that are bonded, relative to the scenario's folder; neighbors are if left out.
     pub bonded: Option<PathBuf>,
     /// Laws of contact; grains pass through one another without them.
@@ -148,9 +150,17 @@ impl Scenario {
         self.hard().map(|hard| &hard.impact)
     }
 
-    /// The control volume of hard spheres.
+    /// The control volume, if there is one.
     pub fn volume(&self) -> Option<&Volume> {
-        self.hard().map(|hard| &hard.volume)
+        match &self.engine {
+            Engine::Soft(soft) => soft.volume.as_ref(),
+            Engine::Hard(hard) => Some(&hard.volume),
+        }
+    }
+
+    /// Space as the faces of its control volume make it.
+    pub fn space(&self) -> Space {
+        self.volume().map_or(Space::OPEN, Volume::space)
     }
 }
 

@@ -127,7 +127,8 @@ fn contacts<F: Lanes>(
     let motion = rows::<F>(&ends, |of| &of.motion);
     let spin = rows::<F>(&ends, |of| &of.spin);
     let centers = vectors(&place);
-    let touch = Touch::new(scalars(&place), scalars(&motion), scalars(&spin), centers[1] - centers[0]);
+    let apart = given.world.space.shortest(centers[1] - centers[0]);
+    let touch = Touch::new(scalars(&place), scalars(&motion), scalars(&spin), apart);
     let Touch { geometry, normal, lever_arms, .. } = &touch;
     let constants = if let Some(constants) = constants {
         *constants

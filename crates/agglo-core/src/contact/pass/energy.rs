@@ -56,7 +56,7 @@ fn over_contacts<R: Send + Sync + Copy>(
         for owner in range {
             for pair in world.list.owned(owner) {
                 let partner = world.list.partners()[pair] as usize;
-                let apart = now.position[partner] - now.position[owner];
+                let apart = world.space.shortest(now.position[partner] - now.position[owner]);
                 let reach = grains.radius[owner] + grains.radius[partner] + beyond;
                 if apart.norm_squared() < reach * reach {
                     found = join(found, look(&Contact::new(snapshot, [owner, partner], apart)));

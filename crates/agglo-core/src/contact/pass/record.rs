@@ -54,6 +54,12 @@ impl Record {
         put(&mut self.spin, spin);
     }
 
+    /// Puts the end of the step into another image of where it is [m].
+    #[inline(always)]
+    pub fn shift_to(&mut self, place: Vec3) {
+        put(&mut self.place, place);
+    }
+
     /// Ends the step elsewhere [m], with these changes of the velocity [m/s] and the angular velocity [rad/s].
     #[inline(always)]
     pub fn end(&mut self, place: Vec3, kick: Vec3, twist: Vec3) {

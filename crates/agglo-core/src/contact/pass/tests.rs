@@ -6,6 +6,7 @@ use crate::contact::damping::{Damping, Restitution, ViscousArea};
 use crate::contact::friction::{Friction, Mindlin, Regularized, Sliding};
 use crate::contact::normal::{Hertz, Hooke, Normal, StrainPower};
 use crate::contact::{ContactGeometry, Custom, PairTable, lever_arms};
+use crate::domain::Space;
 use crate::math::rng::{Purpose, Stream};
 use crate::particles::{Material, Particles, Row};
 use crate::units::Quantity;
@@ -93,7 +94,7 @@ fn bits_of_steps(laws: &ContactLaws, bonds: Option<&Bonds>, skin: f64, is_one_by
     let grains = crowd();
     let pairs = PairTable::new(&materials(), &[], Some(laws));
     let mut list = PairList::default();
-    list.build(&grains.position, &grains.radius, laws.reach(), skin);
+    list.build(&Space::OPEN, &grains.position, &grains.radius, laws.reach(), skin);
     let mut contacts = Contacts::default();
     contacts.relist(&list, grains.len(), &[], Some(laws));
     let mut found = Vec::new();
@@ -110,7 +111,7 @@ fn bits_of_steps(laws: &ContactLaws, bonds: Option<&Bonds>, skin: f64, is_one_by
             record
         };
         let records: Vec<Record> = (0..grains.len()).map(record).collect();
-        let world = ContactWorld { laws: Some(laws), bonds, pairs: &pairs, list: &list };
+        let world = ContactWorld { laws: Some(laws), bonds, pairs: &pairs, list: &list, space: &Space::OPEN };
         let passage = Passage { records: &records, elapsed: dt, dt };
         let rates = contacts.compute_as(&world, &passage, is_one_by_one);
         contacts.commit();
@@ -189,12 +190,13 @@ fn loads_are_those_of_all_pairs() {
     for (laws, _) in choices().into_iter().filter(|(laws, _)| !laws.has_memory()) {
         let pairs = PairTable::new(&materials(), &[], Some(&laws));
         let mut list = PairList::default();
-        list.build(&grains.position, &grains.radius, laws.reach(), 1e-7);
+        list.build(&Space::OPEN, &grains.position, &grains.radius, laws.reach(), 1e-7);
         let mut contacts = Contacts::default();
         contacts.relist(&list, grains.len(), &[], Some(&laws));
         let record = |at: usize| Record::at_start(&grains, at, grains.mass[at]);
         let records: Vec<Record> = (0..grains.len()).map(record).collect();
-        let world = ContactWorld { laws: Some(&laws), bonds: None, pairs: &pairs, list: &list };
+        let world =
+            ContactWorld { laws: Some(&laws), bonds: None, pairs: &pairs, list: &list, space: &Space::OPEN };
         let rates = contacts.compute(&world, &Passage { records: &records, elapsed: 0.0, dt: DT });
         let (mut sums, mut lost) = (vec![(Vec3::ZERO, Vec3::ZERO); grains.len()], [0.0; 2]);
         for i in 0..grains.len() {
@@ -241,7 +243,7 @@ fn springs_follow_the_mean_motion_of_the_step() {
     }
     let pairs = PairTable::new(&materials(), &[], Some(&laws));
     let mut list = PairList::default();
-    list.build(&grains.position, &grains.radius, 0.0, 1e-7);
+    list.build(&Space::OPEN, &grains.position, &grains.radius, 0.0, 1e-7);
     let mut contacts = Contacts::default();
     contacts.relist(&list, 2, &[], Some(&laws));
     let mut pass = |velocities: [f64; 2], spins: [f64; 2]| {
@@ -254,7 +256,8 @@ fn springs_follow_the_mean_motion_of_the_step() {
             record
         };
         let records = [record(0), record(1)];
-        let world = ContactWorld { laws: Some(&laws), bonds: None, pairs: &pairs, list: &list };
+        let world =
+            ContactWorld { laws: Some(&laws), bonds: None, pairs: &pairs, list: &list, space: &Space::OPEN };
         contacts.compute(&world, &Passage { records: &records, elapsed: DT, dt: DT });
         contacts.commit();
         contacts.remembered(&list)[0].2.force

@@ -113,5 +113,5 @@ fn touch<F: Lanes>(given: &Given<'_>, records: &[Record], owners: &[u32], partne
     let place = rows::<F>(&ends, |of| &of.place);
     let (centers, radii) = (vectors(&place), scalars(&place));
     let reach = radii[0] + radii[1] + F::of(given.world.beyond());
-    (centers[1] - centers[0]).norm_squared().below(reach * reach)
+    given.world.space.shortest(centers[1] - centers[0]).norm_squared().below(reach * reach)
 }

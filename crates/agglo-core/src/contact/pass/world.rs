@@ -3,6 +3,7 @@
 use super::record::Record;
 use crate::contact::bond::{Bonds, StrainBond};
 use crate::contact::{ContactLaws, PairTable};
+use crate::domain::Space;
 use crate::neighbors::PairList;
 use crate::particles::{Motion, Particles};
 
@@ -17,6 +18,8 @@ pub struct ContactWorld<'a> {
     pub pairs: &'a PairTable,
     /// Candidate pairs.
     pub list: &'a PairList,
+    /// Space, which may repeat itself: a pair meets where it is nearest.
+    pub space: &'a Space,
 }
 
 /// The step at whose end a pass is made.

@@ -6,6 +6,8 @@ mod forces;
 mod guard;
 mod hook;
 mod outside;
+#[cfg(test)]
+mod periodic_tests;
 mod rays;
 #[cfg(test)]
 mod relations_tests;

@@ -7,6 +7,7 @@ use crate::math::Vec3;
 use crate::particles::ById;
 
 use super::forces::truncation;
+use super::guard::narrow;
 use super::settings::{Relaxation, Settings};
 use super::simulation::Simulation;
 
@@ -43,8 +44,8 @@ impl Simulation {
     /// The same; `watch` is told how grains come to rest, if they are to, and may ask to stop.
     ///
     /// # Errors
-    /// As [`Simulation::start`], [`SimError::Truncated`] where a cut-off leaves out too much, and
-    /// [`SimError::StoppedAtRest`].
+    /// As [`Simulation::start`], [`SimError::Truncated`] where a cut-off leaves out too much, [`SimError::NarrowSpace`] where grains
+    /// would meet two images of one another, and [`SimError::StoppedAtRest`].
     pub fn start_watched<S>(
         settings: S,
         start: impl Into<Start>,
@@ -58,7 +59,9 @@ impl Simulation {
     }
 
     fn begin(settings: &Settings, mut start: Start, watch: &mut RestWatch<'_>) -> Result<Self, SimError> {
-        let truncation = truncation::hold(settings.fields.near_field.as_ref(), &start.grains)?;
+        narrow::hold(settings, &start.grains)?;
+        let truncation =
+            truncation::hold(settings.fields.near_field.as_ref(), &start.grains, &settings.space())?;
         let warnings = std::mem::take(&mut start.warnings);
         let mut simulation = match &settings.relax {
             Some(relaxation) => rested(settings, relaxation, start, watch)?,

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use crate::acoustics::{Acoustics, Medium};
 use crate::contact::bond::Beam;
 use crate::contact::{Bonds, ContactLaws};
+use crate::domain::{Space, Volume};
 use crate::fields::Fields;
 use crate::particles::{Material, Mixture};
 use crate::units::{Time, Velocity};
@@ -26,6 +27,8 @@ pub struct Settings {
     pub scheme: Scheme,
     /// Bounds on motion and overlap.
     pub limits: Limits,
+    /// The control volume, across whose faces space may repeat itself; open space if left out.
+    pub volume: Option<Volume>,
     /// The fluid around the grains.
     pub medium: Medium,
     /// Materials by name; a grain's number of its material is the index in this map.
@@ -48,6 +51,11 @@ pub struct Settings {
 }
 
 impl Settings {
+    /// Space as the faces of the control volume make it.
+    pub fn space(&self) -> Space {
+        self.volume.as_ref().map_or(Space::OPEN, Volume::space)
+    }
+
     /// The law of bonds between grains, where that is the one that bonds them.
     pub(super) fn beam(&self) -> Option<&Beam> {
         self.bonds.as_ref().and_then(Bonds::lasting)

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::contact::Bonds;
 use crate::contact::network::{Bond, BondEvent, Network};
 use crate::contact::pass::Remembered;
-use crate::domain::resolution;
+use crate::domain::{Image, resolution};
 use crate::engine::{Moment, SimError, Start, Warnings};
 use crate::ledger::{Ledger, Opening, Rates};
 use crate::math::rounding_of_sum;
@@ -58,6 +58,7 @@ pub struct Clock {
 pub struct SimulationState<'a> {
     pub(super) clock: Clock,
     pub(super) grains: Cow<'a, Particles>,
+    pub(super) images: Cow<'a, [Image]>,
     pub(super) loads: Cow<'a, Loads>,
     pub(super) rates: Rates,
     pub(super) contacts: Vec<Remembered>,
@@ -118,9 +119,10 @@ pub struct Simulation {
 impl Simulation {
     /// Grains under their laws, at time zero.
     pub(super) fn with(settings: &Settings, start: Start) -> Self {
-        let network = Network::start(settings.beam(), start.bonds, &start.grains);
+        let space = settings.space();
+        let network = Network::start(settings.beam(), start.bonds, &start.grains, &space);
         let laws = Laws::new(settings, &start.grains);
-        let mut system = System::new(start.grains, laws, network);
+        let mut system = System::new(start.grains, laws, network, space);
         if !start.contacts.is_empty() {
             system.remember(&start.contacts);
         }
@@ -188,7 +190,8 @@ impl Simulation {
         let pulses = Pulses::resume(settings, state.pulses);
         let grains = state.grains.into_owned();
         let laws = Laws::new(settings, &grains);
-        let mut system = System::new(grains, laws, network);
+        let mut system = System::new(grains, laws, network, settings.space());
+        system.images = state.images.into_owned();
         system.rays_are_impulses = pulses.are_impulses();
         system.loads = state.loads.into_owned();
         system.rates = state.rates;
@@ -216,6 +219,7 @@ impl Simulation {
         SimulationState {
             clock: self.clock,
             grains: Cow::Borrowed(&self.system.grains),
+            images: Cow::Borrowed(&self.system.images),
             loads: Cow::Borrowed(&self.system.loads),
             rates: self.system.rates,
             contacts: self.system.remembered(),

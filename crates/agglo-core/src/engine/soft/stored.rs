@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::contact::pass::contact_energy;
 use crate::ledger::{Balance, Momentum, Stored};
-use crate::math::parallel;
+use crate::math::{Vec3, parallel};
 
 use super::forces::laws::{Laws, source};
 use super::simulation::Simulation;
@@ -31,7 +31,7 @@ impl Simulation {
             rotational,
             elastic: contact.normal,
             tangential_spring: system.spring_energy(),
-            bonds: contact.bond + system.network.energy(grains),
+            bonds: contact.bond + system.network.energy(grains, &system.space),
             near_field: self.near_field_energy(),
             fields: self.field_energy(),
             thermal: 0.0,
@@ -52,6 +52,18 @@ impl Simulation {
             |a, b| Momentum { linear: a.linear + b.linear, angular: a.angular + b.angular },
             Momentum::default(),
         )
+    }
+
+    /// Linear and angular momentum that impulses do not explain. About an axis across which space repeats itself angular momentum
+    /// is none that is kept, as a grain has it anew when it comes back in: 0 there.
+    pub fn momentum_drift(&self, now: &Momentum) -> Momentum {
+        let Momentum { linear, angular } = self.ledger.momentum_drift(now);
+        let is_kept = |axis: usize| {
+            let across = [(axis + 1) % 3, (axis + 2) % 3];
+            !across.into_iter().any(|axis| self.system.space.repeats_along(axis))
+        };
+        let kept = |axis: usize| if is_kept(axis) { angular[axis] } else { 0.0 };
+        Momentum { linear, angular: Vec3::new(kept(0), kept(1), kept(2)) }
     }
 
     /// Sum of all grains' momenta without regard to direction [kg m/s].
@@ -87,7 +99,7 @@ impl Simulation {
         let grains = &self.system.grains;
         let Some(law) = &self.system.laws.fields.near_field else { return 0.0 };
         let energy = |a: usize, b: usize| {
-            let distance = (grains.position[b] - grains.position[a]).norm();
+            let distance = self.system.space.shortest(grains.position[b] - grains.position[a]).norm();
             law.energy(&source(grains, a), &source(grains, b), distance)
         };
         let near = self.system.near_list();

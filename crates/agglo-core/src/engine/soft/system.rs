@@ -5,6 +5,7 @@ use std::ops::Range;
 use crate::contact::ContactLaws;
 use crate::contact::network::{BondEvent, Network};
 use crate::contact::pass::{ContactRates, ContactWorld, Contacts, Passage, Record, Remembered, Snapshot};
+use crate::domain::{Image, Space};
 use crate::ledger::{Rates, Supplies};
 use crate::math::{Pace, Vec3, parallel};
 use crate::neighbors::{PairList, morton_order};
@@ -45,6 +46,10 @@ pub struct Trial {
 pub struct System {
     /// The grains, at the last committed step.
     pub grains: Particles,
+    /// Space, which may repeat itself.
+    pub space: Space,
+    /// In which of its images each grain would be by now, if it had not come back in; empty where space is open.
+    pub images: Vec<Image>,
     /// The laws.
     pub laws: Laws,
     /// Bonds.
@@ -83,9 +88,12 @@ impl Trial {
 }
 
 impl System {
-    /// Grains under laws; forces are not yet known.
-    pub fn new(grains: Particles, laws: Laws, network: Network) -> Self {
+    /// Grains under laws in a space; forces are not yet known.
+    pub fn new(mut grains: Particles, laws: Laws, network: Network, space: Space) -> Self {
         let n = grains.len();
+        for place in &mut grains.position {
+            *place = space.home(*place).0;
+        }
         let inertial_mass: Vec<f64> = (0..n).map(|at| laws.inertial_mass(&grains, at)).collect();
         let trial = Trial { loads: Loads::none(n), ..Trial::default() };
         Self {
@@ -95,6 +103,8 @@ impl System {
             has_ray_loads: false,
             rays_are_impulses: true,
             rates: Rates::default(),
+            images: vec![[0; 3]; if space.repeats() { n } else { 0 }],
+            space,
             hook: None,
             contacts: Contacts::default(),
             list: PairList::default(),
@@ -146,15 +156,16 @@ impl System {
         if self.network.is_active() || self.hook.is_some() || self.laws.fields.near_field.is_some() {
             self.look_at_trial();
         }
-        let Self { grains, laws, network, contacts, list, trial, hook, records, .. } = self;
+        let Self { grains, laws, network, contacts, list, trial, hook, records, space, .. } = self;
         let world = ContactWorld {
+            space,
             laws: laws.contact.as_ref(),
             bonds: laws.bonds.as_ref(),
             pairs: &laws.pairs,
             list,
         };
         trial.contact = contacts.compute(&world, &Passage { records, elapsed, dt });
-        trial.bond_damping = network.compute(grains, &grains.motion(), &trial.motion(), elapsed);
+        trial.bond_damping = network.compute(grains, space, &grains.motion(), &trial.motion(), elapsed);
         if let Some(hook) = hook {
             hook.look(&Scene { time, grains, motion: trial.motion() });
         }
@@ -162,10 +173,10 @@ impl System {
 
     /// Gathers the loads at the trial motion, at a time [s].
     fn gather(&mut self, time: f64) {
-        let Self { grains, laws, network, contacts, near, trial, hook, records, .. } = self;
+        let Self { grains, laws, network, contacts, near, trial, hook, records, space, .. } = self;
         let hook = hook.as_ref().map(|hook| &hook.loads);
         let positions = &trial.position[..];
-        let gather = Gather { grains, laws, network, contacts, near, positions, time, hook };
+        let gather = Gather { grains, laws, network, contacts, near, positions, space, time, hook };
         let leaf = |range: Range<usize>, loads: LoadViews<'_>| {
             let mut supplies = Supplies::default();
             for (slot, grain) in range.enumerate() {
@@ -234,8 +245,11 @@ impl System {
 
     /// Makes the trial motion, as it was tried last, that of the grains.
     pub(super) fn settle(&mut self) {
-        let Self { grains, records, loads, trial, .. } = self;
+        let Self { grains, records, loads, trial, space, images, .. } = self;
         show_now(records, (&mut grains.position, &mut grains.velocity, &mut grains.angular_velocity));
+        for (place, image) in grains.position.iter_mut().zip(images) {
+            bring_home(space, place, image);
+        }
         std::mem::swap(loads, &mut trial.loads);
     }
 
@@ -289,17 +303,17 @@ impl System {
     }
 
     fn with_contacts_at<R>(&self, now: Motion<'_>, look: impl FnOnce(&Snapshot<'_>) -> R) -> R {
-        let Self { grains, laws, list, .. } = self;
+        let Self { grains, laws, list, space, .. } = self;
         let (contact, bonds) = (laws.contact.as_ref(), laws.bonds.as_ref());
-        let world = ContactWorld { laws: contact, bonds, pairs: &laws.pairs, list };
+        let world = ContactWorld { laws: contact, bonds, pairs: &laws.pairs, list, space };
         look(&Snapshot { world, grains, now })
     }
 
     /// Takes out the bonds that bear more than their strength, with their loads: a load that went on to act in the
     /// next step would do work that no ledger knows of.
     pub fn break_bonds(&mut self, time: f64) -> Vec<BondEvent> {
-        let Self { grains, network, loads, rates, .. } = self;
-        network.break_overloaded(grains, time, |ends, load| {
+        let Self { grains, network, loads, rates, space, .. } = self;
+        network.break_overloaded(grains, space, time, |ends, load| {
             let [i, j] = ends.map(|grain| grain as usize);
             loads.force[i] -= load.force;
             loads.force[j] += load.force;
@@ -311,7 +325,7 @@ impl System {
 
     /// Bonds grains that were pressed together hard enough; tells which.
     pub fn bond_pressed(&mut self, time: f64) -> Vec<BondEvent> {
-        self.network.bond_pressed(&self.grains, &self.list, time)
+        self.network.bond_pressed(&self.grains, &self.space, &self.list, time)
     }
 
     /// Pairs within the near field's cut-off and a little more; nothing where all pairs count.
@@ -337,7 +351,7 @@ impl System {
     fn near_pace(&self, positions: &[Vec3]) -> Pace {
         let Some(law) = &self.laws.fields.near_field else { return Pace::NONE };
         let pace = |a: usize, b: usize| {
-            let distance = (positions[b] - positions[a]).norm();
+            let distance = self.space.shortest(positions[b] - positions[a]).norm();
             law.pace(&source(&self.grains, a), &source(&self.grains, b), distance)
         };
         self.over_grains(|a| match self.near_list() {
@@ -385,14 +399,14 @@ impl System {
         let Some(cutoff) = self.laws.fields.near_field.as_ref().and_then(|law| law.cutoff) else { return };
         let positions = if at_trial { &self.trial.position } else { &self.grains.position };
         let skin = self.skin.of_near_field(cutoff.si());
-        self.near.build(positions, &vec![0.0; self.grains.len()], cutoff.si(), skin);
+        self.near.build(&self.space, positions, &vec![0.0; self.grains.len()], cutoff.si(), skin);
     }
 
     /// Lists the pairs anew, at the trial or the committed positions.
     fn rebuild(&mut self, at_trial: bool, remembered: &[Remembered]) {
         let positions = if at_trial { &self.trial.position } else { &self.grains.position };
         let reach = self.laws.contact.as_ref().map_or(0.0, ContactLaws::reach);
-        self.list.build(positions, &self.grains.radius, reach, self.skin.thickness());
+        self.list.build(&self.space, positions, &self.grains.radius, reach, self.skin.thickness());
         self.contacts.relist(&self.list, self.grains.len(), remembered, self.laws.contact.as_ref());
     }
 
@@ -416,6 +430,9 @@ impl System {
             (*a, *b) = (place[*a as usize], place[*b as usize]);
         }
         self.grains.reorder(order);
+        if self.space.repeats() {
+            self.images = order.iter().map(|&at| self.images[at as usize]).collect();
+        }
         self.loads.reorder(order);
         self.ray_loads.reorder(order);
         self.inertial_mass = order.iter().map(|&at| self.inertial_mass[at as usize]).collect();
@@ -425,6 +442,14 @@ impl System {
         self.list_near(false);
         place
     }
+}
+
+/// Brings a grain back in from where a step has led it [m], and takes note of the image that it would be in.
+#[inline(always)]
+pub(super) fn bring_home(space: &Space, place: &mut Vec3, image: &mut Image) {
+    let (home, out) = space.home(*place);
+    *place = home;
+    image.iter_mut().zip(out).for_each(|(sum, more)| *sum = sum.saturating_add(more));
 }
 
 /// All grains at the start of a step.

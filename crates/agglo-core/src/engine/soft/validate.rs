@@ -19,6 +19,8 @@ impl SimulationState<'_> {
         let grains = &*self.grains;
         let n = grains.len();
         validate_grains(grains, settings)?;
+        let images = if settings.space().repeats() { n } else { 0 };
+        length("images", self.images.len(), images)?;
         for (what, loads) in [("forces", &self.loads.force), ("torques", &self.loads.torque)] {
             length(what, loads.len(), n)?;
             finite_vectors(what, loads)?;

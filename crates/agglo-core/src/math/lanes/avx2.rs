@@ -5,12 +5,13 @@
 #![allow(unsafe_code, reason = "instructions that not every x86-64 has; each use says why it is sound")]
 
 use std::arch::x86_64::{
-    __m256d, _CMP_LE_OQ, _CMP_LT_OQ, _mm_cvtsi32_si128, _mm_loadu_ps, _mm_loadu_si128, _mm_permutevar_ps,
-    _mm_storeu_ps, _mm256_add_pd, _mm256_and_pd, _mm256_and_si256, _mm256_andnot_pd, _mm256_blendv_pd,
-    _mm256_castsi256_pd, _mm256_cmp_pd, _mm256_cmpeq_epi64, _mm256_cvtepu8_epi64, _mm256_div_pd,
-    _mm256_loadu_pd, _mm256_max_pd, _mm256_min_pd, _mm256_movemask_pd, _mm256_mul_pd, _mm256_permute2f128_pd,
-    _mm256_set1_epi64x, _mm256_set1_pd, _mm256_setzero_pd, _mm256_sqrt_pd, _mm256_storeu_pd, _mm256_sub_pd,
-    _mm256_unpackhi_pd, _mm256_unpacklo_pd, _mm256_xor_pd,
+    __m256d, _CMP_LE_OQ, _CMP_LT_OQ, _MM_FROUND_NO_EXC, _MM_FROUND_TO_NEAREST_INT, _mm_cvtsi32_si128,
+    _mm_loadu_ps, _mm_loadu_si128, _mm_permutevar_ps, _mm_storeu_ps, _mm256_add_pd, _mm256_and_pd,
+    _mm256_and_si256, _mm256_andnot_pd, _mm256_blendv_pd, _mm256_castsi256_pd, _mm256_cmp_pd,
+    _mm256_cmpeq_epi64, _mm256_cvtepu8_epi64, _mm256_div_pd, _mm256_loadu_pd, _mm256_max_pd, _mm256_min_pd,
+    _mm256_movemask_pd, _mm256_mul_pd, _mm256_permute2f128_pd, _mm256_round_pd, _mm256_set1_epi64x,
+    _mm256_set1_pd, _mm256_setzero_pd, _mm256_sqrt_pd, _mm256_storeu_pd, _mm256_sub_pd, _mm256_unpackhi_pd,
+    _mm256_unpacklo_pd, _mm256_xor_pd,
 };
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -81,6 +82,11 @@ impl Real for Four {
             let sign = _mm256_set1_pd(-0.0);
             Self(_mm256_andnot_pd(sign, self.0))
         })
+    }
+
+    #[inline(always)]
+    fn round(self) -> Self {
+        numbers!(Self(_mm256_round_pd::<{ _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC }>(self.0)))
     }
 
     #[inline(always)]

@@ -5,13 +5,14 @@
 #![allow(unsafe_code, reason = "instructions that not every x86-64 has; each use says why it is sound")]
 
 use std::arch::x86_64::{
-    __m512d, __mmask8, _CMP_LE_OQ, _CMP_LT_OQ, _mm_cvtsi64_si128, _mm_set1_epi8, _mm_test_epi8_mask,
-    _mm256_loadu_pd, _mm256_loadu_si256, _mm256_maskz_compress_epi32, _mm256_storeu_pd, _mm256_storeu_si256,
-    _mm512_abs_pd, _mm512_add_pd, _mm512_castpd256_pd512, _mm512_castpd512_pd256, _mm512_cmp_pd_mask,
-    _mm512_div_pd, _mm512_extractf64x4_pd, _mm512_insertf64x4, _mm512_loadu_pd, _mm512_mask_blend_pd,
-    _mm512_max_pd, _mm512_min_pd, _mm512_mul_pd, _mm512_permutex2var_pd, _mm512_set1_pd, _mm512_setr_epi64,
-    _mm512_setzero_pd, _mm512_sqrt_pd, _mm512_storeu_pd, _mm512_sub_pd, _mm512_unpackhi_pd,
-    _mm512_unpacklo_pd, _mm512_xor_pd,
+    __m512d, __mmask8, _CMP_LE_OQ, _CMP_LT_OQ, _MM_FROUND_NO_EXC, _MM_FROUND_TO_NEAREST_INT,
+    _mm_cvtsi64_si128, _mm_set1_epi8, _mm_test_epi8_mask, _mm256_loadu_pd, _mm256_loadu_si256,
+    _mm256_maskz_compress_epi32, _mm256_storeu_pd, _mm256_storeu_si256, _mm512_abs_pd, _mm512_add_pd,
+    _mm512_castpd256_pd512, _mm512_castpd512_pd256, _mm512_cmp_pd_mask, _mm512_div_pd,
+    _mm512_extractf64x4_pd, _mm512_insertf64x4, _mm512_loadu_pd, _mm512_mask_blend_pd, _mm512_max_pd,
+    _mm512_min_pd, _mm512_mul_pd, _mm512_permutex2var_pd, _mm512_roundscale_pd, _mm512_set1_pd,
+    _mm512_setr_epi64, _mm512_setzero_pd, _mm512_sqrt_pd, _mm512_storeu_pd, _mm512_sub_pd,
+    _mm512_unpackhi_pd, _mm512_unpacklo_pd, _mm512_xor_pd,
 };
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -80,6 +81,11 @@ impl Real for Eight {
     #[inline(always)]
     fn abs(self) -> Self {
         numbers!(Self(_mm512_abs_pd(self.0)))
+    }
+
+    #[inline(always)]
+    fn round(self) -> Self {
+        numbers!(Self(_mm512_roundscale_pd::<{ _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC }>(self.0)))
     }
 
     #[inline(always)]

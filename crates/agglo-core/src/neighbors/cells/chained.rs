@@ -56,11 +56,11 @@ impl Level<Chained> {
 }
 
 impl CellIndex<Chained> {
-    /// Empty cells in the block between two corners [m], which may repeat itself, for spheres of the given radii [m] and
+    /// Empty cells in the block between two corners [m], which may repeat itself along some axes, for spheres of the given radii [m] and
     /// searches with surfaces up to `margin` [m] apart.
     pub fn empty(
         corners: [Vec3; 2],
-        repeats: bool,
+        repeats: [bool; 3],
         margin: f64,
         radii: impl Iterator<Item = f64> + Clone,
     ) -> Self {
@@ -72,7 +72,7 @@ impl CellIndex<Chained> {
             let (count, largest) = &mut octaves[own];
             (*count, *largest) = (*count + 1, largest.max(radius));
         }
-        let span = if repeats { Span::Periodic(corners) } else { Span::Block(corners) };
+        let span = Span::Periodic(corners, repeats);
         let level = |(count, largest_radius): (usize, f64)| {
             let width = 2.0 * largest_radius + margin;
             let lattice = match count {

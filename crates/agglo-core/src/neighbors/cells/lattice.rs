@@ -2,19 +2,21 @@
 
 use std::ops::Range;
 
+use crate::domain::Space;
 use crate::math::Vec3;
 
 /// Where the cells lie.
 #[derive(Clone, Copy, Debug)]
 pub enum Span {
-    /// About the spheres, wherever they are; for searches that reach about as far as the cells are made for.
-    Free,
+    /// About the spheres, wherever they are in a space that may repeat itself; for searches that reach about as far as the cells
+    /// are made for, and look for each sphere once, where it is nearest.
+    Free(Space),
     /// In the block around the spheres; for searches that reach any distance.
     Around,
     /// In the block between two corners [m]; spheres outside belong to the cells at its border.
     Block([Vec3; 2]),
-    /// In the block between two corners [m], which repeats itself.
-    Periodic([Vec3; 2]),
+    /// In the block between two corners [m], which repeats itself along some axes: each image of a sphere counts.
+    Periodic([Vec3; 2], [bool; 3]),
 }
 
 /// Most cells per sphere.
@@ -35,7 +37,10 @@ pub(super) struct Lattice {
     counts: Cell,
     /// A power of two less one where cells are hashed.
     mask: Option<u64>,
-    repeats: bool,
+    /// Along which axes cells repeat themselves.
+    repeats: [bool; 3],
+    /// Whether each sphere is looked for once, wherever its images are, and may be filed while it is out of the block.
+    is_folded: bool,
 }
 
 impl Lattice {
@@ -45,22 +50,34 @@ impl Lattice {
     /// and are hashed where they are too many.
     pub fn new(span: &Span, [lower, upper]: [Vec3; 2], width: f64, spheres: usize) -> Self {
         let most = (CELLS_PER_SPHERE * spheres as u64).max(FEW_CELLS);
-        let repeats = matches!(span, Span::Periodic(..));
-        let lattice = Self { lower, repeats, ..Self::default() };
-        if matches!(span, Span::Free) {
-            lattice.about(upper, width, most)
-        } else {
-            lattice.tiled(upper, width, most)
+        let lattice = Self { lower, ..Self::default() };
+        match span {
+            Span::Free(space) => lattice.about(upper, width, most, space),
+            Span::Periodic(_, repeats) => Self { repeats: *repeats, ..lattice }.tiled(upper, width, most),
+            Span::Around | Span::Block(_) => lattice.tiled(upper, width, most),
         }
     }
 
-    /// Cells of exactly this width.
-    fn about(mut self, upper: Vec3, width: f64, most: u64) -> Self {
-        self.per_metre = [1.0 / width; 3];
-        // A motion that blew up may be anywhere; it is found after the search, which must get that far.
-        // Counted with the rounding of the search: a quotient may fall just below a whole number where the product with
-        // the inverse does not.
-        self.counts = [0, 1, 2].map(|axis| self.coordinate(upper[axis], axis).saturating_add(1));
+    /// Cells of exactly this width; along axes on which space repeats itself a whole number of at least this.
+    fn about(mut self, upper: Vec3, width: f64, most: u64, space: &Space) -> Self {
+        self.is_folded = space.repeats();
+        self.repeats = [0, 1, 2].map(|axis| space.repeats_along(axis));
+        let [corner, _] = space.corners();
+        self.lower =
+            [0, 1, 2].map(|axis| if self.repeats[axis] { corner[axis] } else { self.lower[axis] }).into();
+        for axis in 0..3 {
+            if self.repeats[axis] {
+                let period = space.periods()[axis];
+                self.counts[axis] = (period / width).floor().max(1.0) as i64;
+                self.per_metre[axis] = self.counts[axis] as f64 / period;
+                continue;
+            }
+            self.per_metre[axis] = 1.0 / width;
+            // A motion that blew up may be anywhere; it is found after the search, which must get that far.
+            // Counted with the rounding of the search: a quotient may fall just below a whole number where the product with
+            // the inverse does not.
+            self.counts[axis] = self.coordinate(upper[axis], axis).saturating_add(1);
+        }
         let cells = self.counts.iter().try_fold(1_u64, |product, count| product.checked_mul(*count as u64));
         self.mask =
             if cells.is_some_and(|cells| cells <= most) { None } else { Some(most.next_power_of_two() - 1) };
@@ -100,10 +117,17 @@ impl Lattice {
         ((along - self.lower[axis]) * self.per_metre[axis]).floor() as i64
     }
 
-    /// The cell that a place belongs to: outside of the block the nearest one at its border.
+    /// The cell that a place belongs to: outside of the block that of its image, or the nearest one at the border.
     #[inline]
     pub fn cell(&self, place: Vec3) -> Cell {
-        [0, 1, 2].map(|axis| self.coordinate(place[axis], axis).clamp(0, self.counts[axis] - 1))
+        [0, 1, 2].map(|axis| {
+            let (cell, count) = (self.coordinate(place[axis], axis), self.counts[axis]);
+            if self.is_folded && self.repeats[axis] {
+                cell.rem_euclid(count)
+            } else {
+                cell.clamp(0, count - 1)
+            }
+        })
     }
 
     /// The bucket of a cell.
@@ -127,12 +151,13 @@ impl Lattice {
         holds: &mut impl FnMut(Range<usize>, Cell, [i8; 3]) -> bool,
     ) -> bool {
         let reach = reach * (1.0 + ROUNDING);
-        let within =
-            |cell: i64, axis: usize| if self.repeats { cell } else { cell.clamp(0, self.counts[axis] - 1) };
+        let within = |cell: i64, axis: usize| {
+            if self.repeats[axis] { cell } else { cell.clamp(0, self.counts[axis] - 1) }
+        };
         let low = [0, 1, 2].map(|axis| within(self.coordinate(center[axis] - reach, axis), axis));
         let high = [0, 1, 2].map(|axis| within(self.coordinate(center[axis] + reach, axis), axis));
-        if self.repeats {
-            return self.all_folded(low, high, holds);
+        if self.repeats != [false; 3] {
+            return self.all_across(low, high, holds);
         }
         for z in low[2]..=high[2] {
             for y in low[1]..=high[1] {
@@ -153,7 +178,7 @@ impl Lattice {
     }
 
     /// The same where the block repeats itself.
-    fn all_folded(
+    fn all_across(
         &self,
         low: Cell,
         high: Cell,
@@ -161,16 +186,27 @@ impl Lattice {
     ) -> bool {
         let fold = |cell: i64, axis: usize| {
             let count = self.counts[axis];
-            (cell.rem_euclid(count), cell.div_euclid(count) as i8)
+            if self.repeats[axis] {
+                (cell.rem_euclid(count), cell.div_euclid(count) as i8)
+            } else {
+                (cell, 0)
+            }
         };
-        for z in low[2]..=high[2] {
+        // Where each sphere is looked for once, so is each cell.
+        let last = |axis: usize| {
+            let once = low[axis].saturating_add(self.counts[axis] - 1);
+            if self.is_folded { high[axis].min(once) } else { high[axis] }
+        };
+        for z in low[2]..=last(2) {
             let (z, image_z) = fold(z, 2);
-            for y in low[1]..=high[1] {
+            for y in low[1]..=last(1) {
                 let (y, image_y) = fold(y, 1);
                 let mut x = low[0];
-                while x <= high[0] {
+                while x <= last(0) {
                     let (at, image_x) = fold(x, 0);
-                    let length = (self.counts[0] - at).min(high[0] - x + 1);
+                    // Cells that share buckets do not follow one another.
+                    let row = if self.mask.is_some() { 1 } else { self.counts[0] - at };
+                    let length = row.min(last(0) - x + 1);
                     let first = self.bucket([at, y, z]);
                     if !holds(first..first + length as usize, [at, y, z], [image_x, image_y, image_z]) {
                         return false;

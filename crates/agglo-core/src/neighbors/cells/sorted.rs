@@ -124,8 +124,8 @@ impl CellIndex<Sorted> {
         for level in self.levels.iter_mut().filter(|level| !level.spheres.indices.is_empty()) {
             let sorted = &mut level.spheres;
             let corners = match *span {
-                Span::Free | Span::Around => corners_around(spheres, &sorted.indices),
-                Span::Block(corners) | Span::Periodic(corners) => corners,
+                Span::Free(_) | Span::Around => corners_around(spheres, &sorted.indices),
+                Span::Block(corners) | Span::Periodic(corners, _) => corners,
             };
             let width = 2.0 * level.largest_radius + margin;
             level.lattice = Lattice::new(span, corners, width, sorted.indices.len());

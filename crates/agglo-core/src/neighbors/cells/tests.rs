@@ -1,6 +1,7 @@
 //! Cells find all who are near, each image once, and cost no more than the spheres are worth.
 
 use super::*;
+use crate::domain::Space;
 use crate::math::Vec3;
 use crate::math::rng::{Purpose, Stream};
 
@@ -42,11 +43,16 @@ fn all_who_are_near_are_found_once() {
         let (positions, radii) = cloud(300, spread, ratio);
         let (lower, upper) = (Vec3::new(-1.0, -1.0, -1.0) * spread, Vec3::new(1.0, 2.0, 3.0) * spread);
         let inner = [lower * 0.5, upper * 0.5];
-        let spans = [Span::Free, Span::Around, Span::Block(inner), Span::Periodic([lower, upper])];
+        let spans = [
+            Span::Free(Space::OPEN),
+            Span::Around,
+            Span::Block(inner),
+            Span::Periodic([lower, upper], [true; 3]),
+        ];
         for span in spans {
-            let images = i8::from(matches!(span, Span::Periodic(_)));
+            let images = i8::from(matches!(span, Span::Periodic(..)));
             // Cells about free spheres are for searches that reach no farther than a few of them.
-            let reach = if matches!(span, Span::Free) { f64::min(reach, 0.1) } else { reach };
+            let reach = if matches!(span, Span::Free(_)) { f64::min(reach, 0.1) } else { reach };
             let mut cells = CellIndex::<Sorted>::default();
             cells.fill(&(&positions[..], &radii[..]), &span, 0.02);
             for of in 0..300_u32 {
@@ -75,7 +81,7 @@ fn all_who_are_near_are_found_once() {
 fn spheres_are_found_where_they_were() {
     let (positions, radii) = cloud(300, 50.0, 1.0);
     let mut cells = CellIndex::<Sorted>::default();
-    cells.fill(&(&positions[..], &radii[..]), &Span::Free, 0.02);
+    cells.fill(&(&positions[..], &radii[..]), &Span::Free(Space::OPEN), 0.02);
     assert_true!(cells.levels[0].lattice.is_hashed(), "300 spheres of 0.05 m in a box of 6e6 m³");
     drop(radii);
     for (at, position) in (0..).zip(positions) {
@@ -90,7 +96,7 @@ fn spheres_are_found_where_they_were() {
 fn buckets_are_in_proportion_to_spheres() {
     for spread in [1.0, 1e3, 1e9, 1e300] {
         let (positions, radii) = cloud(1000, spread, 1.0);
-        for span in [Span::Free, Span::Around] {
+        for span in [Span::Free(Space::OPEN), Span::Around] {
             let mut cells = CellIndex::<Sorted>::default();
             cells.fill(&(&positions[..], &radii[..]), &span, 0.02);
             assert_at_most!(cells.levels[0].lattice.buckets(), 8000);
@@ -110,7 +116,7 @@ fn the_outermost_sphere_has_a_cell() {
             // Not a row of one cell across.
             positions.push(positions[0] + Vec3::new(0.45, 0.45, 0.45));
             let radii = vec![0.1; positions.len()];
-            cells.fill(&(&positions[..], &radii[..]), &Span::Free, 0.0);
+            cells.fill(&(&positions[..], &radii[..]), &Span::Free(Space::OPEN), 0.0);
             for (sphere, center) in positions.iter().enumerate() {
                 let near = |other: usize| other > sphere && (positions[other] - *center).norm() < 0.2;
                 let mut found = Vec::new();

@@ -41,7 +41,9 @@ impl Scene {
         };
         let (bonds, rays) = (over("bonds"), over("rays"));
         let grains = valid(path)?;
-        let lines = bonds.as_ref().map_or(0, |bonds| bonds.lines.len());
+        // Those that end at an image, behind the grains, go out through a face: they would be drawn all through the volume.
+        let inside = |bonds: &Frame| bonds.lines.iter().filter(|line| is_inside(&grains, **line)).count();
+        let lines = bonds.as_ref().map_or(0, inside);
         let bonds = bonds.map(|bonds| between(&grains, &bonds)).unwrap_or_default();
         if bonds.len() < lines {
             notes.push(format!(
@@ -87,7 +89,10 @@ fn fault(frame: &Frame) -> Option<String> {
     }
     frame.fields.iter().find_map(|(name, values)| {
         let holds = match values {
-            FieldValues::Integers(values) => name != NAMES || values.is_sorted_by(|a, b| a < b),
+            // Bonds have images behind their grains.
+            FieldValues::Integers(values) => {
+                name != NAMES || !frame.lines.is_empty() || values.is_sorted_by(|a, b| a < b)
+            }
             FieldValues::Scalars(values) => values.iter().all(|value| {
                 is_real(value)
                     && match name.as_str() {
@@ -129,7 +134,14 @@ fn between(grains: &Frame, bonds: &Frame) -> Vec<[u32; 2]> {
     let known = names(grains, NAMES);
     let place = |name: &u32| known.binary_search(name).ok().map(|at| at as u32);
     let ends = [names(bonds, "grain_i"), names(bonds, "grain_j")];
-    ends[0].iter().zip(&ends[1]).filter_map(|(i, j)| Some([place(i)?, place(j)?])).collect()
+    let pairs = ends[0].iter().zip(&ends[1]).zip(&bonds.lines);
+    let inside = pairs.filter(|(_, line)| is_inside(grains, **line));
+    inside.filter_map(|((i, j), _)| Some([place(i)?, place(j)?])).collect()
+}
+
+/// Whether a line joins grains where they are, and not an image.
+fn is_inside(grains: &Frame, line: [u32; 2]) -> bool {
+    line.iter().all(|end| (*end as usize) < grains.points.len())
 }
 
 /// Keeps one of `share` points: by their names, so that a grain is in all frames or in none. Gives their places.

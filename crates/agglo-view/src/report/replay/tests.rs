@@ -2,6 +2,7 @@
 
 use super::block::STEPS;
 use super::*;
+use agglo::domain::Space;
 use agglo::math::Vec3;
 use agglo::particles::{Particles, Row};
 use agglo::record::frames::{write_bonds, write_grains, write_rays};
@@ -88,7 +89,7 @@ fn bonds_and_rays_are_packed_and_damaged_ones_left_out() {
     // Grains in memory stand in another order than their names: here the other way round.
     let mut backwards = grains(5, 0);
     backwards.id.reverse();
-    write_bonds(&place("bonds_000000.vtp"), 0.0, &backwards, &[[0, 3]], &[]).unwrap();
+    write_bonds(&place("bonds_000000.vtp"), 0.0, &backwards, &Space::OPEN, &[[0, 3]], &[]).unwrap();
     write_rays(&place("rays_000000.vtp"), 0.0, &[here, -here], &[way, way], &[4.0, 2.0]).unwrap();
     std::fs::write(place("rays_000001.vtp"), "nothing").unwrap();
     let replay = replay(&paths).unwrap();
@@ -125,7 +126,7 @@ fn large_runs_are_thinned_and_said() {
     let chain: Vec<[u32; 2]> = (0..599).map(|grain| [grain, grain + 1]).collect();
     let skip: Vec<[u32; 2]> = (0..597).map(|grain| [grain, grain + 3]).collect();
     let bonds = [chain, skip].concat();
-    write_bonds(&folder.path().join("bonds_000039.vtp"), 0.0, &last, &bonds, &[]).unwrap();
+    write_bonds(&folder.path().join("bonds_000039.vtp"), 0.0, &last, &Space::OPEN, &bonds, &[]).unwrap();
     let whole = replay(&paths).unwrap();
     assert_empty!(whole.notes);
     assert_eq!(whole.plan.frames.len(), 40);

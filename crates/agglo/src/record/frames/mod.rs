@@ -14,6 +14,7 @@ pub use read::{FieldValues, Frame};
 use std::path::Path;
 
 use super::RecordError;
+use crate::domain::Space;
 use crate::folder::Mark;
 use crate::math::Vec3;
 use crate::particles::{ById, ColumnValues, Particles};
@@ -62,7 +63,8 @@ pub fn write_grains(
 /// value per bond [m].
 ///
 /// Points are all grains in the order of their names, with these in `id`; lines have the names of what they join in
-/// `grain_i` and `grain_j`, the lower first, and begin at that grain.
+/// `grain_i` and `grain_j`, the lower first, and begin at that grain. Where the nearest image of the other grain is another than the
+/// one inside, the line ends there: such images are points behind those of the grains.
 ///
 /// # Errors
 /// [`RecordError::Shape`] where a pair names no grain or a field is of another length, [`RecordError::File`].
@@ -70,6 +72,7 @@ pub fn write_bonds(
     path: &Path,
     time: f64,
     grains: &Particles,
+    space: &Space,
     pairs: &[[u32; 2]],
     fields: &[Field<'_>],
 ) -> Result<Mark, RecordError> {
@@ -86,13 +89,22 @@ pub fn write_bonds(
         let [a, b] = pair.map(|grain| place[grain as usize]);
         [a.min(b), a.max(b)]
     };
-    let lines: Vec<[u32; 2]> = pairs.iter().map(ends).collect();
+    let mut lines: Vec<[u32; 2]> = pairs.iter().map(ends).collect();
     let name = |place: u32| grains.id[order[place as usize] as usize];
     let [i, j] = [0, 1].map(|end| lines.iter().map(|line| name(line[end])).collect::<Vec<u32>>());
     let names = [Field::new("grain_i", i.as_slice()), Field::new("grain_j", j.as_slice())];
     // The order of points is that of the lines' ends already.
-    let points: Vec<Vec3> = order.iter().map(|&at| grains.position[at as usize]).collect();
-    let ids: Vec<u32> = order.iter().map(|&at| grains.id[at as usize]).collect();
+    let mut points: Vec<Vec3> = order.iter().map(|&at| grains.position[at as usize]).collect();
+    let mut ids: Vec<u32> = order.iter().map(|&at| grains.id[at as usize]).collect();
+    for line in &mut lines {
+        let [from, to] = line.map(|end| points[end as usize]);
+        let nearest = space.shortest(to - from);
+        if nearest != to - from {
+            ids.push(ids[line[1] as usize]);
+            line[1] = points.len() as u32;
+            points.push(from + nearest);
+        }
+    }
     let frame = PolyData {
         time,
         points: &points,
@@ -144,7 +156,7 @@ mod tests {
         let path = folder.path().join("bonds.vtp");
         let stretch = [0.5, -0.5];
         let fields = [Field::new("stretch", stretch.as_slice())];
-        write_bonds(&path, 0.0, &backwards(), &[[0, 2], [2, 1]], &fields).unwrap();
+        write_bonds(&path, 0.0, &backwards(), &Space::OPEN, &[[0, 2], [2, 1]], &fields).unwrap();
         let frame = Frame::read(&path).unwrap();
         let names = |name: &str| match frame.field(name) {
             Some(FieldValues::Integers(names)) => names.clone(),
@@ -159,8 +171,24 @@ mod tests {
             assert_eq!(place[0], f64::from(name), "points are where the grains of these names are");
         }
         assert_eq!(frame.field("stretch"), Some(&FieldValues::Scalars(stretch.to_vec())));
-        let lost = write_bonds(&path, 0.0, &backwards(), &[[0, 3]], &[]).unwrap_err().to_string();
+        let lost =
+            write_bonds(&path, 0.0, &backwards(), &Space::OPEN, &[[0, 3]], &[]).unwrap_err().to_string();
         assert!(lost.ends_with("the list of points has 3 values where 4 are due"), "{lost}");
+    }
+
+    /// In a box of 6 m grains at 2 m and 7 m are 1 m apart: the line leads from the one to the other's image at 1 m.
+    #[test]
+    fn bonds_through_a_face_end_at_an_image() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("bonds.vtp");
+        let space =
+            Space::repeating([Vec3::new(2.0, 0.0, 0.0), Vec3::new(8.0, 9.0, 9.0)], [true, false, false]);
+        write_bonds(&path, 0.0, &backwards(), &space, &[[0, 2], [2, 1]], &[]).unwrap();
+        let frame = Frame::read(&path).unwrap();
+        assert_eq!(frame.lines, [[0, 3], [0, 1]]);
+        assert_eq!(frame.points[3], [1.0, 0.0, 0.0]);
+        assert_eq!(frame.field("id"), Some(&FieldValues::Integers(vec![2, 5, 7, 7])));
+        assert_eq!(frame.field("grain_j"), Some(&FieldValues::Integers(vec![7, 5])));
     }
 
     #[test]

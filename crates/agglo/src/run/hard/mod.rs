@@ -165,7 +165,7 @@ impl Job for Hard {
 
     fn record_frame(&self, frames: &mut Frames) -> Result<(), RecordError> {
         let now = self.simulation.snapshot();
-        frames.grains(self.time(), &now.grains, ("primaries", &now.primaries))
+        frames.grains(self.time(), &now.grains, &[], ("primaries", &now.primaries))
     }
 
     fn record_end(&self, folder: &RunFolder) -> Result<(), RecordError> {

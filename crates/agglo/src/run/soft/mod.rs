@@ -152,10 +152,11 @@ impl Job for Soft {
     fn record_frame(&self, frames: &mut Frames) -> Result<(), RecordError> {
         let simulation = &self.simulation;
         let labels = Together::of(simulation, self.cluster_gap).labels;
-        let (grains, network) = (&simulation.system.grains, &simulation.system.network);
-        frames.grains(self.time(), grains, ("cluster", &labels))?;
+        let system = &simulation.system;
+        let (grains, network) = (&system.grains, &system.network);
+        frames.grains(self.time(), grains, &system.images, ("cluster", &labels))?;
         if self.with_bonds && network.is_active() {
-            frames.bonds(self.time(), grains, network.bonds())?;
+            frames.bonds(self.time(), grains, &system.space, network.bonds())?;
         }
         if self.with_rays && simulation.pulses.scheduled() > 0 {
             frames.rays(self.time(), simulation.pulses.flight())?;

@@ -2,7 +2,7 @@
 
 use crate::contact::closeness::{TOUCHING, are_close};
 use crate::engine::soft::Simulation;
-use crate::measure::{ClusterSummary, Clusters as Partition, close_pairs, summarize};
+use crate::measure::{ClusterSummary, Clusters as Partition, close_pairs, summarize, whole};
 
 use super::summary::Clusters;
 
@@ -20,21 +20,22 @@ impl Together {
     /// Looks at all pairs; grains that are no farther apart than `cluster_gap` of the smaller radius are of one cluster.
     pub fn of(simulation: &Simulation, cluster_gap: f64) -> Self {
         let system = &simulation.system;
-        let grains = &system.grains;
+        let (grains, space) = (&system.grains, &system.space);
         let mut edges: Vec<(u32, u32)> =
             system.network.bonds().iter().map(|bond| bond.grains.into()).collect();
         let mut contacts = 0;
-        close_pairs(&grains.position, &grains.radius, cluster_gap.max(TOUCHING), &mut |a, b| {
+        close_pairs(space, &grains.position, &grains.radius, cluster_gap.max(TOUCHING), &mut |a, b| {
             let (i, j) = (a as usize, b as usize);
-            let distance_squared = (grains.position[i] - grains.position[j]).norm_squared();
+            let distance_squared = space.shortest(grains.position[i] - grains.position[j]).norm_squared();
             let within = |part: f64| are_close(distance_squared, grains.radius[i], grains.radius[j], part);
             contacts += u64::from(within(TOUCHING));
             if within(cluster_gap) {
                 edges.push((a, b));
             }
         });
+        let places = whole(space, &grains.position, &edges);
         let clusters = Partition::new(&grains.mass, edges);
-        let summary = summarize(&clusters, &grains.position, &grains.radius, &grains.mass);
+        let summary = summarize(&clusters, &places, &grains.radius, &grains.mass);
         Self { summary, labels: clusters.labels, contacts }
     }
 

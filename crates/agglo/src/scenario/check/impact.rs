@@ -71,10 +71,10 @@ fn of_hard_spheres(check: &mut Check, scenario: &ScenarioFile) {
 }
 
 fn of_soft_spheres(check: &mut Check, scenario: &ScenarioFile) {
-    let foreign = [("volume", scenario.volume.is_some()), ("impact", scenario.impact.is_some())];
-    for (key, _) in foreign.into_iter().filter(|(_, given)| *given) {
+    if scenario.impact.is_some() {
         let message = format!("belongs to hard spheres; {} moves soft ones", scenario.engine.key());
-        check.fail_with(key, message, "remove it, or choose [engine.event_driven] or [engine.time_stepped]");
+        let help = "remove it, or choose [engine.event_driven] or [engine.time_stepped]";
+        check.fail_with("impact", message, help);
     }
 }
 

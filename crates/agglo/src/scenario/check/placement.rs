@@ -35,9 +35,9 @@ fn random(check: &mut Check, key: &str, law: &RandomAddition, size: &Size) {
 }
 
 fn fill(check: &mut Check, key: &str, law: &Fill, size: &Size, scenario: &ScenarioFile) {
-    if !scenario.engine.is_hard() {
-        let message = "fills [volume], which belongs to hard spheres".to_owned();
-        check.fail_with(key, message, "take placement.random with a region");
+    if !scenario.engine.is_hard() && scenario.volume.is_none() {
+        let message = "fills [volume], and there is none".to_owned();
+        check.fail_with(key, message, "give [volume], or take placement.random with a region");
     }
     check.not_negative(&format!("{key}.gap"), law.gap);
     let volume = scenario.volume.as_ref().filter(|volume| {

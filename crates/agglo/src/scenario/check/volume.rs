@@ -1,11 +1,12 @@
 //! Rules of the control volume and of what lies in it.
 
 use super::{Check, corners, shown};
-use crate::domain::{Boundary, Region, Volume, resolution};
+use crate::domain::{Boundary, Faces, Region, Space, Volume, resolution};
+use crate::fields::NearField;
 use crate::math::Vec3;
 use crate::packing::{GrainGroup, GrainList, Placement};
 use crate::scenario::file::ScenarioFile;
-use crate::text::readable;
+use crate::text::{readable, told_apart};
 use crate::units::{Length, Triple, vector};
 
 /// Lists with more positions than this are held to overlaps when they are placed, where cells make that cheap.
@@ -13,8 +14,15 @@ const MOST_PAIRED: usize = 4000;
 
 pub(super) fn check(check: &mut Check, scenario: &ScenarioFile) {
     let Some(volume) = &scenario.volume else { return };
-    if !corners(check, "volume", volume.lower, volume.upper) || !scenario.engine.is_hard() {
+    if !corners(check, "volume", volume.lower, volume.upper) {
         return;
+    }
+    if !scenario.engine.is_hard() {
+        return of_soft_spheres(check, scenario, volume);
+    }
+    if volume.faces.is_some() {
+        let message = format!("belongs to soft spheres; {} moves hard ones", scenario.engine.key());
+        check.fail_with("volume.faces", message, "hard spheres have one boundary for all faces");
     }
     for (index, group) in scenario.grains.iter().enumerate() {
         let key = format!("grains.{index}");
@@ -25,6 +33,60 @@ pub(super) fn check(check: &mut Check, scenario: &ScenarioFile) {
         }
     }
     overlaps(check, scenario, volume);
+}
+
+/// Soft spheres know faces across which space repeats itself, and open ones.
+fn of_soft_spheres(check: &mut Check, scenario: &ScenarioFile, volume: &Volume) {
+    let known = [Boundary::Periodic, Boundary::Open];
+    let Faces { x, y, z } = volume.faces.unwrap_or_default();
+    let faces = [("boundary", Some(volume.boundary)), ("faces.x", x), ("faces.y", y), ("faces.z", z)];
+    for (key, _) in faces.iter().filter(|(_, of)| of.is_some_and(|boundary| !known.contains(&boundary))) {
+        let message =
+            format!("{} moves soft spheres, whose faces are periodic or open", scenario.engine.key());
+        check.fail_with(&format!("volume.{key}"), message, "take \"periodic\" or \"open\"");
+    }
+    let space = volume.space();
+    for (index, group) in scenario.grains.iter().enumerate() {
+        let key = format!("grains.{index}");
+        if group.size.fault().is_none() {
+            meets_one_image(check, &format!("{key}.size"), 2.0 * group.size.largest(), &space);
+            inside(check, &format!("{key}.placement"), group, volume);
+        }
+    }
+    let near_field = scenario.fields.as_ref().and_then(|fields| fields.near_field.as_ref());
+    if let Some(law) = near_field.filter(|_| space.repeats()) {
+        near_field_across(check, law, &space);
+    }
+}
+
+/// Two grains may meet in one of their images alone: the distance of centers at which they do is below half a period.
+fn meets_one_image(check: &mut Check, key: &str, distance: f64, space: &Space) {
+    let shortest = space.shortest_period();
+    if 2.0 * distance >= shortest {
+        let [distance, half] = told_apart([distance, 0.5 * shortest], "m");
+        let message = format!(
+            "grains would meet two images of one another: {distance} from center to center is not below half of the shortest \
+             edge of [volume] across which space repeats itself, {half}"
+        );
+        check.fail_with(key, message, "enlarge the volume, or let its faces be open");
+    }
+}
+
+/// Sums over all images are taken for laws that end at a cut-off.
+fn near_field_across(check: &mut Check, law: &NearField, space: &Space) {
+    if law.law.is_by_charge() {
+        let message = "charges act on all images without end, which is not summed up".to_owned();
+        let help = "let the faces of [volume] be open, or take another law";
+        return check.fail_with("fields.near_field.law", message, help);
+    }
+    match law.cutoff {
+        None => {
+            let message = "is missing; where space repeats itself there are pairs without end".to_owned();
+            let help = "give one below half of the shortest edge of [volume]";
+            check.fail_with("fields.near_field.cutoff", message, help);
+        }
+        Some(cutoff) => meets_one_image(check, "fields.near_field.cutoff", cutoff.si(), space),
+    }
 }
 
 /// The largest grain must fit into the volume.
@@ -69,21 +131,18 @@ fn can_be_told(check: &mut Check, key: &str, group: &GrainGroup, volume: &Volume
 
 /// Whether a center may be there: anywhere within faces that grains pass, a radius away from faces that reflect them.
 fn holds(volume: &Volume, [lower, upper]: [Vec3; 2], radius: f64) -> bool {
-    let margin = match volume.boundary {
-        Boundary::Periodic | Boundary::Antipodal => 0.0,
-        Boundary::Reflecting => radius,
-        Boundary::Open => return true,
-    };
     let (low, high) = (volume.lower(), volume.upper());
     // Room for the rounding of a place that is written as a face and a radius.
     let slack = 1e-12 * volume.edges().norm();
-    let above = |x: f64, bound: f64| x - bound >= margin - slack;
-    above(lower.x, low.x)
-        && above(lower.y, low.y)
-        && above(lower.z, low.z)
-        && above(high.x, upper.x)
-        && above(high.y, upper.y)
-        && above(high.z, upper.z)
+    volume.boundaries().into_iter().enumerate().all(|(axis, boundary)| {
+        let margin = match boundary {
+            Boundary::Periodic | Boundary::Antipodal => 0.0,
+            Boundary::Reflecting => radius,
+            Boundary::Open => return true,
+        };
+        let above = |x: f64, bound: f64| x - bound >= margin - slack;
+        above(lower[axis], low[axis]) && above(high[axis], upper[axis])
+    })
 }
 
 fn inside(check: &mut Check, key: &str, group: &GrainGroup, volume: &Volume) {

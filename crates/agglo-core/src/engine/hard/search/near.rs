@@ -227,7 +227,7 @@ impl Surroundings for Near {
 fn span(volume: &Volume) -> Span {
     let corners = [volume.lower(), volume.upper()];
     match volume.boundary {
-        Boundary::Periodic => Span::Periodic(corners),
+        Boundary::Periodic => Span::Periodic(corners, [true; 3]),
         boundary if boundary.wraps() => Span::Block(corners),
         _ => Span::Around,
     }

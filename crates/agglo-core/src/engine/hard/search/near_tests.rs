@@ -10,6 +10,7 @@ fn volume() -> Volume {
         lower: [0.0; 3].map(Quantity),
         upper: [10.0, 10.0, 10.0].map(Quantity),
         boundary: Boundary::Open,
+        faces: None,
     }
 }
 

@@ -127,8 +127,12 @@ mod tests {
             };
             let grains: Vec<Grain> = (0..100).map(&mut grain).collect();
             let spheres = Spheres::new(&particles(&grains), |_| 1.0);
-            let volume =
-                Volume { lower: [Quantity(-20.0); 3], upper: [Quantity(20.0); 3], boundary: Boundary::Open };
+            let volume = Volume {
+                lower: [Quantity(-20.0); 3],
+                upper: [Quantity(20.0); 3],
+                boundary: Boundary::Open,
+                faces: None,
+            };
             let (mut near, mut nearest) = (Near::new(0.1), Nearest::default());
             near.list(&spheres, &volume, 0.0);
             nearest.find(&spheres, &near, &volume);

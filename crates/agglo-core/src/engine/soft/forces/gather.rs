@@ -2,6 +2,7 @@
 
 use crate::contact::network::Network;
 use crate::contact::pass::Contacts;
+use crate::domain::Space;
 use crate::ledger::Supplies;
 use crate::math::Vec3;
 use crate::neighbors::PairList;
@@ -25,6 +26,8 @@ pub struct Gather<'a> {
     pub near: &'a PairList,
     /// Centers of all grains [m], for the near field.
     pub positions: &'a [Vec3],
+    /// Space, which may repeat itself.
+    pub space: &'a Space,
     /// Time [s].
     pub time: f64,
     /// What a hook adds.
@@ -56,7 +59,7 @@ impl Gather<'_> {
     /// Adds the near-field force [N].
     fn near_field(&self, grain: usize, force: &mut Vec3) {
         let Some(law) = &self.laws.fields.near_field else { return };
-        let push = |other: usize| near_force(law, self.grains, self.positions, grain, other);
+        let push = |other: usize| near_force(law, self.grains, self.space, self.positions, [grain, other]);
         if law.cutoff.is_some() {
             let (owners, partners) = (self.near.owners(), self.near.partners());
             *force += self.near.joined(grain).iter().map(|pair| push(owners[*pair as usize] as usize)).sum();

@@ -2,6 +2,7 @@
 
 use crate::acoustics::Medium;
 use crate::contact::{Bonds, ContactLaws, PairTable};
+use crate::domain::Space;
 use crate::fields::near_field::{NearField, Source};
 use crate::fields::{Channel, Drag, Fields, Flow, FlowAt, Grain, Part, rotational_drag};
 use crate::law::Chosen;
@@ -197,8 +198,14 @@ pub fn source(grains: &Particles, at: usize) -> Source {
 
 /// Near-field force [N] of grain `b` on grain `a`.
 #[inline]
-pub fn near_force(law: &NearField, grains: &Particles, positions: &[Vec3], a: usize, b: usize) -> Vec3 {
-    let apart = positions[b] - positions[a];
+pub fn near_force(
+    law: &NearField,
+    grains: &Particles,
+    space: &Space,
+    positions: &[Vec3],
+    [a, b]: [usize; 2],
+) -> Vec3 {
+    let apart = space.shortest(positions[b] - positions[a]);
     let squared = apart.norm_squared();
     let within = law.cutoff.is_none_or(|cutoff| squared < cutoff.si() * cutoff.si());
     if !within || squared == 0.0 {

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use crate::domain::Space;
 use crate::engine::SimError;
 use crate::fields::NearField;
 use crate::math::Vec3;
@@ -26,7 +27,7 @@ pub struct Truncation {
 }
 
 /// The truncation over an evenly spaced sample of grains; nothing without a cut-off.
-pub fn truncation(law: &NearField, grains: &Particles) -> Option<Truncation> {
+pub fn truncation(law: &NearField, grains: &Particles, space: &Space) -> Option<Truncation> {
     law.cutoff?;
     let n = grains.len();
     let whole = NearField { cutoff: None, ..law.clone() };
@@ -37,11 +38,12 @@ pub fn truncation(law: &NearField, grains: &Particles) -> Option<Truncation> {
             let grain = number * n / sample;
             let others = || (0..n).filter(move |other| *other != grain);
             let force = |law: &NearField| -> Vec3 {
-                others().map(|other| near_force(law, grains, &grains.position, grain, other)).sum()
+                others().map(|other| near_force(law, grains, space, &grains.position, [grain, other])).sum()
             };
             let energy = |law: &NearField| -> f64 {
                 let of = |other: usize| {
-                    let distance = (grains.position[grain] - grains.position[other]).norm();
+                    let apart = space.shortest(grains.position[grain] - grains.position[other]);
+                    let distance = apart.norm();
                     law.energy(&source(grains, grain), &source(grains, other), distance)
                 };
                 others().map(of).sum()
@@ -60,9 +62,13 @@ pub fn truncation(law: &NearField, grains: &Particles) -> Option<Truncation> {
 ///
 /// # Errors
 /// [`SimError::Truncated`] where it leaves out more.
-pub fn hold(law: Option<&NearField>, grains: &Particles) -> Result<Option<Truncation>, SimError> {
+pub fn hold(
+    law: Option<&NearField>,
+    grains: &Particles,
+    space: &Space,
+) -> Result<Option<Truncation>, SimError> {
     let Some(law) = law else { return Ok(None) };
-    match truncation(law, grains) {
+    match truncation(law, grains, space) {
         Some(Truncation { forces: part, .. }) if part > law.truncation => {
             Err(SimError::Truncated { part, limit: law.truncation })
         }
@@ -97,14 +103,14 @@ mod tests {
         let law = NearFieldLaw::Coulomb(Coulomb { relative_permittivity: 1.0 });
         let near = NearField { law, cutoff: Some(Quantity(1.5)), truncation: 0.05 };
         let by_hand = ((169.0 + 81.0) / (2401.0 + 81.0_f64)).sqrt();
-        let found = truncation(&near, &grains).unwrap();
+        let found = truncation(&near, &grains, &Space::OPEN).unwrap();
         assert!((found.forces / by_hand - 1.0).abs() < 1e-14, "{found:?}");
         // Three pairs at 1 m have 1 - 1/1.5 each; all have 3 + 2/2 + 1/3.
         assert!((found.energy.unwrap() - 3.0 / 13.0).abs() < 1e-14, "{found:?}");
-        let refused = hold(Some(&near), &grains).unwrap_err();
+        let refused = hold(Some(&near), &grains, &Space::OPEN).unwrap_err();
         assert!(matches!(refused, SimError::Truncated { limit: 0.05, .. }), "{refused}");
         let allowed = NearField { truncation: 0.4, ..near.clone() };
-        assert_eq!(hold(Some(&allowed), &grains).unwrap(), Some(found));
-        assert_eq!(truncation(&NearField { cutoff: None, ..near }, &grains), None);
+        assert_eq!(hold(Some(&allowed), &grains, &Space::OPEN).unwrap(), Some(found));
+        assert_eq!(truncation(&NearField { cutoff: None, ..near }, &grains, &Space::OPEN), None);
     }
 }

@@ -2,4 +2,5 @@
 
 mod breach;
 mod look;
+pub(super) mod narrow;
 pub(super) mod validity;

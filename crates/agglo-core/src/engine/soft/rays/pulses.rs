@@ -313,7 +313,9 @@ impl Pulses {
             let grain = grain as usize;
             let impulse = system.ray_loads.force[grain] * scale;
             let twist = system.ray_loads.torque[grain] * scale;
-            let ((r, _, spin_before), s) = (system.records[grain].before(), grains.position[grain]);
+            // Where it came, if that is out of the block, and not where it went back in.
+            let ((r, _, spin_before), (s, ..)) =
+                (system.records[grain].before(), system.records[grain].now());
             let mean_angular_velocity = (spin_before + grains.angular_velocity[grain]) * 0.5;
             let work = impulse.dot(s - r) / dt + twist.dot(mean_angular_velocity);
             let torque = ((r + s) * 0.5).cross(impulse) + twist;

@@ -6,9 +6,10 @@
 use std::ops::Range;
 
 use crate::contact::pass::Record;
+use crate::domain::{Image, Space};
 use crate::engine::soft::forces::gather::Gather;
 use crate::engine::soft::forces::loads::{LoadViews, Loads};
-use crate::engine::soft::system::{LEAF, System};
+use crate::engine::soft::system::{LEAF, System, bring_home};
 use crate::ledger::{Correction, Rates, Supplies};
 use crate::math::{Vec3, parallel};
 use crate::particles::Particles;
@@ -17,6 +18,16 @@ use super::change::{Afloat, Change};
 
 /// Positions, velocities and angular velocities.
 type Columns<'a> = (&'a mut [Vec3], &'a mut [Vec3], &'a mut [Vec3]);
+
+/// Images of the grains, where space repeats itself.
+type Images<'a> = Option<&'a mut [Image]>;
+
+/// What the end of a step changes.
+type Finished<'a> = (Columns<'a>, LoadViews<'a>, Images<'a>);
+
+fn across<'a>(space: &Space, images: &'a mut [Image]) -> Images<'a> {
+    space.repeats().then_some(images)
+}
 
 /// The end of a step, for one grain after the other.
 struct Ending<'a> {
@@ -77,19 +88,23 @@ impl System {
         let mut moving = self.take_motion();
         let ray_scale = self.ray_scale(dt);
         let Self { grains, laws, network, contacts, near, trial, hook, loads, ray_loads, records, .. } = self;
+        let (space, images) = (&self.space, across(&self.space, &mut self.images));
         let has_response = laws.has_response();
         let rays = ray_scale.map(|scale| (&*ray_loads, scale));
         let hook = hook.as_ref().map(|hook| &hook.loads);
         let positions = &trial.position[..];
-        let gather = Gather { grains, laws, network, contacts, near, positions, time, hook };
+        let gather = Gather { grains, laws, network, contacts, near, positions, space, time, hook };
         let ending = Ending { gather, rays, dt };
-        let leaf = |range: Range<usize>, ((r, v, w), loads): (Columns<'_>, LoadViews<'_>)| {
+        let leaf = |range: Range<usize>, ((r, v, w), loads, mut images): Finished<'_>| {
             let (mut supplies, mut correction) = (Supplies::default(), Correction::default());
             for (slot, grain) in range.enumerate() {
                 let record = &records[grain];
                 let now = record.now();
                 let mut end = ending.gather.on(grain, now, &mut supplies);
                 r[slot] = now.0;
+                if let Some(images) = &mut images {
+                    bring_home(space, &mut r[slot], &mut images[slot]);
+                }
                 (v[slot], w[slot]) = if has_response {
                     let start = (loads.force[slot], loads.torque[slot]);
                     ending.solved(grain, record, start, &mut end, &mut correction)
@@ -103,7 +118,7 @@ impl System {
         let columns = (&mut moving.0[..], &mut moving.1[..], &mut moving.2[..]);
         let join = |a: (Supplies, Correction), b: (Supplies, Correction)| (a.0 + b.0, a.1 + b.1);
         let (supplies, correction) =
-            parallel::over(0..records.len(), LEAF, (columns, loads.views()), &leaf, &join);
+            parallel::over(0..records.len(), LEAF, (columns, loads.views(), images), &leaf, &join);
         trial.rates = Rates::new(&trial.contact, trial.bond_damping, supplies);
         trial.rates.correct(correction);
         self.put_motion(moving);
@@ -113,15 +128,21 @@ impl System {
     /// Ends the step of `dt` [s] that leads to `time` [s], and begins one of `next` [s] in the same pass; the columns of the grains
     /// stay behind. Only where [`System::flies_freely`].
     pub(in crate::engine::soft) fn fly_on(&mut self, time: f64, dt: f64, next: f64) {
-        let Self { grains, laws, network, contacts, near, trial, records, .. } = self;
-        let gather = Gather { grains, laws, network, contacts, near, positions: &[], time, hook: None };
+        let Self { grains, laws, network, contacts, near, trial, records, space, .. } = self;
+        let (space, images) = (&*space, across(space, &mut self.images));
+        let gather =
+            Gather { grains, laws, network, contacts, near, positions: &[], space, time, hook: None };
         let ending = Ending { gather, rays: None, dt };
-        let leaf = |range: Range<usize>, records: &mut [Record]| {
+        let leaf = |range: Range<usize>, (records, mut images): (&mut [Record], Images<'_>)| {
             let (mut supplies, mut change) = (Supplies::default(), Change::default());
-            for (record, grain) in records.iter_mut().zip(range) {
-                let now = record.now();
+            for (slot, (record, grain)) in records.iter_mut().zip(range).enumerate() {
+                let mut now = record.now();
                 let end = ending.gather.on(grain, now, &mut supplies);
                 let (velocity, spin) = ending.corrected(grain, record, end);
+                if let Some(images) = &mut images {
+                    bring_home(space, &mut now.0, &mut images[slot]);
+                    record.shift_to(now.0);
+                }
                 record.begin(now.0, velocity, spin);
                 let [per_mass, per_inertia] = record.inverses().map(|inverse| next * inverse);
                 change.note_move(grain, record, next, 0.5, (end.0 * per_mass, end.1 * per_inertia));
@@ -130,7 +151,7 @@ impl System {
         };
         let join = |a: (Supplies, Change), b: (Supplies, Change)| (a.0 + b.0, Change::join(a.1, b.1));
         let n = grains.len();
-        let (supplies, change) = parallel::over(0..n, LEAF, &mut records[..], &leaf, &join);
+        let (supplies, change) = parallel::over(0..n, LEAF, (&mut records[..], images), &leaf, &join);
         trial.rates = Rates::new(&trial.contact, trial.bond_damping, supplies);
         self.note_way(change.wavering);
         self.afloat = Some(Afloat { dt: next, change });

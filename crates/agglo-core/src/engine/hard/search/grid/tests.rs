@@ -7,7 +7,12 @@ const BOUNDARIES: [Boundary; 4] =
 
 /// A block that is no cube.
 fn volume(boundary: Boundary) -> Volume {
-    Volume { lower: [-1.0, 2.0, 0.0].map(Quantity), upper: [1.0, 3.5, 1.2].map(Quantity), boundary }
+    Volume {
+        lower: [-1.0, 2.0, 0.0].map(Quantity),
+        upper: [1.0, 3.5, 1.2].map(Quantity),
+        boundary,
+        faces: None,
+    }
 }
 
 struct Filed {
@@ -240,8 +245,12 @@ fn cells_fly_with_a_wind() {
 #[test]
 fn the_narrowest_cell_of_any_axis() {
     for edges in [[2.1, 8.0, 8.0], [8.0, 2.1, 8.0], [8.0, 8.0, 2.1]] {
-        let volume =
-            Volume { lower: [Quantity(0.0); 3], upper: edges.map(Quantity), boundary: Boundary::Reflecting };
+        let volume = Volume {
+            lower: [Quantity(0.0); 3],
+            upper: edges.map(Quantity),
+            boundary: Boundary::Reflecting,
+            faces: None,
+        };
         let grid = Grid::new(&volume, 1.0, 200);
         let finest = grid.levels().last().unwrap();
         let widths = [0, 1, 2].map(|axis| edges[axis] / f64::from(finest.counts[axis]));

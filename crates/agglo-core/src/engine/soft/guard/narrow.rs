@@ -1,0 +1,25 @@
+//! Whether space is wide enough: where it repeats itself, two grains may meet in one of their images alone.
+
+use crate::contact::ContactLaws;
+use crate::engine::SimError;
+use crate::engine::soft::settings::Settings;
+use crate::particles::Particles;
+
+/// Holds the periods of space to how far grains reach.
+///
+/// # Errors
+/// [`SimError::NarrowSpace`] where half a period is not above the longest distance of centers at which grains act on one another.
+pub fn hold(settings: &Settings, grains: &Particles) -> Result<(), SimError> {
+    let space = settings.space();
+    if !space.repeats() {
+        return Ok(());
+    }
+    let largest = grains.radius.iter().copied().fold(0.0, f64::max);
+    let beyond = settings.contact.as_ref().map_or(0.0, ContactLaws::reach);
+    let gap = settings.beam().map_or(0.0, |law| law.gap * largest);
+    let near_field = settings.fields.near_field.as_ref();
+    let cutoff = near_field.map_or(0.0, |law| law.cutoff.map_or(f64::INFINITY, |cutoff| cutoff.si()));
+    let reach = (2.0 * largest + beyond.max(gap)).max(cutoff);
+    let period = space.shortest_period();
+    if 2.0 * reach < period { Ok(()) } else { Err(SimError::NarrowSpace { period, reach }) }
+}
