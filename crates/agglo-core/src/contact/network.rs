@@ -43,6 +43,15 @@ pub fn bonds_between(law: &Beam, grains: &Particles, space: &Space, pairs: &[[u3
     pairs.iter().map(|&[a, b]| bond_between(law, grains, space, a, b)).collect()
 }
 
+/// What all bonds do per second.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BondRates {
+    /// Power lost in their dashpots [W].
+    pub damping: f64,
+    /// Power that space puts in as it is pressed together [W].
+    pub strained: f64,
+}
+
 /// All bonds, sorted by the grains' names.
 #[derive(Clone, Debug, Default)]
 pub struct Network {
@@ -124,32 +133,32 @@ impl Network {
         self.entries.fill(grains, ends);
     }
 
-    /// Computes all bonds' loads at the end of a step of `dt` [s]; returns the power lost in their dashpots [W].
+    /// Computes all bonds' loads at the end of a step of `dt` [s], from the motions at both its ends and space as it was there.
     pub fn compute(
         &mut self,
         grains: &Particles,
-        space: &Space,
-        before: &Motion<'_>,
-        now: &Motion<'_>,
+        spaces: [&Space; 2],
+        motions: [&Motion<'_>; 2],
         dt: f64,
-    ) -> f64 {
-        let Some(law) = &self.law else { return 0.0 };
+    ) -> BondRates {
+        let Some(law) = &self.law else { return BondRates::default() };
         let bonds = &self.bonds;
         parallel::over(
             0..bonds.len(),
             LEAF,
             &mut self.trial[..],
             &|range, trial: &mut [(BeamState, BeamLoad)]| {
-                let mut lost = 0.0;
+                let mut rates = BondRates::default();
                 for (bond, place) in bonds[range].iter().zip(trial) {
-                    let (load, state) =
-                        law.advance(&bond.state, &pair_of(bond, grains, space, before, now, dt));
-                    lost += load.damping_power;
+                    let (pair, flow) = pair_of(bond, grains, spaces, motions, dt);
+                    let (load, state) = law.advance(&bond.state, &pair);
+                    rates.damping += load.damping_power;
+                    rates.strained += load.force.dot(flow);
                     *place = (state, load);
                 }
-                lost
+                rates
             },
-            &|a, b| a + b,
+            &|a, b| BondRates { damping: a.damping + b.damping, strained: a.strained + b.strained },
         )
     }
 
@@ -290,27 +299,27 @@ fn bond_between(law: &Beam, grains: &Particles, space: &Space, a: u32, b: u32) -
     Bond { ids: [grains.id[i], grains.id[j]], grains: [a, b], state }
 }
 
-/// The motion of a bond's two ends over a step.
+/// The motion of a bond's two ends over a step, and how fast they part as they follow space [m/s].
 fn pair_of(
     bond: &Bond,
     grains: &Particles,
-    space: &Space,
-    before: &Motion<'_>,
-    now: &Motion<'_>,
+    spaces: [&Space; 2],
+    [before, now]: [&Motion<'_>; 2],
     dt: f64,
-) -> BeamPair {
+) -> (BeamPair, Vec3) {
     let [i, j] = bond.grains.map(|grain| grain as usize);
-    let apart = space.shortest(now.position[j] - now.position[i]);
+    let apart = spaces[1].shortest(now.position[j] - now.position[i]);
     let distance = apart.norm();
     let normal = apart * (1.0 / distance);
     // Slip over the step is taken across the normal of its middle, so that a turning pair slips by nothing.
-    let apart_before = space.shortest(before.position[j] - before.position[i]);
+    let apart_before = spaces[0].shortest(before.position[j] - before.position[i]);
+    let flow = spaces[1].flow(apart);
     let middle = (apart + apart_before).normalized();
     let lever_arms = lever_arms([grains.radius[i], grains.radius[j]], distance);
     let ends = |motion: &Motion<'_>| {
         let rolling = motion.angular_velocity[i] * lever_arms[0] + motion.angular_velocity[j] * lever_arms[1];
         (
-            motion.velocity[j] - motion.velocity[i],
+            motion.velocity[j] - motion.velocity[i] + flow,
             rolling,
             motion.angular_velocity[j] - motion.angular_velocity[i],
         )
@@ -324,7 +333,7 @@ fn pair_of(
         + now.angular_velocity[j];
     let (mi, mj) = (grains.mass[i], grains.mass[j]);
     let (ii, ij) = (grains.inertia(i), grains.inertia(j));
-    BeamPair {
+    let pair = BeamPair {
         distance,
         normal,
         lever_arms,
@@ -336,5 +345,6 @@ fn pair_of(
         angular_velocity_difference: turn,
         effective_mass: mi * mj / (mi + mj),
         effective_inertia: ii * ij / (ii + ij),
-    }
+    };
+    (pair, flow)
 }

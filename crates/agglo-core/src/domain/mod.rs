@@ -1,6 +1,7 @@
 //! Where things are: regions of space, the volume that a run is about with its faces, space that repeats itself, and where
 //! doubles end.
 
+mod deformation;
 mod disc;
 mod extent;
 mod region;
@@ -8,6 +9,7 @@ pub mod resolution;
 mod space;
 mod volume;
 
+pub use deformation::{Deformation, SpaceInTime, Stretch};
 pub use disc::Disc;
 pub use extent::extent;
 pub use region::{Ball, Block, Cylinder, Region};

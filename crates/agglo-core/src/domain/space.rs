@@ -14,6 +14,9 @@ pub struct Space {
     periods: Vec3,
     per_period: Vec3,
     repeats: bool,
+    /// How fast it is drawn out along each axis [1/s].
+    strain_rate: Vec3,
+    is_strained: bool,
 }
 
 /// How often a grain has gone out through each upper face, less how often through the lower one.
@@ -27,6 +30,8 @@ impl Space {
         periods: Vec3::ZERO,
         per_period: Vec3::ZERO,
         repeats: false,
+        strain_rate: Vec3::ZERO,
+        is_strained: false,
     };
 
     /// Space that repeats the block between two corners [m] along some axes.
@@ -41,7 +46,29 @@ impl Space {
             periods: Vec3::new(along(0), along(1), along(2)),
             per_period: Vec3::new(inverse(0), inverse(1), inverse(2)),
             repeats: axes.contains(&true),
+            strain_rate: Vec3::ZERO,
+            is_strained: false,
         }
+    }
+
+    /// The same while it is drawn out along its axes at these rates [1/s].
+    #[must_use]
+    pub fn strained(self, strain_rate: Vec3) -> Self {
+        Self { strain_rate, is_strained: strain_rate != Vec3::ZERO, ..self }
+    }
+
+    /// Whether it is being drawn out or pressed together.
+    #[inline(always)]
+    pub fn is_strained(&self) -> bool {
+        self.is_strained
+    }
+
+    /// How fast two points part as they follow it [m/s], from the vector between them [m].
+    #[inline(always)]
+    #[must_use]
+    pub fn flow<F: Real>(&self, between: Vector<F>) -> Vector<F> {
+        let Vec3 { x, y, z } = self.strain_rate;
+        Vector::new(between.x * F::of(x), between.y * F::of(y), between.z * F::of(z))
     }
 
     /// Whether it repeats itself along any axis.

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::deformation::Deformation;
 use super::space::Space;
 use crate::math::Vec3;
 use crate::units::{Length, Triple, vector};
@@ -21,6 +22,9 @@ pub struct Volume {
     /// What faces do where they differ from `boundary`; soft spheres only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub faces: Option<Faces>,
+    /// How it is drawn out or pressed together; soft spheres only. It stays as it is if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub deformation: Option<Deformation>,
 }
 
 /// What the two faces across an axis do, where they differ from the others.
@@ -177,7 +181,13 @@ mod tests {
 
     fn volume(boundary: Boundary) -> Volume {
         let (lower, upper) = ([-0.3, 1.0, -7.0], [0.7, 1.1, -2.5]);
-        Volume { lower: lower.map(Quantity), upper: upper.map(Quantity), boundary, faces: None }
+        Volume {
+            lower: lower.map(Quantity),
+            upper: upper.map(Quantity),
+            boundary,
+            faces: None,
+            deformation: None,
+        }
     }
 
     #[test]

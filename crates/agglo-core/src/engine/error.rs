@@ -121,6 +121,11 @@ pub enum SimError {
         /// How far grains act on one another, from center to center [m].
         reach: f64,
     },
+    /// Rays would have to cross faces.
+    #[error(
+        "rays do not go on across faces across which space repeats itself: let the faces of [volume] be open, or leave acoustics out"
+    )]
+    RaysAcrossFaces,
     /// The observer asked to stop before the clock started.
     #[error("stopped while grains came to rest (start.relax); nothing is kept of that")]
     StoppedAtRest,

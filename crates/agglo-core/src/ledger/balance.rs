@@ -34,6 +34,8 @@ pub struct Balance {
     pub gravity: f64,
     /// Work of electric and magnetic fields [J].
     pub fields: f64,
+    /// Put in by the control volume as it was pressed together [J]; negative where it was drawn out.
+    pub strained: f64,
     /// Put in by hooks and kicks, and by a formula of contact where it drives grains [J].
     pub custom: f64,
     /// Lost to drag [J]; negative where the medium drives the grains.
@@ -79,8 +81,9 @@ impl Balance {
         let lost = drag + flows.damping + rubbed + flows.bond_damping + flows.broken_bonds;
         let mechanical_at_start = start.mechanical();
         let after_collisions = mechanical_at_start - collisions.normal - collisions.tangential;
-        let mechanical_drift =
-            stored.mechanical() - after_collisions - (rays + gravity + fields + custom - lost);
+        let mechanical_drift = stored.mechanical()
+            - after_collisions
+            - (rays + gravity + fields + flows.strained + custom - lost);
         let cooled = flows.cooled + pending;
         let thermal_drift =
             stored.thermal - (start.thermal + collisions.heat - flows.unkept.value() - cooled);
@@ -93,6 +96,7 @@ impl Balance {
             rays,
             gravity,
             fields,
+            strained: flows.strained,
             custom,
             drag,
             damping: flows.damping,

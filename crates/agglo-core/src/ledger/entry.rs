@@ -73,6 +73,7 @@ pub mod soft {
         RAYS = rays, "work_rays_J", "J", "put in by rays", "since the start";
         GRAVITY = gravity, "work_gravity_J", "J", "put in by gravity", "since the start";
         FIELDS = fields, "work_fields_J", "J", "put in by fields", "since the start";
+        STRAINED = strained, "work_volume_J", "J", "put in by the volume", "as it was pressed together, since the start; negative where it was drawn out";
         CUSTOM = custom, "work_custom_J", "J", "put in by custom laws", "by hooks and kicks, and by `contact.custom` where it drives grains, since the start";
         DRAG = drag, "lost_drag_J", "J", "lost to drag", "since the start; negative where the medium drives the grains";
         DAMPING = damping, "lost_contact_damping_J", "J", "lost in contacts", "in their dashpots, since the start";

@@ -21,6 +21,8 @@ pub struct Flows {
     pub tangential: f64,
     /// Lost in the dashpots of bonds [J].
     pub bond_damping: f64,
+    /// Put in by space as it was pressed together [J].
+    pub strained: f64,
     /// Released by bonds that broke [J], put in by bonds that were made counting negative.
     pub broken_bonds: f64,
     /// Of all collisions of hard spheres.
@@ -85,6 +87,7 @@ impl Flows {
         self.driven += sum(before.driven, after.driven);
         self.tangential += sum(before.tangential, after.tangential);
         self.bond_damping += sum(before.bond_damping, after.bond_damping);
+        self.strained += sum(before.strained, after.strained);
         let (old, new, own) = (&before.supplies, &after.supplies, &mut self.supplies);
         own.drag = own.drag.plus(old.drag, early).plus(new.drag, late);
         own.drag.power += early * phi * after.bend;
@@ -95,7 +98,7 @@ impl Flows {
 
     /// Impulse [N s] and angular impulse [N m s] of all that acts from outside.
     pub(super) fn impulse(&self) -> Momentum {
-        let Supplies { drag, gravity, field, hook } = self.supplies;
+        let Supplies { drag, gravity, field, hook, .. } = self.supplies;
         let all = self.rays + drag + gravity + field + hook;
         Momentum { linear: all.force + self.walls, angular: all.torque }
     }

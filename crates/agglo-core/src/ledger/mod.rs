@@ -99,6 +99,7 @@ impl Ledger {
         let since = balance.rays.abs()
             + balance.gravity.abs()
             + balance.fields.abs()
+            + balance.strained.abs()
             + balance.custom.abs()
             + balance.drag.abs()
             + (-balance.stored.elastic).max(0.0)

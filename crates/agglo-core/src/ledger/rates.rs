@@ -4,6 +4,7 @@ use std::ops::Add;
 
 use serde::{Deserialize, Serialize};
 
+use crate::contact::network::BondRates;
 use crate::contact::pass::ContactRates;
 use crate::math::Vec3;
 
@@ -54,6 +55,8 @@ pub struct Supplies {
     pub field: Supply,
     /// A hook.
     pub hook: Supply,
+    /// Power that space puts in against forces at a distance as it is pressed together [W].
+    pub strained: f64,
 }
 
 impl Supplies {
@@ -76,6 +79,7 @@ impl Add for Supplies {
             gravity: self.gravity + other.gravity,
             field: self.field + other.field,
             hook: self.hook + other.hook,
+            strained: self.strained + other.strained,
         }
     }
 }
@@ -107,6 +111,8 @@ pub struct Rates {
     pub tangential: f64,
     /// Power lost in the dashpots of bonds [W].
     pub bond_damping: f64,
+    /// Power that space puts in as it is pressed together [W].
+    pub strained: f64,
     /// Single-grain forces.
     pub supplies: Supplies,
     /// By how much drag changed within the step that led here, over how velocities did: -ΔF · Δv - ΔM · Δw [W].
@@ -115,9 +121,10 @@ pub struct Rates {
 
 impl Rates {
     /// Puts the parts together.
-    pub fn new(contact: &ContactRates, bond_damping: f64, supplies: Supplies) -> Self {
-        let ContactRates { damping, driven, tangential, .. } = *contact;
-        Self { damping, driven, tangential, bond_damping, supplies, bend: 0.0 }
+    pub fn new(contact: &ContactRates, bonds: BondRates, supplies: Supplies) -> Self {
+        let ContactRates { damping, driven, tangential, strained, .. } = *contact;
+        let (bond_damping, strained) = (bonds.damping, strained + bonds.strained + supplies.strained);
+        Self { damping, driven, tangential, bond_damping, strained, supplies, bend: 0.0 }
     }
 
     /// Brings in what solving for velocities changed in the step that leads here.

@@ -16,7 +16,7 @@ const BOUNDARIES: [Boundary; 4] =
 fn volume(edges: [f64; 3], boundary: Boundary) -> Volume {
     let lower = [-0.5, 2.0, 0.0];
     let upper = [0, 1, 2].map(|axis| Quantity(lower[axis] + edges[axis]));
-    Volume { lower: lower.map(Quantity), upper, boundary, faces: None }
+    Volume { lower: lower.map(Quantity), upper, boundary, faces: None, deformation: None }
 }
 
 fn started(volume: &Volume, grains: Vec<GrainGroup>) -> Result<Particles, PackingError> {

@@ -43,6 +43,7 @@ pages! {
     "follow" "acoustics" "follow" [];
     "staggered" "engine/soft/step" "staggered" [];
     "verlet" "engine/soft/step" "verlet" [];
+    "deformation" "domain" "deformation" [];
     "event_driven" "engine/hard/drive" "event_driven" [];
     "time_stepped" "engine/hard/drive" "time_stepped" [];
 }

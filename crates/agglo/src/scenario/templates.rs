@@ -58,6 +58,12 @@ pub const TEMPLATES: &[Template] = &[
         is_campaign: false,
     },
     Template {
+        name: "packing",
+        title: "grains in a box that repeats itself and is pressed together to a dense packing",
+        text: include_str!("../../scenarios/packing.toml"),
+        is_campaign: false,
+    },
+    Template {
         name: "search",
         title: "a search for the grains that grow most: ten parameters, the paper's genetic algorithm",
         text: include_str!("../../scenarios/search-agglomeration.toml"),

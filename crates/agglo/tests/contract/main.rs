@@ -8,6 +8,7 @@ extern crate agglo_testing;
 #[path = "../common/mod.rs"]
 mod common;
 
+mod across_faces;
 mod crowd;
 mod custom;
 mod from;

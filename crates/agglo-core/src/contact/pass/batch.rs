@@ -38,13 +38,14 @@ struct Sums<F> {
     damping: [F; WIDEST],
     driven: [F; WIDEST],
     tangential: [F; WIDEST],
+    strained: [F; WIDEST],
     worst_strain: [F; WIDEST],
 }
 
 impl<F: Lanes> Sums<F> {
     fn none() -> Self {
         let zeros = [F::of(0.0); WIDEST];
-        Self { damping: zeros, driven: zeros, tangential: zeros, worst_strain: zeros }
+        Self { damping: zeros, driven: zeros, tangential: zeros, strained: zeros, worst_strain: zeros }
     }
 
     /// The same as single numbers.
@@ -56,6 +57,7 @@ impl<F: Lanes> Sums<F> {
             damping: single(&self.damping),
             driven: single(&self.driven),
             tangential: single(&self.tangential),
+            strained: single(&self.strained),
             worst_strain: single(&self.worst_strain),
         }
     }
@@ -69,6 +71,7 @@ impl Sums<f64> {
             damping: sum(&self.damping),
             driven: sum(&self.driven),
             tangential: sum(&self.tangential),
+            strained: sum(&self.strained),
             worst_strain: self.worst_strain.into_iter().fold(0.0, f64::max),
         }
     }
@@ -140,7 +143,12 @@ fn contacts<F: Lanes>(
     let (spin_before, twist) = (vectors(&spin), vectors(&rows::<F>(&ends, |of| &of.twist)));
     let velocities = [before[0] + kick[0], before[1] + kick[1]];
     let spins = [spin_before[0] + twist[0], spin_before[1] + twist[1]];
-    let velocity = touch.relative_velocity(velocities, spins);
+    let mut velocity = touch.relative_velocity(velocities, spins);
+    let space = given.world.space;
+    let flow = space.flow(apart);
+    if space.is_strained() {
+        velocity += flow;
+    }
     let separation = velocity.dot(*normal);
     let slip = velocity - *normal * separation;
 
@@ -159,7 +167,11 @@ fn contacts<F: Lanes>(
                 // Sums over both ends of the step.
                 let way = [before[0] + velocities[0], before[1] + velocities[1]];
                 let turn = [spin_before[0] + spins[0], spin_before[1] + spins[1]];
-                let path = touch.relative_velocity(way, turn).rejected_from(*normal);
+                let mut path = touch.relative_velocity(way, turn);
+                if space.is_strained() {
+                    path += flow * F::of(2.0);
+                }
+                let path = path.rejected_from(*normal);
                 sliding.displacement = path * F::of(0.5 * elapsed);
                 sliding.turn_about_normal = (turn[0] + turn[1]).dot(*normal) * F::of(0.25 * elapsed);
                 remembered = spring_of(given, touching, first);
@@ -182,6 +194,9 @@ fn contacts<F: Lanes>(
     sums.worst_strain[part] = touch.strain.max(sums.worst_strain[part]);
 
     let force = tangential - *normal * repulsion;
+    if space.is_strained() {
+        sums.strained[part] = sums.strained[part] + force.dot(flow);
+    }
     let couple = normal.cross(tangential);
     put_down(given, written, touching, first, (force, couple, lever_arms));
 }

@@ -32,7 +32,8 @@ impl<'a> Contact<'a> {
         let of = |column: &[f64]| [column[i], column[j]];
         let touch = Touch::new(of(&grains.radius), of(&grains.mass), of(&grains.contact_stiffness), apart);
         let vectors = |column: &[Vec3]| [column[i], column[j]];
-        let velocity = touch.relative_velocity(vectors(now.velocity), vectors(now.angular_velocity));
+        let own = touch.relative_velocity(vectors(now.velocity), vectors(now.angular_velocity));
+        let velocity = own + snapshot.world.space.flow(apart);
         Self {
             grains: [i, j],
             constants: snapshot.world.pairs.of(grains.material[i], grains.material[j]),

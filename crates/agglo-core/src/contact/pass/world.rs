@@ -65,6 +65,8 @@ pub struct ContactRates {
     pub driven: f64,
     /// Power that tangential forces take from the motion [W].
     pub tangential: f64,
+    /// Power that space puts in as it is pressed together [W].
+    pub strained: f64,
     /// Largest overlap over the sum of radii.
     pub worst_strain: f64,
 }
@@ -75,6 +77,7 @@ impl ContactRates {
             damping: a.damping + b.damping,
             driven: a.driven + b.driven,
             tangential: a.tangential + b.tangential,
+            strained: a.strained + b.strained,
             worst_strain: a.worst_strain.max(b.worst_strain),
         }
     }

@@ -90,6 +90,9 @@ fn rested(
     let mut quiet = settings.clone();
     quiet.acoustics = None;
     quiet.fields.drag = None;
+    if let Some(volume) = &mut quiet.volume {
+        volume.deformation = None;
+    }
     quiet.end = relaxation.longest.si();
     // What is damped away is in no ledger.
     (quiet.limits.drift_warning, quiet.limits.drift_error) = (f64::INFINITY, f64::INFINITY);

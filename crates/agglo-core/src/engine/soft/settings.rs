@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use crate::acoustics::{Acoustics, Medium};
 use crate::contact::bond::Beam;
 use crate::contact::{Bonds, ContactLaws};
-use crate::domain::{Space, Volume};
+use crate::domain::{Deformation, Space, SpaceInTime, Volume};
 use crate::fields::Fields;
-use crate::particles::{Material, Mixture};
+use crate::particles::{ById, Material, Mixture, Particles};
 use crate::units::{Time, Velocity};
 
 use schemars::JsonSchema;
@@ -51,9 +51,18 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// Space as the faces of the control volume make it.
+    /// Space as the faces of the control volume make it at the start.
     pub fn space(&self) -> Space {
         self.volume.as_ref().map_or(Space::OPEN, Volume::space)
+    }
+
+    /// Space at any time, among these grains.
+    pub(super) fn space_in_time(&self, grains: &Particles) -> SpaceInTime {
+        // In the order of names, which is the same after any sorting.
+        let by_id = ById::of(&grains.id);
+        let cubes = by_id.places().map(|at| grains.radius[at as usize].powi(3));
+        let solid = 4.0 / 3.0 * std::f64::consts::PI * cubes.sum::<f64>();
+        SpaceInTime::new(self.volume.as_ref(), solid)
     }
 
     /// The law of bonds between grains, where that is the one that bonds them.
@@ -61,9 +70,10 @@ impl Settings {
         self.bonds.as_ref().and_then(Bonds::lasting)
     }
 
-    /// Longest automatic step [s]: a hundredth of the run.
+    /// Longest automatic step [s]: a hundredth of the run, or as the volume is deformed.
     pub(super) fn longest_step(&self) -> f64 {
-        self.end / 100.0
+        let deformation = self.volume.as_ref().and_then(|volume| volume.deformation.as_ref());
+        deformation.map_or(f64::INFINITY, Deformation::longest_step).min(self.end / 100.0)
     }
 
     /// The automatic step, where none is given.

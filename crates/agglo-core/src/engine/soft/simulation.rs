@@ -122,7 +122,8 @@ impl Simulation {
         let space = settings.space();
         let network = Network::start(settings.beam(), start.bonds, &start.grains, &space);
         let laws = Laws::new(settings, &start.grains);
-        let mut system = System::new(start.grains, laws, network, space);
+        let space_in_time = settings.space_in_time(&start.grains);
+        let mut system = System::new(start.grains, laws, network, (space_in_time, 0.0));
         if !start.contacts.is_empty() {
             system.remember(&start.contacts);
         }
@@ -133,7 +134,8 @@ impl Simulation {
     /// The same grains, contacts and bonds, at time zero under other laws.
     pub(super) fn restarted(self, settings: &Settings) -> Self {
         let mut system = self.system;
-        system.change_laws(Laws::new(settings, &system.grains));
+        let space_in_time = settings.space_in_time(&system.grains);
+        system.change_laws(Laws::new(settings, &system.grains), space_in_time);
         Self::at_zero(settings, system)
     }
 
@@ -190,7 +192,8 @@ impl Simulation {
         let pulses = Pulses::resume(settings, state.pulses);
         let grains = state.grains.into_owned();
         let laws = Laws::new(settings, &grains);
-        let mut system = System::new(grains, laws, network, settings.space());
+        let space = (settings.space_in_time(&grains), state.clock.time);
+        let mut system = System::new(grains, laws, network, space);
         system.images = state.images.into_owned();
         system.rays_are_impulses = pulses.are_impulses();
         system.loads = state.loads.into_owned();
@@ -282,6 +285,7 @@ impl Simulation {
             let made = self.make_step(if left > 0 { until } else { f64::NEG_INFINITY });
             if made.is_err() {
                 self.system.fall_back();
+                self.system.move_space(self.clock.time, self.clock.time);
             }
             made?;
             if self.system.afloat.is_none() {

@@ -3,9 +3,9 @@
 use std::ops::Range;
 
 use crate::contact::ContactLaws;
-use crate::contact::network::{BondEvent, Network};
+use crate::contact::network::{BondEvent, BondRates, Network};
 use crate::contact::pass::{ContactRates, ContactWorld, Contacts, Passage, Record, Remembered, Snapshot};
-use crate::domain::{Image, Space};
+use crate::domain::{Image, Space, SpaceInTime, Stretch};
 use crate::ledger::{Rates, Supplies};
 use crate::math::{Pace, Vec3, parallel};
 use crate::neighbors::{PairList, morton_order};
@@ -33,8 +33,8 @@ pub struct Trial {
     is_looked_at: bool,
     /// Loads at this motion.
     pub loads: Loads,
-    /// Power lost in the dashpots of bonds [W].
-    pub bond_damping: f64,
+    /// What bonds do at this motion.
+    pub bonds: BondRates,
     /// Rates at this motion.
     pub rates: Rates,
     /// Contacts at this motion.
@@ -46,8 +46,11 @@ pub struct Trial {
 pub struct System {
     /// The grains, at the last committed step.
     pub grains: Particles,
-    /// Space, which may repeat itself.
+    /// Space, which may repeat itself, at the end of the step that is tried, or as it was tried last.
     pub space: Space,
+    /// The same at the start of the step.
+    pub(super) space_before: Space,
+    pub(super) space_in_time: SpaceInTime,
     /// In which of its images each grain would be by now, if it had not come back in; empty where space is open.
     pub images: Vec<Image>,
     /// The laws.
@@ -88,9 +91,14 @@ impl Trial {
 }
 
 impl System {
-    /// Grains under laws in a space; forces are not yet known.
-    pub fn new(mut grains: Particles, laws: Laws, network: Network, space: Space) -> Self {
-        let n = grains.len();
+    /// Grains under laws at a time [s] in a space; forces are not yet known.
+    pub fn new(
+        mut grains: Particles,
+        laws: Laws,
+        network: Network,
+        (space_in_time, time): (SpaceInTime, f64),
+    ) -> Self {
+        let (n, space) = (grains.len(), space_in_time.at(time));
         for place in &mut grains.position {
             *place = space.home(*place).0;
         }
@@ -105,6 +113,8 @@ impl System {
             rates: Rates::default(),
             images: vec![[0; 3]; if space.repeats() { n } else { 0 }],
             space,
+            space_before: space,
+            space_in_time,
             hook: None,
             contacts: Contacts::default(),
             list: PairList::default(),
@@ -119,8 +129,18 @@ impl System {
         }
     }
 
-    /// Puts the grains under other laws; bonds stay, and count as made at the start.
-    pub fn change_laws(&mut self, laws: Laws) {
+    /// Space moves on from one time [s] to another; how places follow it.
+    pub(super) fn move_space(&mut self, from: f64, to: f64) -> Option<Stretch> {
+        if self.space_in_time.changes() {
+            (self.space_before, self.space) = (self.space_in_time.at(from), self.space_in_time.at(to));
+        }
+        self.space_in_time.stretch(from, to)
+    }
+
+    /// Puts the grains under other laws, in space that starts anew; bonds stay, and count as made at the start.
+    pub fn change_laws(&mut self, laws: Laws, space_in_time: SpaceInTime) {
+        self.space_in_time = space_in_time;
+        self.move_space(0.0, 0.0);
         self.inertial_mass = (0..self.grains.len()).map(|at| laws.inertial_mass(&self.grains, at)).collect();
         self.records = records(&self.grains, &self.inertial_mass);
         self.laws = laws;
@@ -156,7 +176,8 @@ impl System {
         if self.network.is_active() || self.hook.is_some() || self.laws.fields.near_field.is_some() {
             self.look_at_trial();
         }
-        let Self { grains, laws, network, contacts, list, trial, hook, records, space, .. } = self;
+        let Self { grains, laws, network, contacts, list, trial, hook, records, space, space_before, .. } =
+            self;
         let world = ContactWorld {
             space,
             laws: laws.contact.as_ref(),
@@ -165,7 +186,8 @@ impl System {
             list,
         };
         trial.contact = contacts.compute(&world, &Passage { records, elapsed, dt });
-        trial.bond_damping = network.compute(grains, space, &grains.motion(), &trial.motion(), elapsed);
+        trial.bonds =
+            network.compute(grains, [space_before, space], [&grains.motion(), &trial.motion()], elapsed);
         if let Some(hook) = hook {
             hook.look(&Scene { time, grains, motion: trial.motion() });
         }
@@ -186,7 +208,7 @@ impl System {
             supplies
         };
         let supplies = parallel::over(0..grains.len(), LEAF, trial.loads.views(), &leaf, &|a, b| a + b);
-        trial.rates = Rates::new(&trial.contact, trial.bond_damping, supplies);
+        trial.rates = Rates::new(&trial.contact, trial.bonds, supplies);
     }
 
     /// Fills the columns of the trial motion, if they are not.
@@ -320,6 +342,8 @@ impl System {
             loads.torque[i] -= load.torque_i;
             loads.torque[j] -= load.torque_j;
             rates.bond_damping -= load.damping_power;
+            let apart = space.shortest(grains.position[j] - grains.position[i]);
+            rates.strained -= load.force.dot(space.flow(apart));
         })
     }
 

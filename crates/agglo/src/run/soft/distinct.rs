@@ -132,6 +132,7 @@ pub fn ledger() -> Ledger {
         supplies,
         damping: 3.25,
         driven: 0.875,
+        strained: 1.375,
         tangential: 4.5,
         bond_damping: 6.5,
         broken_bonds: 7.75,
@@ -291,7 +292,7 @@ pub fn by_hand() -> ByHand {
     }
     let ledger = ledger();
     let (flows, start) = (&ledger.flows, &ledger.start.momentum);
-    let Supplies { drag, gravity, field, hook } = flows.supplies;
+    let Supplies { drag, gravity, field, hook, .. } = flows.supplies;
     let supplies = [flows.rays, drag, gravity, field, hook];
     let impulse: Vec3 = supplies.iter().map(|supply| supply.force).sum();
     let twist: Vec3 = supplies.iter().map(|supply| supply.torque).sum();
@@ -313,11 +314,11 @@ pub fn by_hand() -> ByHand {
 
 /// What energies are due under the names of the table and of the summary, drawn up from [`by_hand`] and the flows of
 /// [`ledger`].
-pub fn energies() -> [(&'static str, f64); 18] {
+pub fn energies() -> [(&'static str, f64); 19] {
     let (stored, start) = (by_hand().stored, ledger().start.stored);
     // Of the 4.5 J that tangential forces took, the springs gave back what they had more at the start.
     let friction = 4.5 + 0.4 - stored.tangential_spring;
-    let drift = stored.mechanical() - start.mechanical() - (20.0 + 5.0 + 9.5 + 2.625)
+    let drift = stored.mechanical() - start.mechanical() - (20.0 + 5.0 + 9.5 + 1.375 + 2.625)
         + (2.125 + 3.25 + friction + 6.5 + 7.75);
     [
         ("kinetic_J", stored.kinetic),
@@ -330,6 +331,7 @@ pub fn energies() -> [(&'static str, f64); 18] {
         ("work_rays_J", 20.0),
         ("work_gravity_J", 5.0),
         ("work_fields_J", 9.5),
+        ("work_volume_J", 1.375),
         ("work_custom_J", 2.625),
         ("lost_drag_J", 2.125),
         ("lost_contact_damping_J", 3.25),

@@ -13,6 +13,10 @@ use crate::units::vector;
 pub(super) fn check(check: &mut Check, scenario: &ScenarioFile) {
     let Some(acoustics) = &scenario.acoustics else { return };
     needed(check, scenario, "acoustics", &SOUND_SPEED);
+    if scenario.volume.as_ref().is_some_and(|volume| volume.repeats().contains(&true)) {
+        let message = "rays do not go on across faces across which space repeats itself".to_owned();
+        check.fail_with("acoustics", message, "let the faces of [volume] be open");
+    }
     if !(0.0..1.0).contains(&acoustics.truncation) {
         let message = format!("found {}; a number from 0 and below 1 is wanted", acoustics.truncation);
         check.fail("acoustics.truncation", message);

@@ -1,13 +1,13 @@
 //! Rules of the control volume and of what lies in it.
 
 use super::{Check, corners, shown};
-use crate::domain::{Boundary, Faces, Region, Space, Volume, resolution};
+use crate::domain::{Boundary, Deformation, Faces, Region, Space, Volume, resolution};
 use crate::fields::NearField;
 use crate::math::Vec3;
 use crate::packing::{GrainGroup, GrainList, Placement};
 use crate::scenario::file::ScenarioFile;
 use crate::text::{readable, told_apart};
-use crate::units::{Length, Triple, vector};
+use crate::units::{Frequency, Length, Triple, vector};
 
 /// Lists with more positions than this are held to overlaps when they are placed, where cells make that cheap.
 const MOST_PAIRED: usize = 4000;
@@ -20,9 +20,13 @@ pub(super) fn check(check: &mut Check, scenario: &ScenarioFile) {
     if !scenario.engine.is_hard() {
         return of_soft_spheres(check, scenario, volume);
     }
-    if volume.faces.is_some() {
+    let foreign = [
+        ("volume.faces", volume.faces.is_some(), "hard spheres have one boundary for all faces"),
+        ("volume.deformation", volume.deformation.is_some(), "remove it: hard spheres do not feel it"),
+    ];
+    for (key, _, help) in foreign.into_iter().filter(|(_, is_given, _)| *is_given) {
         let message = format!("belongs to soft spheres; {} moves hard ones", scenario.engine.key());
-        check.fail_with("volume.faces", message, "hard spheres have one boundary for all faces");
+        check.fail_with(key, message, help);
     }
     for (index, group) in scenario.grains.iter().enumerate() {
         let key = format!("grains.{index}");
@@ -46,6 +50,9 @@ fn of_soft_spheres(check: &mut Check, scenario: &ScenarioFile, volume: &Volume) 
         check.fail_with(&format!("volume.{key}"), message, "take \"periodic\" or \"open\"");
     }
     let space = volume.space();
+    if let Some(law) = &volume.deformation {
+        deformation(check, law, &space);
+    }
     for (index, group) in scenario.grains.iter().enumerate() {
         let key = format!("grains.{index}");
         if group.size.fault().is_none() {
@@ -56,6 +63,29 @@ fn of_soft_spheres(check: &mut Check, scenario: &ScenarioFile, volume: &Volume) 
     let near_field = scenario.fields.as_ref().and_then(|fields| fields.near_field.as_ref());
     if let Some(law) = near_field.filter(|_| space.repeats()) {
         near_field_across(check, law, &space);
+    }
+}
+
+/// A volume is deformed where space repeats itself, and toward the solid fraction at which it is to stop.
+fn deformation(check: &mut Check, law: &Deformation, space: &Space) {
+    let rates = law.strain_rate.map(Frequency::si);
+    for (axis, (rate, name)) in rates.into_iter().zip(["x", "y", "z"]).enumerate() {
+        if rate != 0.0 && !space.repeats_along(axis) {
+            let message =
+                format!("space does not repeat itself along {name}: there is nothing that presses there");
+            let help = "take 0 there, or let the faces across it be periodic";
+            check.fail_with(&format!("volume.deformation.strain_rate.{axis}"), message, help);
+        }
+    }
+    if rates == [0.0; 3] {
+        let message = "is 0 along all axes".to_owned();
+        check.fail_with("volume.deformation.strain_rate", message, "remove volume.deformation");
+    }
+    if let Some(fraction) = law.solid_fraction
+        && !(fraction > 0.0 && fraction < 1.0)
+    {
+        let message = format!("found {fraction}; a number above 0 and below 1 is wanted");
+        check.fail("volume.deformation.solid_fraction", message);
     }
 }
 

@@ -11,6 +11,7 @@ fn volume() -> Volume {
         upper: [10.0, 10.0, 10.0].map(Quantity),
         boundary: Boundary::Open,
         faces: None,
+        deformation: None,
     }
 }
 

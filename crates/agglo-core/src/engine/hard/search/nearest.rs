@@ -132,6 +132,7 @@ mod tests {
                 upper: [Quantity(20.0); 3],
                 boundary: Boundary::Open,
                 faces: None,
+                deformation: None,
             };
             let (mut near, mut nearest) = (Near::new(0.1), Nearest::default());
             near.list(&spheres, &volume, 0.0);

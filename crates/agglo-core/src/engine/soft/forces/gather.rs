@@ -41,7 +41,7 @@ impl Gather<'_> {
         let (mut force, mut torque) = self.contacts.load_on(grain);
         self.network.gather(grain, &mut force, &mut torque);
         if self.laws.fields.near_field.is_some() {
-            self.near_field(grain, &mut force);
+            self.near_field(grain, &mut force, supplies);
         }
         if self.laws.has_single() {
             let single = self.laws.on_single(self.grains, grain, motion, self.time, supplies);
@@ -57,13 +57,22 @@ impl Gather<'_> {
     }
 
     /// Adds the near-field force [N].
-    fn near_field(&self, grain: usize, force: &mut Vec3) {
+    fn near_field(&self, grain: usize, force: &mut Vec3, supplies: &mut Supplies) {
         let Some(law) = &self.laws.fields.near_field else { return };
         let push = |other: usize| near_force(law, self.grains, self.space, self.positions, [grain, other]);
         if law.cutoff.is_some() {
             let (owners, partners) = (self.near.owners(), self.near.partners());
             *force += self.near.joined(grain).iter().map(|pair| push(owners[*pair as usize] as usize)).sum();
-            *force += self.near.owned(grain).map(|pair| push(partners[pair] as usize)).sum();
+            let mut owned = Vec3::ZERO;
+            for partner in self.near.owned(grain).map(|pair| partners[pair] as usize) {
+                let of_pair = push(partner);
+                owned += of_pair;
+                if self.space.is_strained() {
+                    let apart = self.space.shortest(self.positions[partner] - self.positions[grain]);
+                    supplies.strained += of_pair.dot(self.space.flow(apart));
+                }
+            }
+            *force += owned;
         } else {
             *force += (0..self.grains.len()).filter(|other| *other != grain).map(push).sum();
         }

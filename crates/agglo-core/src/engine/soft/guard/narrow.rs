@@ -1,18 +1,23 @@
-//! Whether space is wide enough: where it repeats itself, two grains may meet in one of their images alone.
+//! Whether space that repeats itself is such as the engine can follow: wide enough, so that two grains meet in one of their images
+//! alone, and without rays.
 
 use crate::contact::ContactLaws;
 use crate::engine::SimError;
 use crate::engine::soft::settings::Settings;
 use crate::particles::Particles;
 
-/// Holds the periods of space to how far grains reach.
+/// Holds the periods of space to how far grains reach, and its faces to what can cross them.
 ///
 /// # Errors
-/// [`SimError::NarrowSpace`] where half a period is not above the longest distance of centers at which grains act on one another.
+/// [`SimError::NarrowSpace`] where half a period is not above the longest distance of centers at which grains act on one another,
+/// [`SimError::RaysAcrossFaces`] where there are beams.
 pub fn hold(settings: &Settings, grains: &Particles) -> Result<(), SimError> {
     let space = settings.space();
     if !space.repeats() {
         return Ok(());
+    }
+    if settings.acoustics.is_some() {
+        return Err(SimError::RaysAcrossFaces);
     }
     let largest = grains.radius.iter().copied().fold(0.0, f64::max);
     let beyond = settings.contact.as_ref().map_or(0.0, ContactLaws::reach);
@@ -20,6 +25,7 @@ pub fn hold(settings: &Settings, grains: &Particles) -> Result<(), SimError> {
     let near_field = settings.fields.near_field.as_ref();
     let cutoff = near_field.map_or(0.0, |law| law.cutoff.map_or(f64::INFINITY, |cutoff| cutoff.si()));
     let reach = (2.0 * largest + beyond.max(gap)).max(cutoff);
-    let period = space.shortest_period();
+    let last = settings.space_in_time(grains).at(settings.end);
+    let period = space.shortest_period().min(last.shortest_period());
     if 2.0 * reach < period { Ok(()) } else { Err(SimError::NarrowSpace { period, reach }) }
 }

@@ -36,6 +36,7 @@ impl System {
         ahead: Ahead,
     ) -> Change {
         let ray_scale = self.ray_scale(dt);
+        let stretch = self.move_space(time, time + dt);
         let Self { grains, trial, records, loads, ray_loads, laws, .. } = self;
         let from_start = ahead == Ahead::AsAtStart;
         let at_time = if from_start { time } else { time + dt };
@@ -74,7 +75,7 @@ impl System {
                     let flow = laws.flow_change([(place, time), (position, at_time)]);
                     correction.bend += response.bend((kick, twist), flow);
                 }
-                change.note_move(grain, record, dt, phi, (kick, twist));
+                change.note_move(grain, record, (dt, phi, stretch), (kick, twist));
             }
             (change, correction)
         };
@@ -85,14 +86,15 @@ impl System {
         change
     }
 
-    /// Trial motion after `dt` [s] in place of a longer `tried` [s], by the same loads. Only where [`System::flies_freely`].
-    pub(in crate::engine::soft) fn shorten(&mut self, tried: f64, dt: f64) -> Change {
+    /// Trial motion after `dt` [s] from `time` [s] in place of a longer `tried` [s], by the same loads. Only where [`System::flies_freely`].
+    pub(in crate::engine::soft) fn shorten(&mut self, time: f64, tried: f64, dt: f64) -> Change {
+        let stretch = self.move_space(time, time + dt);
         let part = dt / tried;
         let leaf = |range: Range<usize>, records: &mut [Record]| {
             let mut change = Change::default();
             for (record, grain) in records.iter_mut().zip(range) {
                 let (kick, twist) = record.changes();
-                change.note_move(grain, record, dt, 0.5, (kick * part, twist * part));
+                change.note_move(grain, record, (dt, 0.5, stretch), (kick * part, twist * part));
             }
             change
         };

@@ -1,6 +1,7 @@
 //! How far grains move in a step.
 
 use crate::contact::pass::Record;
+use crate::domain::Stretch;
 use crate::math::Vec3;
 
 /// What one update of the trial motion amounts to.
@@ -53,19 +54,19 @@ impl Change {
 
 impl Change {
     /// Moves a grain from the start of its step of `dt` [s], in which the velocity changes by `kick` [m/s] and the angular velocity
-    /// by `twist` [rad/s], the part `phi` of it counting for the way.
+    /// by `twist` [rad/s], the part `phi` of it counting for the way; it follows space where that is stretched, which is no motion
+    /// of its own.
     #[inline(always)]
     pub fn note_move(
         &mut self,
         grain: usize,
         record: &mut Record,
-        dt: f64,
-        phi: f64,
+        (dt, phi, stretch): (f64, f64, Option<Stretch>),
         (kick, twist): (Vec3, Vec3),
     ) {
         let ((start, velocity, _), (last, ..)) = (record.before(), record.now());
         let moved = velocity * dt + kick * (phi * dt);
-        let place = start + moved;
+        let place = stretch.map_or(start, |stretch| stretch.of(start)) + moved;
         record.end(place, kick, twist);
         self.note(grain, place - last, moved, record.radius());
     }

@@ -119,7 +119,7 @@ impl System {
         let join = |a: (Supplies, Correction), b: (Supplies, Correction)| (a.0 + b.0, a.1 + b.1);
         let (supplies, correction) =
             parallel::over(0..records.len(), LEAF, (columns, loads.views(), images), &leaf, &join);
-        trial.rates = Rates::new(&trial.contact, trial.bond_damping, supplies);
+        trial.rates = Rates::new(&trial.contact, trial.bonds, supplies);
         trial.rates.correct(correction);
         self.put_motion(moving);
         self.afloat = None;
@@ -128,8 +128,11 @@ impl System {
     /// Ends the step of `dt` [s] that leads to `time` [s], and begins one of `next` [s] in the same pass; the columns of the grains
     /// stay behind. Only where [`System::flies_freely`].
     pub(in crate::engine::soft) fn fly_on(&mut self, time: f64, dt: f64, next: f64) {
-        let Self { grains, laws, network, contacts, near, trial, records, space, .. } = self;
-        let (space, images) = (&*space, across(space, &mut self.images));
+        // Grains come home in space as it is now, and move on to as it will be.
+        let space = self.space;
+        let stretch = self.move_space(time, time + next);
+        let Self { grains, laws, network, contacts, near, trial, records, .. } = self;
+        let (space, images) = (&space, across(&space, &mut self.images));
         let gather =
             Gather { grains, laws, network, contacts, near, positions: &[], space, time, hook: None };
         let ending = Ending { gather, rays: None, dt };
@@ -145,14 +148,15 @@ impl System {
                 }
                 record.begin(now.0, velocity, spin);
                 let [per_mass, per_inertia] = record.inverses().map(|inverse| next * inverse);
-                change.note_move(grain, record, next, 0.5, (end.0 * per_mass, end.1 * per_inertia));
+                let changes = (end.0 * per_mass, end.1 * per_inertia);
+                change.note_move(grain, record, (next, 0.5, stretch), changes);
             }
             (supplies, change)
         };
         let join = |a: (Supplies, Change), b: (Supplies, Change)| (a.0 + b.0, Change::join(a.1, b.1));
         let n = grains.len();
         let (supplies, change) = parallel::over(0..n, LEAF, (&mut records[..], images), &leaf, &join);
-        trial.rates = Rates::new(&trial.contact, trial.bond_damping, supplies);
+        trial.rates = Rates::new(&trial.contact, trial.bonds, supplies);
         self.note_way(change.wavering);
         self.afloat = Some(Afloat { dt: next, change });
     }

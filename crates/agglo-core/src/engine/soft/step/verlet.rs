@@ -42,7 +42,7 @@ pub fn step(system: &mut System, time: f64, dt: f64) -> Change {
 /// The same after a shorter time than the `tried` [s] that was too long.
 pub fn again(system: &mut System, time: f64, tried: f64, dt: f64) -> Change {
     let change = if system.flies_freely() {
-        system.shorten(tried, dt)
+        system.shorten(time, tried, dt)
     } else {
         system.move_trial(time, dt, 0.5, Ahead::AsAtStart)
     };

@@ -12,6 +12,7 @@ fn volume(boundary: Boundary) -> Volume {
         upper: [1.0, 3.5, 1.2].map(Quantity),
         boundary,
         faces: None,
+        deformation: None,
     }
 }
 
@@ -250,6 +251,7 @@ fn the_narrowest_cell_of_any_axis() {
             upper: edges.map(Quantity),
             boundary: Boundary::Reflecting,
             faces: None,
+            deformation: None,
         };
         let grid = Grid::new(&volume, 1.0, 200);
         let finest = grid.levels().last().unwrap();
