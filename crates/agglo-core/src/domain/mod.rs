@@ -7,11 +7,13 @@ mod extent;
 mod region;
 pub mod resolution;
 mod space;
+mod space_in_time;
 mod volume;
 
-pub use deformation::{Deformation, SpaceInTime, Stretch};
+pub use deformation::Deformation;
 pub use disc::Disc;
 pub use extent::extent;
 pub use region::{Ball, Block, Cylinder, Region};
 pub use space::{Image, Space};
+pub use space_in_time::{SpaceInTime, Stretch};
 pub use volume::{Boundary, Faces, Volume};

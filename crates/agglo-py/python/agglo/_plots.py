@@ -87,6 +87,7 @@ _FLOWS = {
     "work_rays_J": "put in by rays",
     "work_gravity_J": "put in by gravity",
     "work_fields_J": "put in by fields",
+    "work_volume_J": "put in by the volume",
     "work_custom_J": "put in by custom laws",
     "lost_drag_J": "lost to drag",
     "lost_contact_damping_J": "lost in contacts",

@@ -87,6 +87,7 @@ const SHOWN_SOFT: &[Shown] = &[
             ("put in by rays", "work_rays_J"),
             ("put in by gravity", "work_gravity_J"),
             ("put in by fields", "work_fields_J"),
+            ("put in by the volume", "work_volume_J"),
             ("put in by custom laws", "work_custom_J"),
             ("lost to drag", "lost_drag_J"),
             ("lost in contacts", "lost_contact_damping_J"),

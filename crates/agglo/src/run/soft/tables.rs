@@ -31,6 +31,7 @@ pub static ENERGY: Table<Now> = Table { file: names::ENERGY, columns: &[
     energy(&told::RAYS).on(&FLOWS),
     energy(&told::GRAVITY).on(&FLOWS),
     energy(&told::FIELDS).on(&FLOWS),
+    energy(&told::STRAINED).on(&FLOWS),
     energy(&told::CUSTOM).on(&FLOWS),
     energy(&told::DRAG).on(&FLOWS),
     energy(&told::DAMPING).on(&FLOWS),
