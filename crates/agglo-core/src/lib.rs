@@ -29,6 +29,8 @@ pub mod acoustics;
 
 pub mod ledger;
 
+pub mod walls;
+
 pub mod engine;
 
 pub mod measure;

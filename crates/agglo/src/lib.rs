@@ -77,7 +77,7 @@ extern crate agglo_testing;
 #[doc(inline)]
 pub use agglo_core::{
     acoustics, catalog, constants, contact, domain, engine, fields, impact, law, ledger, math, measure,
-    neighbors, particles, text, units,
+    neighbors, particles, text, units, walls,
 };
 
 mod error;

@@ -272,7 +272,7 @@ impl Law for Custom {
 
 impl Custom {
     /// Whether one of its formulas has a name in it.
-    fn names(&self, name: OfPair) -> bool {
+    pub fn names(&self, name: OfPair) -> bool {
         self.force.has(name) || self.energy.as_ref().is_some_and(|energy| energy.has(name))
     }
 }

@@ -5,7 +5,13 @@
 //! L_i = (d - (R_j² - R_i²)/d)/2,   A = π (R_i² - L_i²)                                    [A] 68, 69
 //! A = (π/4) S² u (2 - u) h(u),     h(u) = (q - u (2 - u))/(1 - u)²,   u = δ/S,   q = 4 R*/S
 //! ```
-//! The second form follows from the first by Heron's formula and has no cancellation as δ goes to 0.
+//! The second form follows from the first by Heron's formula and has no cancellation as δ goes to 0. With a factor f_A for
+//! flat partners both cases are one:
+//! ```text
+//! A = (π/4) f_A S² u (2 - u) h(u),   q = 4 R*/(f_A S);   f_A = 1 of two grains, f_A = 4 at a wall, where S = R* = R
+//! ```
+//! At a wall this is the disc π (R² - (R - δ)²) that the wall cuts out of the grain: that of the grain and its mirror image
+//! behind the wall, which are strained by 2δ over 2R.
 //!
 //! # Source
 //! [A] T. I. Zohdi, Comput. Mech. 57, 465 (2016), eqs 64-69.
@@ -14,8 +20,9 @@
 //! | symbol | name in code       | unit | meaning                                             |
 //! |--------|--------------------|------|-----------------------------------------------------|
 //! | δ      | `overlap`          | m    | R_i + R_j - d, > 0 in contact                       |
-//! | S      | `radius_sum`       | m    | R_i + R_j                                           |
-//! | R*     | `effective_radius` | m    | R_i R_j / S                                         |
+//! | S      | `radius_sum`       | m    | R_i + R_j; the grain's radius at a wall             |
+//! | f_A    | `flatness`         | -    | 1 between two grains, 4 at a wall                   |
+//! | R*     | `effective_radius` | m    | R_i R_j / S; the grain's radius at a wall           |
 //! | d      | `distance()`       | m    | distance of the centers                             |
 //! | u      | `strain()`         | -    | E of [A] 14, overlap over the sum of the radii    |
 //! | A      | `area()`           | m²   | disc in which the spheres cut each other            |
@@ -49,16 +56,18 @@ const LONGEST_SERIES: u32 = 2000;
 pub struct ContactGeometry<F = f64> {
     /// δ = R_i + R_j - d [m], > 0; below 0 for a law that acts beyond touching.
     pub overlap: F,
-    /// R_i + R_j [m].
+    /// R_i + R_j [m]; at a wall R_i, over which strains are taken there.
     pub radius_sum: F,
-    /// Radius of the smaller grain [m].
+    /// Radius of the smaller grain [m]; at a wall that of the grain.
     pub smaller_radius: F,
-    /// R* = R_i R_j / (R_i + R_j) [m].
+    /// R* = R_i R_j / (R_i + R_j) [m]; at a wall R_i.
     pub effective_radius: F,
-    /// m* = m_i m_j / (m_i + m_j) [kg].
+    /// m* = m_i m_j / (m_i + m_j) [kg]; at a wall m_i.
     pub effective_mass: F,
-    /// Mean of the two grains' contact stiffness [Pa], softened by heat.
+    /// Mean of the two partners' contact stiffness [Pa], softened by heat.
     pub stiffness: F,
+    /// 1 between two grains; 4 at a wall, where a grain meets its mirror image and S² is a fourth of theirs.
+    pub flatness: F,
 }
 
 impl<F: Real> ContactGeometry<F> {
@@ -73,10 +82,26 @@ impl<F: Real> ContactGeometry<F> {
             effective_radius: radii[0] * radii[1] / radius_sum,
             effective_mass: masses[0] * masses[1] / (masses[0] + masses[1]),
             stiffness: F::of(0.5) * (stiffness[0] + stiffness[1]),
+            flatness: F::of(1.0),
         }
     }
 
-    /// d = |r_j - r_i| [m].
+    /// A grain with radius [m], mass [kg] and contact stiffness [Pa], its and the wall's, whose center is `gap` [m] before a wall: the
+    /// limit of a partner whose radius and mass are beyond all bounds, but for strains, which are taken over the grain's radius.
+    #[inline(always)]
+    pub fn at_wall(radius: F, mass: F, stiffness: [F; 2], gap: F) -> Self {
+        Self {
+            overlap: radius - gap,
+            radius_sum: radius,
+            smaller_radius: radius,
+            effective_radius: radius,
+            effective_mass: mass,
+            stiffness: F::of(0.5) * (stiffness[0] + stiffness[1]),
+            flatness: F::of(4.0),
+        }
+    }
+
+    /// d = |r_j - r_i| [m]; at a wall the distance from the center to it.
     #[inline(always)]
     pub fn distance(&self) -> F {
         self.radius_sum - self.overlap
@@ -104,7 +129,7 @@ impl<F: Real> ContactGeometry<F> {
     #[inline(always)]
     pub fn area_over_overlap(&self) -> F {
         let strain = self.strain();
-        F::of(FRAC_PI_4) * self.radius_sum * (F::of(2.0) - strain) * self.lens(strain)
+        F::of(FRAC_PI_4) * self.flatness * self.radius_sum * (F::of(2.0) - strain) * self.lens(strain)
     }
 
     /// dA/dδ [m]; negative where the disc shrinks with growing overlap.
@@ -114,18 +139,24 @@ impl<F: Real> ContactGeometry<F> {
         let strain = self.strain();
         let lens = self.lens(strain);
         let rest = one - strain;
-        let unlike = one - F::of(4.0) * self.effective_radius / self.radius_sum;
+        let unlike = one - self.likeness();
         let lens_slope = -two * unlike / (rest * rest * rest);
-        let slope =
-            F::of(FRAC_PI_4) * self.radius_sum * (two * rest * lens + strain * (two - strain) * lens_slope);
+        let growth = two * rest * lens + strain * (two - strain) * lens_slope;
+        let slope = F::of(FRAC_PI_4) * self.flatness * self.radius_sum * growth;
         F::select(zero.below(lens), slope, zero)
+    }
+
+    /// q: 1 for equal partners.
+    #[inline(always)]
+    fn likeness(&self) -> F {
+        F::of(4.0) * self.effective_radius / (self.flatness * self.radius_sum)
     }
 
     /// h(u), 0 where one sphere lies inside the other; 1 for equal spheres.
     #[inline(always)]
     fn lens(&self, strain: F) -> F {
         let (zero, one) = (F::of(0.0), F::of(1.0));
-        let above = F::of(4.0) * self.effective_radius / self.radius_sum - strain * (F::of(2.0) - strain);
+        let above = self.likeness() - strain * (F::of(2.0) - strain);
         let lens = above / ((one - strain) * (one - strain));
         F::select(zero.below(above), lens, zero)
     }
@@ -142,6 +173,7 @@ impl<F: Lanes> ContactGeometry<F> {
             effective_radius: self.effective_radius.lane(lane),
             effective_mass: self.effective_mass.lane(lane),
             stiffness: self.stiffness.lane(lane),
+            flatness: self.flatness.lane(lane),
         }
     }
 }
@@ -152,7 +184,7 @@ impl ContactGeometry {
     /// From the power series u (2 - u) h = 2 q u - (1 + 3 w) u² - w Σ (k + 2) u^(k+1), k >= 2, w = 1 - q,
     /// integrated term by term; good to 1e-12 up to a strain of 0.98, for any power p > -2.
     pub fn strain_integral(&self, exponent: f64) -> f64 {
-        let like = (4.0 * self.effective_radius / self.radius_sum).min(1.0);
+        let like = self.likeness().min(1.0);
         let unlike = 1.0 - like;
         let strain = self.strain().clamp(0.0, 1.0 - unlike.sqrt());
         let lowest = exponent + 2.0;
@@ -167,7 +199,7 @@ impl ContactGeometry {
                 break;
             }
         }
-        FRAC_PI_4 * self.radius_sum.powi(3) * strain.powf(lowest) * sum
+        FRAC_PI_4 * self.flatness * self.radius_sum.powi(3) * strain.powf(lowest) * sum
     }
 }
 
@@ -249,6 +281,35 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// By hand: π (2 R δ - δ²), its slope, and π R³ (2 u^(p+2)/(p+2) - u^(p+3)/(p+3)), to rounding; and as far as R* and δ go that of a
+    /// partner a billion times as large, whose disc differs by δ/R of it.
+    #[test]
+    fn a_wall_cuts_a_disc_out_of_the_grain() {
+        let radius = 2e-3;
+        let touching = ContactGeometry::at_wall(radius, 1e-5, [1e7, 3e7], radius);
+        let at = |overlap: f64| ContactGeometry { overlap, ..touching };
+        assert_eq!(ContactGeometry::at_wall(radius, 1e-5, [1e7, 3e7], 0.75 * radius), at(0.25 * radius));
+        assert_eq!([at(0.0).stiffness, at(0.0).strain(), at(0.0).area()], [2e7, 0.0, 0.0]);
+        for part in [1e-6, 1e-3, 0.1, 0.5, 1.2] {
+            let overlap = part * radius;
+            assert_close!(at(overlap).area(), PI * overlap * (2.0 * radius - overlap), 1e-14, "in m2");
+            assert_close!(at(overlap).strain(), part, 1e-15);
+            assert_slope(overlap, |x| at(x).area(), |x| at(x).area_slope());
+            for power in [0.5, 2.0] {
+                let wanted =
+                    2.0 * part.powf(power + 2.0) / (power + 2.0) - part.powf(power + 3.0) / (power + 3.0);
+                let found = at(overlap).strain_integral(power);
+                // The series is good to 1e-12 up to a strain of 0.98; beyond it ends at the whole grain.
+                if part < 0.98 {
+                    assert_close!(found, PI * radius.powi(3) * wanted, 1e-12, "in m3");
+                }
+            }
+        }
+        let huge = ContactGeometry::new([radius, 1e9 * radius], [1e-5, 1e22], [1e7, 3e7], 0.0);
+        assert_close!(huge.effective_radius, at(0.0).effective_radius, 2e-9);
+        assert_close!(huge.effective_mass, at(0.0).effective_mass, 2e-9);
     }
 
     /// Equal spheres, p = 2: (π/4) S³ (u⁴/2 - u⁵/5), by hand.

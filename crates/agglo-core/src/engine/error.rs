@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::text::readable;
+
 /// When and where a step went wrong.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Moment {
@@ -98,6 +100,43 @@ pub enum SimError {
         /// The contact law.
         laws: String,
     },
+    /// A grain overlaps a wall too much for the law.
+    #[error(
+        "{at}: grain {grain} overlaps walls.{wall} by {strain:.3} of its radius, more than limits.strain = {limit}, under \
+         {laws}; make the contact stiffer, or the wall slower, or set limits.on_breach = \"warn\""
+    )]
+    TooDeepInWall {
+        /// When.
+        at: Box<Moment>,
+        /// Id of the grain.
+        grain: u32,
+        /// Name of the wall.
+        wall: Box<str>,
+        /// Overlap over the radius.
+        strain: f64,
+        /// What is allowed.
+        limit: f64,
+        /// The contact law.
+        laws: String,
+    },
+    /// A grain is placed in a wall.
+    #[error(
+        "grain {grain} is placed in the wall \"{wall}\": it overlaps it by {}, {part:.3} of its radius, and {limit} is allowed; \
+         place it on the wall's side where grains are, or move the wall",
+        readable(*overlap, "m")
+    )]
+    InWall {
+        /// Id of the grain.
+        grain: u32,
+        /// Name of the wall.
+        wall: Box<str>,
+        /// Overlap [m].
+        overlap: f64,
+        /// The same over the radius.
+        part: f64,
+        /// What is allowed.
+        limit: f64,
+    },
     /// The cut-off of the near field leaves out too much.
     #[error(
         "fields.near_field.cutoff leaves out {:.1} % of the forces (root mean square, where grains are at the start), more \
@@ -121,6 +160,19 @@ pub enum SimError {
         /// How far grains act on one another, from center to center [m].
         reach: f64,
     },
+    /// A wall ends at a face.
+    #[error(
+        "wall \"{wall}\" is not the same all along {axis}, on which space repeats itself: let the faces of [volume] across it be open"
+    )]
+    WallAcrossFaces {
+        /// Its name.
+        wall: String,
+        /// The axis.
+        axis: char,
+    },
+    /// Walls in a volume that is deformed.
+    #[error("walls do not follow volume.deformation: leave out one of the two")]
+    WallsInDeformation,
     /// Rays would have to cross faces.
     #[error(
         "rays do not go on across faces across which space repeats itself: let the faces of [volume] be open, or leave acoustics out"

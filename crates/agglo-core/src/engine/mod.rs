@@ -11,5 +11,5 @@ mod warnings;
 
 pub use error::{Moment, SimError};
 pub use simulation::{Measures, Simulation};
-pub use start::Start;
+pub use start::{SpringAtWall, Start};
 pub use warnings::Warnings;

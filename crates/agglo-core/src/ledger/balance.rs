@@ -38,6 +38,8 @@ pub struct Balance {
     pub strained: f64,
     /// Put in by hooks and kicks, and by a formula of contact where it drives grains [J].
     pub custom: f64,
+    /// Put in by walls that move [J].
+    pub walls: f64,
     /// Lost to drag [J]; negative where the medium drives the grains.
     pub drag: f64,
     /// Lost in contact dashpots [J].
@@ -78,12 +80,13 @@ impl Balance {
         let (rays, gravity, fields) =
             (flows.rays.power, flows.supplies.gravity.power, flows.supplies.field.power);
         let custom = flows.supplies.hook.power + flows.driven;
+        let walls = flows.supplies.walls.power;
         let lost = drag + flows.damping + rubbed + flows.bond_damping + flows.broken_bonds;
         let mechanical_at_start = start.mechanical();
         let after_collisions = mechanical_at_start - collisions.normal - collisions.tangential;
         let mechanical_drift = stored.mechanical()
             - after_collisions
-            - (rays + gravity + fields + flows.strained + custom - lost);
+            - (rays + gravity + fields + flows.strained + custom + walls - lost);
         let cooled = flows.cooled + pending;
         let thermal_drift =
             stored.thermal - (start.thermal + collisions.heat - flows.unkept.value() - cooled);
@@ -98,6 +101,7 @@ impl Balance {
             fields,
             strained: flows.strained,
             custom,
+            walls,
             drag,
             damping: flows.damping,
             friction: rubbed + collisions.tangential,

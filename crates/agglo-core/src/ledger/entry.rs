@@ -75,6 +75,7 @@ pub mod soft {
         FIELDS = fields, "work_fields_J", "J", "put in by fields", "since the start";
         STRAINED = strained, "work_volume_J", "J", "put in by the volume", "as it was pressed together, since the start; negative where it was drawn out";
         CUSTOM = custom, "work_custom_J", "J", "put in by custom laws", "by hooks and kicks, and by `contact.custom` where it drives grains, since the start";
+        WALLS = walls, "work_walls_J", "J", "put in by walls", "by those that move, since the start; negative where grains drive them";
         DRAG = drag, "lost_drag_J", "J", "lost to drag", "since the start; negative where the medium drives the grains";
         DAMPING = damping, "lost_contact_damping_J", "J", "lost in contacts", "in their dashpots, since the start";
         FRICTION = friction, "lost_friction_J", "J", "lost to friction", "since the start";

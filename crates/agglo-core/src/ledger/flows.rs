@@ -11,7 +11,7 @@ use crate::math::{Sum, Vec3};
 pub struct Flows {
     /// Rays: energy put in [J], impulse [N s] and angular impulse [N m s].
     pub rays: Supply,
-    /// Drag, gravity, fields, hooks and kicks: energy put in [J], impulse [N s] and angular impulse [N m s].
+    /// Drag, gravity, fields, hooks and kicks, walls of soft spheres: energy put in [J], impulse [N s] and angular impulse [N m s].
     pub supplies: Supplies,
     /// Lost in contact dashpots [J].
     pub damping: f64,
@@ -33,7 +33,7 @@ pub struct Flows {
     pub cooled: f64,
     /// Kinetic energy that bounces would have lost that were made elastic, each counted by itself [J].
     pub kept: f64,
-    /// Momentum from walls [kg m/s].
+    /// Momentum from the walls of hard spheres [kg m/s].
     pub walls: Vec3,
 }
 
@@ -94,12 +94,13 @@ impl Flows {
         own.gravity = own.gravity.plus(old.gravity, early).plus(new.gravity, late);
         own.field = own.field.plus(old.field, early).plus(new.field, late);
         own.hook = own.hook.plus(old.hook, early).plus(new.hook, late);
+        own.walls = own.walls.plus(old.walls, early).plus(new.walls, late);
     }
 
     /// Impulse [N s] and angular impulse [N m s] of all that acts from outside.
     pub(super) fn impulse(&self) -> Momentum {
-        let Supplies { drag, gravity, field, hook, .. } = self.supplies;
-        let all = self.rays + drag + gravity + field + hook;
+        let Supplies { drag, gravity, field, hook, walls, .. } = self.supplies;
+        let all = self.rays + drag + gravity + field + hook + walls;
         Momentum { linear: all.force + self.walls, angular: all.torque }
     }
 }

@@ -101,6 +101,7 @@ impl Ledger {
             + balance.fields.abs()
             + balance.strained.abs()
             + balance.custom.abs()
+            + balance.walls.abs()
             + balance.drag.abs()
             + (-balance.stored.elastic).max(0.0)
             + balance.stored.near_field.abs()

@@ -44,7 +44,7 @@ impl Add for Supply {
     }
 }
 
-/// Supplies of single-grain forces, by channel.
+/// Supplies of forces from outside, by channel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Supplies {
     /// Drag of the medium (its power is mostly negative).
@@ -55,11 +55,19 @@ pub struct Supplies {
     pub field: Supply,
     /// A hook.
     pub hook: Supply,
+    /// Walls: what moving ones put in, and the impulse of all.
+    pub walls: Supply,
     /// Power that space puts in against forces at a distance as it is pressed together [W].
     pub strained: f64,
 }
 
 impl Supplies {
+    /// The same with what walls do.
+    #[must_use]
+    pub fn with_walls(self, walls: Supply) -> Self {
+        Self { walls, ..self }
+    }
+
     /// Forces [N] and a torque [N m] by which the loads on a grain at a point [m] changed when its velocity was solved
     /// for. What they supply is of second order in the step and left out.
     #[inline]
@@ -79,6 +87,7 @@ impl Add for Supplies {
             gravity: self.gravity + other.gravity,
             field: self.field + other.field,
             hook: self.hook + other.hook,
+            walls: self.walls + other.walls,
             strained: self.strained + other.strained,
         }
     }
@@ -113,7 +122,7 @@ pub struct Rates {
     pub bond_damping: f64,
     /// Power that space puts in as it is pressed together [W].
     pub strained: f64,
-    /// Single-grain forces.
+    /// Forces from outside.
     pub supplies: Supplies,
     /// By how much drag changed within the step that led here, over how velocities did: -ΔF · Δv - ΔM · Δw [W].
     pub bend: f64,

@@ -54,7 +54,7 @@ fn losses_below_zero_are_gains_from_nothing() {
 #[test]
 fn what_is_not_finite_is_never_perfect() {
     type Spoil = fn(&mut Ledger, &mut Stored, f64);
-    let entries: [Spoil; 17] = [
+    let entries: [Spoil; 18] = [
         |_, stored, bad| stored.kinetic = bad,
         |_, stored, bad| stored.rotational = bad,
         |_, stored, bad| stored.elastic = bad,
@@ -64,6 +64,7 @@ fn what_is_not_finite_is_never_perfect() {
         |_, stored, bad| stored.fields = bad,
         |ledger, _, bad| ledger.flows.driven = bad,
         |ledger, _, bad| ledger.flows.supplies.hook.power = bad,
+        |ledger, _, bad| ledger.flows.supplies.walls.power = bad,
         |ledger, _, bad| ledger.flows.rays.power = bad,
         |ledger, _, bad| ledger.flows.supplies.gravity.power = bad,
         |ledger, _, bad| ledger.flows.supplies.drag.power = bad,

@@ -41,6 +41,7 @@ pages! {
     "beams" "acoustics" "beam" [];
     "fresnel" "acoustics" "fresnel" [];
     "follow" "acoustics" "follow" [];
+    "walls" "walls" "wall" ["wall"];
     "staggered" "engine/soft/step" "staggered" [];
     "verlet" "engine/soft/step" "verlet" [];
     "deformation" "domain" "deformation" [];

@@ -18,7 +18,12 @@ pub fn notes(folder: &Folder) -> Vec<String> {
     if let Some(scenario) = &folder.scenario {
         let is_hard = scenario.is_hard();
         for due in tables(is_hard) {
-            if due.file() != names::RAYS || scenario.acoustics().is_some() {
+            let is_asked = match due.file() {
+                names::RAYS => scenario.acoustics().is_some(),
+                names::WALLS => scenario.soft().is_some_and(|soft| !soft.walls.is_empty()),
+                _ => true,
+            };
+            if is_asked {
                 notes.extend(table(folder, *due));
             }
         }
@@ -71,7 +76,7 @@ fn frames(folder: &Folder) -> Vec<String> {
     let place = folder.root.join(names::FRAMES);
     let mut notes = Vec::new();
     let mut due = Vec::new();
-    for kind in ["grains", "bonds", "rays"] {
+    for kind in ["grains", "bonds", "rays", "walls"] {
         let list = place.join(names::frame_list(kind));
         let there = numbers(&files(&place, &format!("{kind}_"), names::FRAME_ENDING));
         let listed = Collection::read(&list)
@@ -91,7 +96,7 @@ fn frames(folder: &Folder) -> Vec<String> {
         }
     }
     let count = due.iter().map(|(.., count)| *count).max().unwrap_or(0);
-    for kind in ["grains", "bonds", "rays"] {
+    for kind in ["grains", "bonds", "rays", "walls"] {
         let there = due.iter().find(|(known, ..)| *known == kind).map(|(_, there, _)| there.as_slice());
         if there.is_some() || is_due(folder, kind) {
             notes.extend(missing(kind, there.unwrap_or_default(), count));
@@ -109,6 +114,7 @@ fn is_due(folder: &Folder, kind: &str) -> bool {
             matches!(bonds, Some(Bonds::Beam(_))) && scenario.output.bonds
         }
         "rays" => scenario.acoustics().is_some() && scenario.output.rays,
+        "walls" => scenario.soft().is_some_and(|soft| !soft.walls.is_empty()),
         _ => true,
     })
 }

@@ -43,6 +43,8 @@ pub const CLUSTERS: &str = "series/clusters.csv";
 pub const MOMENTS: &str = "series/moments.csv";
 /// Of soft spheres: rays over time.
 pub const RAYS: &str = "series/rays.csv";
+/// Of soft spheres: walls over time.
+pub const WALLS: &str = "series/walls.csv";
 /// Of hard spheres: grains over time.
 pub const GRAINS: &str = "series/grains.csv";
 /// Of hard spheres: impacts over time.
@@ -94,7 +96,7 @@ pub fn of_series(place: &str) -> Option<&str> {
     place.strip_prefix(SERIES)?.strip_prefix('/')?.strip_suffix(TABLE_ENDING)
 }
 
-/// The name of a frame of a kind: grains, bonds, rays.
+/// The name of a frame of a kind: grains, bonds, rays, walls.
 pub fn frame(kind: &str, number: usize) -> String {
     format!("{kind}_{number:06}{FRAME_ENDING}")
 }

@@ -18,6 +18,25 @@ pub(super) fn collect(plan: &mut Plan, scenario: &Scenario, pushes: &[Push], sma
     motion(notes, scenario, pushes);
     without_effect(notes, scenario);
     packing(notes, scenario);
+    walls(notes, scenario);
+}
+
+/// Radius of a curved wall over that of the largest grain from which on it counts as flat.
+const FLAT: f64 = 10.0;
+
+/// Curved walls that are hardly larger than grains.
+fn walls(notes: &mut Vec<String>, scenario: &Scenario) {
+    let largest = scenario.grains.iter().map(|group| group.size.largest()).fold(0.0, f64::max);
+    for wall in scenario.soft().into_iter().flat_map(|soft| &soft.walls) {
+        let part = wall.shape.curvature_radius() / largest;
+        if part < FLAT {
+            notes.push(format!(
+                "the radius of the wall \"{}\" is {} times that of the largest grain: its contacts are those of a flat wall",
+                wall.name,
+                digits(part)
+            ));
+        }
+    }
 }
 
 fn wavelengths(notes: &mut Vec<String>, scenario: &Scenario, smallest: f64) {
@@ -70,7 +89,9 @@ fn without_effect(notes: &mut Vec<String>, scenario: &Scenario) {
         notes.push("no grain carries a charge: fields that act on charges do nothing".to_owned());
     }
     for name in scenario.materials.keys() {
-        if !scenario.grains.iter().any(|group| group.material == *name) {
+        let of_walls = scenario.soft().into_iter().flat_map(|soft| &soft.walls);
+        let is_used = scenario.grains.iter().map(|group| &group.material);
+        if !is_used.chain(of_walls.map(|wall| &wall.material)).any(|used| used == name) {
             notes.push(format!("no grain is made of {name}"));
         }
     }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use super::{PackingError, TableError};
+use crate::engine::SimError;
 use crate::text::{readable, two_digits};
 
 /// Why a run has no grains to start with, or the machine no room for it.
@@ -30,6 +31,9 @@ pub enum StartError {
         /// What to do.
         help: &'static str,
     },
+    /// A grain is in a wall.
+    #[error(transparent)]
+    InWall(SimError),
     /// A table of bonds that cannot be made.
     #[error("start.bonds: {0}")]
     Bonds(TableError),

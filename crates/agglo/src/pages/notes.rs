@@ -29,7 +29,7 @@ pub(super) const NOTES: [(&[&str], &str); 6] = [
     ),
     (
         &["wall", "walls"],
-        "Soft spheres have no walls. Hard spheres have the faces of their control volume: `agglo explain volume.boundary`.",
+        "`[[walls]]` are of soft spheres. Hard spheres have the faces of their control volume: `agglo explain volume.boundary`.",
     ),
 ];
 

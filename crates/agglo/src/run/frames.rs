@@ -1,4 +1,4 @@
-//! Frames for ParaView: grains, bonds and rays, each with its list of files and times.
+//! Frames for ParaView: grains, bonds, rays and walls, each with its list of files and times.
 
 use std::path::Path;
 
@@ -12,7 +12,8 @@ use crate::folder::{Mark, RunFolder};
 use crate::math::Vec3;
 use crate::particles::{ColumnValues, Particles};
 use crate::record::RecordError;
-use crate::record::frames::{Collection, Field, write_bonds, write_grains, write_rays};
+use crate::record::frames::{Collection, Field, write_bonds, write_grains, write_rays, write_walls};
+use crate::walls::{Triangle, Walls};
 
 use super::fit::Reading;
 
@@ -29,13 +30,14 @@ pub struct FrameLists {
     grains: FrameList,
     bonds: FrameList,
     rays: FrameList,
+    walls: FrameList,
     last_time: Option<f64>,
 }
 
 impl FrameLists {
     /// What cannot be of a run that has come to `now` [s], if anything.
     pub fn fault(&self, now: f64) -> Option<&'static str> {
-        let all = [&self.grains, &self.bonds, &self.rays];
+        let all = [&self.grains, &self.bonds, &self.rays, &self.walls];
         let can_be = |time: f64| (0.0..=now).contains(&time);
         let times = all.into_iter().flat_map(|frames| frames.list.frames()).map(|(time, _)| time);
         if all.into_iter().any(|frames| frames.marks.len() != frames.list.len()) {
@@ -51,7 +53,8 @@ impl FrameLists {
 
     /// Whether the folder has the frames as they were written, and lists that begin with them; else why not.
     pub fn check(&self, folder: &RunFolder, reading: &mut Reading<'_>) -> Result<(), String> {
-        [("grains", &self.grains), ("bonds", &self.bonds), ("rays", &self.rays)]
+        let Self { grains, bonds, rays, walls, .. } = self;
+        [("grains", grains), ("bonds", bonds), ("rays", rays), ("walls", walls)]
             .into_iter()
             .try_for_each(|(kind, frames)| frames.check(kind, folder, reading))
     }
@@ -173,4 +176,32 @@ impl Frames {
         let mark = write_rays(&self.folder.frames().join(&name), time, &positions, &directions, &powers)?;
         self.lists.rays.add(time, &name, mark, &self.folder.frame_list("rays"))
     }
+
+    /// Writes the walls at `time` [s] as triangles; of those without an end what is about the grains.
+    pub fn walls(&mut self, time: f64, grains: &Particles, walls: &Walls) -> Result<(), RecordError> {
+        let name = self.lists.walls.next_name("walls");
+        let (about, within) = surroundings(grains);
+        let (mut triangles, mut numbers) = (Vec::<Triangle>::new(), Vec::<u32>::new());
+        for (wall, number) in (0..walls.len()).zip(0_u32..) {
+            let own = walls.triangles(wall, time, about, within);
+            numbers.extend(own.iter().flat_map(|_| [number; 3]));
+            triangles.extend(own);
+        }
+        let mark = write_walls(&self.folder.frames().join(&name), time, &triangles, &numbers)?;
+        self.lists.walls.add(time, &name, mark, &self.folder.frame_list("walls"))
+    }
+}
+
+/// Radius of the ball about the grains that walls are shown in, over that which holds their centers.
+const SHOWN: f64 = 1.25;
+
+/// Middle [m] of the grains, and radius [m] of the ball about it that walls without an end are shown in.
+fn surroundings(grains: &Particles) -> (Vec3, f64) {
+    let first = grains.position.first().copied().unwrap_or(Vec3::ZERO);
+    let (low, high) =
+        grains.position.iter().fold((first, first), |(low, high), &place| (low.min(place), high.max(place)));
+    let middle = (low + high) * 0.5;
+    let ends = grains.position.iter().zip(&grains.radius);
+    let farthest = ends.map(|(place, radius)| (*place - middle).norm() + radius).fold(0.0, f64::max);
+    (middle, SHOWN * farthest)
 }

@@ -38,7 +38,7 @@ pub use quiet::quiet;
 pub(crate) use rehearsal::{Rehearsal, Stretches, rehearse};
 #[cfg(test)]
 pub(crate) use rehearsal::{Stretch, Weights};
-pub use soft::{Clusters, EnergyQuantities, PulseQuantities, SoftSummary};
+pub use soft::{Clusters, EnergyQuantities, PulseQuantities, SoftSummary, WallQuantities};
 pub use summary::Summary;
 
 use crate::engine::Start;

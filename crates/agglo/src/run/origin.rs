@@ -9,7 +9,7 @@ use super::soft::Soft;
 use crate::contact::network::{Bond, bonds_between};
 use crate::contact::{Bonds, Friction};
 use crate::engine::hard::Grown;
-use crate::engine::{SimError, Start};
+use crate::engine::{SimError, Start, soft};
 use crate::folder::RunFolder;
 use crate::packing::{
     ConstantSize, GrainGroup, Groups, PackingError, PlaceWatch, Placed, Placement, Size, StartError, Table,
@@ -42,12 +42,20 @@ pub(crate) struct Earlier {
 }
 
 impl Origin {
-    /// ById the grains of a scenario, or takes them out of the run that it names; `base` is the folder that its paths are
+    /// Places the grains of a scenario, or takes them out of the run that it names; `base` is the folder that its paths are
     /// relative to. `watch` may stop it.
     ///
     /// # Errors
     /// [`StartError`].
     pub fn of(scenario: &Scenario, base: &Path, watch: &mut PlaceWatch<'_>) -> Result<Self, StartError> {
+        let origin = Self::found(scenario, base, watch)?;
+        if let Ok(settings) = soft::Settings::try_from(scenario) {
+            soft::refuse_grains_in_walls(&settings, &origin.start.grains).map_err(StartError::InWall)?;
+        }
+        Ok(origin)
+    }
+
+    fn found(scenario: &Scenario, base: &Path, watch: &mut PlaceWatch<'_>) -> Result<Self, StartError> {
         if let Some(from) = &scenario.from {
             let path = base.join(from);
             return taken(scenario, &path).map_err(|error| match error {

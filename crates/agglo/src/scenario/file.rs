@@ -16,6 +16,7 @@ use crate::fields::Fields;
 use crate::impact::Impact;
 use crate::packing::GrainGroup;
 use crate::particles::{Material, Mixture};
+use crate::walls::Wall;
 
 /// A whole scenario.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -58,6 +59,9 @@ pub(crate) struct ScenarioFile {
     /// Laws of impact; hard spheres only, which need them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub impact: Option<Impact>,
+    /// Walls that grains touch; soft spheres only. None if left out.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub walls: Vec<Wall>,
     /// Laws of contact; soft spheres only. Grains pass through one another if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact: Option<ContactLaws>,
@@ -137,6 +141,7 @@ impl TryFrom<ScenarioFile> for Scenario {
                 relax,
                 volume: volume.clone(),
                 bonded,
+                walls: file.walls,
                 contact: file.contact,
                 bonds: file.bonds,
                 fields: file.fields.unwrap_or_default(),
@@ -187,6 +192,7 @@ impl From<Scenario> for ScenarioFile {
             start: StartTable { from: scenario.from, bonds: None, relax: None },
             volume: None,
             impact: None,
+            walls: Vec::new(),
             contact: None,
             bonds: None,
             fields: None,
@@ -206,6 +212,7 @@ impl From<Scenario> for ScenarioFile {
                     limits,
                     fields,
                     volume: soft.volume,
+                    walls: soft.walls,
                     contact: soft.contact,
                     bonds: soft.bonds,
                     acoustics: soft.acoustics,

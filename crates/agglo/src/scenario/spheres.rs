@@ -26,6 +26,7 @@ impl TryFrom<&Scenario> for soft::Settings {
             smallest_radius: scenario.grains.iter().map(|group| group.size.smallest()).reduce(f64::min),
             relax: soft.relax.clone(),
             volume: soft.volume.clone(),
+            walls: soft.walls.clone(),
             contact: soft.contact.clone(),
             bonds: soft.bonds.clone(),
             fields: soft.fields.clone(),

@@ -19,6 +19,7 @@ use crate::measure::SizeClasses;
 use crate::packing::GrainGroup;
 use crate::particles::{Material, Mixture};
 use crate::units::Time;
+use crate::walls::Wall;
 
 /// A whole scenario.
 ///
@@ -76,6 +77,8 @@ pub struct SoftSpheres {
     pub volume: Option<Volume>,
     /// A table of the grains that are bonded, relative to the scenario's folder; neighbors are if left out.
     pub bonded: Option<PathBuf>,
+    /// Walls.
+    pub walls: Vec<Wall>,
     /// Laws of contact; grains pass through one another without them.
     pub contact: Option<ContactLaws>,
     /// What holds grains together.

@@ -45,6 +45,7 @@ impl<F: Lanes> Touch<F> {
                 effective_radius: radii[0] * radii[1] * per_radii,
                 effective_mass: masses[0] * masses[1] * per_masses,
                 stiffness: half * (stiffness[0] + stiffness[1]),
+                flatness: one,
             },
             normal: Vector::new(F::select(is_apart, normal.x, one), normal.y, normal.z),
             lever_arms: [near, distance - near],

@@ -23,6 +23,7 @@ mod system;
 mod twist_tests;
 mod types;
 mod validate;
+mod walls;
 
 pub use forces::laws::Laws;
 pub use forces::loads::{LoadViews, Loads};
@@ -34,3 +35,4 @@ pub use settings::{Relaxation, Settings};
 pub use simulation::{Clock, Simulation, SimulationState};
 pub use system::System;
 pub use types::{Breach, Limits, Scheme, Staggered, Verlet};
+pub use walls::{WallState, refuse_grains_in_walls};

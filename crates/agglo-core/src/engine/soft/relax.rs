@@ -5,11 +5,13 @@ use std::ops::ControlFlow;
 use crate::engine::{SimError, Start};
 use crate::math::Vec3;
 use crate::particles::ById;
+use crate::walls::Motion;
 
 use super::forces::truncation;
 use super::guard::narrow;
 use super::settings::{Relaxation, Settings};
 use super::simulation::Simulation;
+use super::walls::refuse_grains_in_walls;
 
 /// Where grains stand on their way to rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,7 +33,7 @@ impl Simulation {
     /// Starts with grains as placed, or with what came out of another simulation.
     ///
     /// # Errors
-    /// [`SimError::NoRest`] where grains are to come to rest first and do not; [`SimError::OtherSpheres`] where the settings
+    /// [`SimError::InWall`] where a grain is placed in a wall, [`SimError::NoRest`] where grains are to come to rest first and do not; [`SimError::OtherSpheres`] where the settings
     /// come from a scenario of hard spheres.
     pub fn start<S>(settings: S, start: impl Into<Start>) -> Result<Self, SimError>
     where
@@ -60,6 +62,7 @@ impl Simulation {
 
     fn begin(settings: &Settings, mut start: Start, watch: &mut RestWatch<'_>) -> Result<Self, SimError> {
         narrow::hold(settings, &start.grains)?;
+        refuse_grains_in_walls(settings, &start.grains)?;
         let truncation =
             truncation::hold(settings.fields.near_field.as_ref(), &start.grains, &settings.space())?;
         let warnings = std::mem::take(&mut start.warnings);
@@ -93,6 +96,8 @@ fn rested(
     if let Some(volume) = &mut quiet.volume {
         volume.deformation = None;
     }
+    // The clock has not started yet, by which walls move.
+    quiet.walls.iter_mut().for_each(|wall| wall.motion = Motion::Fixed);
     quiet.end = relaxation.longest.si();
     // What is damped away is in no ledger.
     (quiet.limits.drift_warning, quiet.limits.drift_error) = (f64::INFINITY, f64::INFINITY);

@@ -9,6 +9,7 @@ use crate::domain::{Deformation, Space, SpaceInTime, Volume};
 use crate::fields::Fields;
 use crate::particles::{ById, Material, Mixture, Particles};
 use crate::units::{Time, Velocity};
+use crate::walls::Wall;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -40,7 +41,9 @@ pub struct Settings {
     pub smallest_radius: Option<f64>,
     /// Lets the grains come to rest first; not if left out.
     pub relax: Option<Relaxation>,
-    /// Laws of contact; grains pass through one another without them.
+    /// Walls.
+    pub walls: Vec<Wall>,
+    /// Laws of contact; grains pass through one another, and through walls, without them.
     pub contact: Option<ContactLaws>,
     /// What holds grains together.
     pub bonds: Option<Bonds>,

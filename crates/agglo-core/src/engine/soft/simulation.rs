@@ -24,6 +24,7 @@ use super::step::tempo::Tempo;
 use super::step::{staggered, verlet};
 use super::system::System;
 use super::types::{Limits, Scheme};
+use super::walls::WallMemory;
 
 /// Steps between two sortings of the grains in space. Counted in steps, so that it is the same after a resume.
 const SORT_EVERY: u64 = 2000;
@@ -62,6 +63,7 @@ pub struct SimulationState<'a> {
     pub(super) loads: Cow<'a, Loads>,
     pub(super) rates: Rates,
     pub(super) contacts: Vec<Remembered>,
+    pub(super) walls: WallMemory,
     pub(super) bonds: Vec<Bond>,
     pub(super) bonds_made_at_start: usize,
     pub(super) pulses: PulseState,
@@ -127,6 +129,7 @@ impl Simulation {
         if !start.contacts.is_empty() {
             system.remember(&start.contacts);
         }
+        system.take_over_walls(&start.walls);
         system.sort_in_space();
         Self::at_zero(settings, system)
     }
@@ -199,6 +202,7 @@ impl Simulation {
         system.loads = state.loads.into_owned();
         system.rates = state.rates;
         system.remember(&state.contacts);
+        system.resume_walls(state.walls, state.clock.time);
         Ok(Self {
             tempo: state.tempo.map(|tempo| tempo.up_to(settings.longest_step())),
             truncation: state.truncation,
@@ -226,6 +230,7 @@ impl Simulation {
             loads: Cow::Borrowed(&self.system.loads),
             rates: self.system.rates,
             contacts: self.system.remembered(),
+            walls: self.system.wall_memory(),
             bonds: self.system.network.bonds().to_vec(),
             bonds_made_at_start: self.system.network.made_at_start(),
             pulses: self.pulses.state(),
@@ -246,7 +251,8 @@ impl Simulation {
         let warnings = if rays > 0 { vec![format!("{rays} {left}")] } else { Vec::new() };
         let (network, contacts) = (&self.system.network, self.system.remembered());
         let bonds = network.is_active().then(|| network.bonds().to_vec());
-        Start { contacts, bonds, warnings, ..Start::from(self.system.grains) }
+        let walls = self.system.springs_at_walls();
+        Start { contacts, walls, bonds, warnings, ..Start::from(self.system.grains) }
     }
 
     /// Where the simulation stands in time.
@@ -409,9 +415,10 @@ impl Simulation {
     }
 
     fn book(&mut self, step: &Step) {
-        let system = &self.system;
+        let system = &mut self.system;
+        system.walls.book(step.phi, step.dt);
         self.ledger.flows.add_step(&system.rates, &system.trial.rates, step.phi, step.dt);
-        let rays = self.pulses.supply(system, step.dt);
+        let rays = self.pulses.supply(&self.system, step.dt);
         self.ledger.flows.rays = self.ledger.flows.rays + rays;
     }
 

@@ -15,6 +15,7 @@ impl Simulation {
     pub fn stored_energy(&self) -> Stored {
         let system = &self.system;
         let contact = system.with_contacts(contact_energy);
+        let walls = system.at_walls(self.clock().time).energy();
         let grains = &system.grains;
         let (kinetic, rotational) = self.sum(
             |at| {
@@ -29,9 +30,9 @@ impl Simulation {
         Stored {
             kinetic,
             rotational,
-            elastic: contact.normal,
+            elastic: contact.normal + walls.normal,
             tangential_spring: system.spring_energy(),
-            bonds: contact.bond + system.network.energy(grains, &system.space),
+            bonds: contact.bond + walls.bond + system.network.energy(grains, &system.space),
             near_field: self.near_field_energy(),
             fields: self.field_energy(),
             thermal: 0.0,

@@ -10,6 +10,7 @@ use crate::ledger::{Rates, Supplies};
 use crate::math::{Pace, Vec3, parallel};
 use crate::neighbors::{PairList, morton_order};
 use crate::particles::{Motion, Particles};
+use crate::walls::WallContacts;
 
 use super::forces::gather::Gather;
 use super::forces::laws::{Laws, source};
@@ -77,6 +78,7 @@ pub struct System {
     pub(super) afloat: Option<Afloat>,
     pub(super) hook: Option<Attached>,
     pub(super) contacts: Contacts,
+    pub(super) walls: WallContacts,
     list: PairList,
     pub(super) near: PairList,
     pub(super) skin: Skin,
@@ -84,7 +86,7 @@ pub struct System {
 
 impl Trial {
     /// The columns of the motion, which must have been filled.
-    fn motion(&self) -> Motion<'_> {
+    pub(super) fn motion(&self) -> Motion<'_> {
         let Self { position, velocity, angular_velocity, .. } = self;
         Motion { position, velocity, angular_velocity }
     }
@@ -117,6 +119,7 @@ impl System {
             space_in_time,
             hook: None,
             contacts: Contacts::default(),
+            walls: WallContacts::new(laws.walls.len()),
             list: PairList::default(),
             near: PairList::default(),
             laws,
@@ -144,6 +147,7 @@ impl System {
         self.inertial_mass = (0..self.grains.len()).map(|at| laws.inertial_mass(&self.grains, at)).collect();
         self.records = records(&self.grains, &self.inertial_mass);
         self.laws = laws;
+        self.walls.count_from_here();
         self.network.count_from_here();
     }
 
@@ -176,8 +180,20 @@ impl System {
         if self.network.is_active() || self.hook.is_some() || self.laws.fields.near_field.is_some() {
             self.look_at_trial();
         }
-        let Self { grains, laws, network, contacts, list, trial, hook, records, space, space_before, .. } =
-            self;
+        let Self {
+            grains,
+            laws,
+            network,
+            contacts,
+            walls,
+            list,
+            trial,
+            hook,
+            records,
+            space,
+            space_before,
+            ..
+        } = self;
         let world = ContactWorld {
             space,
             laws: laws.contact.as_ref(),
@@ -186,6 +202,7 @@ impl System {
             list,
         };
         trial.contact = contacts.compute(&world, &Passage { records, elapsed, dt });
+        walls.compute(&laws.wall_step(grains, records, [time, elapsed, dt]), &mut trial.contact);
         trial.bonds =
             network.compute(grains, [space_before, space], [&grains.motion(), &trial.motion()], elapsed);
         if let Some(hook) = hook {
@@ -195,10 +212,10 @@ impl System {
 
     /// Gathers the loads at the trial motion, at a time [s].
     fn gather(&mut self, time: f64) {
-        let Self { grains, laws, network, contacts, near, trial, hook, records, space, .. } = self;
+        let Self { grains, laws, network, contacts, walls, near, trial, hook, records, space, .. } = self;
         let hook = hook.as_ref().map(|hook| &hook.loads);
         let positions = &trial.position[..];
-        let gather = Gather { grains, laws, network, contacts, near, positions, space, time, hook };
+        let gather = Gather { grains, laws, network, contacts, walls, near, positions, space, time, hook };
         let leaf = |range: Range<usize>, loads: LoadViews<'_>| {
             let mut supplies = Supplies::default();
             for (slot, grain) in range.enumerate() {
@@ -208,7 +225,7 @@ impl System {
             supplies
         };
         let supplies = parallel::over(0..grains.len(), LEAF, trial.loads.views(), &leaf, &|a, b| a + b);
-        trial.rates = Rates::new(&trial.contact, trial.bonds, supplies);
+        trial.rates = Rates::new(&trial.contact, trial.bonds, supplies.with_walls(walls.supply()));
     }
 
     /// Fills the columns of the trial motion, if they are not.
@@ -230,6 +247,7 @@ impl System {
         self.trial.is_looked_at = false;
         self.list.note_way(longest);
         self.near.note_way(longest);
+        self.walls.note_way(longest);
     }
 
     /// What a hook sees of the committed motion at a time [s].
@@ -280,6 +298,7 @@ impl System {
         self.rates = self.trial.rates;
         self.network.commit();
         self.contacts.commit();
+        self.walls.commit();
     }
 
     /// Evaluates the loads at the committed motion, before the first step; `dt` [s] is the length of that. No time
@@ -297,6 +316,7 @@ impl System {
         self.rates = self.trial.rates;
         self.network.commit();
         self.contacts.commit_unmoved();
+        self.walls.commit_unmoved();
     }
 
     /// Lists the neighbors at the committed motion, so that pairs can be looked at before the first step.
@@ -388,7 +408,7 @@ impl System {
 
     /// Energy [J] of the tangential springs of contacts.
     pub fn spring_energy(&self) -> f64 {
-        self.contacts.spring_energy()
+        self.contacts.spring_energy() + self.walls.spring_energy()
     }
 
     /// The contacts' memory, by the grains' places.
@@ -453,6 +473,7 @@ impl System {
         for (a, b, _) in &mut remembered {
             (*a, *b) = (place[*a as usize], place[*b as usize]);
         }
+        let at_walls = self.walls_remembered_at(&place);
         self.grains.reorder(order);
         if self.space.repeats() {
             self.images = order.iter().map(|&at| self.images[at as usize]).collect();
@@ -464,6 +485,7 @@ impl System {
         self.network.reindex(&place);
         self.rebuild(false, &remembered);
         self.list_near(false);
+        self.remember_walls(&at_walls, None);
         place
     }
 }

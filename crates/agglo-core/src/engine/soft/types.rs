@@ -68,7 +68,7 @@ pub struct Limits {
     /// Largest motion of a grain in one step, over its radius.
     #[serde(default = "half")]
     pub displacement: f64,
-    /// Largest overlap, over the sum of the two radii.
+    /// Largest overlap, over the sum of the two radii; at a wall over the grain's radius.
     #[serde(default = "default_strain")]
     pub strain: f64,
     /// What happens beyond.

@@ -39,6 +39,7 @@ impl SimulationState<'_> {
             ensure(holds, || format!("contact of {a} and {b} of {n} grains"))?;
             finite("contact", spring)?;
         }
+        self.walls.validate(&settings.walls, n)?;
         validate_bonds(&self.bonds, grains)?;
         ensure(self.bonds_made_at_start < MOST_COUNTED as usize, || "too many bonds".to_owned())?;
         self.pulses.validate(settings, n)

@@ -136,6 +136,22 @@ pub fn write_rays(
     PolyData { time, points: positions, order: None, point_fields, cells, cell_fields }.write(path)
 }
 
+/// Writes walls at `time` [s]: triangles [m] `[n, 3, 3]`, and the number of the wall that each corner is of `[3 n]`.
+///
+/// # Errors
+/// [`RecordError::Shape`] where the lengths differ, [`RecordError::File`].
+pub fn write_walls(
+    path: &Path,
+    time: f64,
+    triangles: &[[Vec3; 3]],
+    walls: &[u32],
+) -> Result<Mark, RecordError> {
+    let points = triangles.as_flattened();
+    let point_fields = vec![Field::new("wall", walls)];
+    let (cells, cell_fields) = (Cells::Triangles, Vec::new());
+    PolyData { time, points, order: None, point_fields, cells, cell_fields }.write(path)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -40,6 +40,8 @@ pub enum Cells<'a> {
     Vertices,
     /// Lines between two points each, by their places in the list of points.
     Lines(&'a [[u32; 2]]),
+    /// A triangle for every three points.
+    Triangles,
 }
 
 /// Points with fields, and what is drawn with them.
@@ -55,7 +57,7 @@ pub struct PolyData<'a> {
     pub point_fields: Vec<Field<'a>>,
     /// What is drawn.
     pub cells: Cells<'a>,
-    /// Fields with a value per vertex or line [m].
+    /// Fields with a value per vertex, line or triangle [m].
     pub cell_fields: Vec<Field<'a>>,
 }
 
@@ -103,6 +105,7 @@ impl PolyData<'_> {
         match self.cells {
             Cells::Vertices => self.points.len(),
             Cells::Lines(pairs) => pairs.len(),
+            Cells::Triangles => self.points.len() / 3,
         }
     }
 
@@ -118,7 +121,7 @@ impl PolyData<'_> {
             }
         }
         let ends = match self.cells {
-            Cells::Vertices => 0,
+            Cells::Vertices | Cells::Triangles => 0,
             Cells::Lines(pairs) => pairs.iter().flatten().max().map_or(0, |&end| end as usize + 1),
         };
         let (count, order) = (self.points.len(), self.order.unwrap_or_default());
@@ -137,9 +140,10 @@ impl PolyData<'_> {
     /// The XML before the data, and the arrays that follow it in the order of their offsets.
     fn head(&self) -> (String, Vec<Array<'_>>) {
         let (count, cells) = (self.points.len(), self.cell_count());
-        let (vertices, lines) = match self.cells {
-            Cells::Vertices => (cells, 0),
-            Cells::Lines(_) => (0, cells),
+        let [vertices, lines, triangles] = match self.cells {
+            Cells::Vertices => [cells, 0, 0],
+            Cells::Lines(_) => [0, cells, 0],
+            Cells::Triangles => [0, 0, cells],
         };
         let mut head = Head::default();
         head.text += "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" \
@@ -147,7 +151,7 @@ impl PolyData<'_> {
         head.line(format_args!(
             "<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{}</DataArray>\n\
              </FieldData>\n<Piece NumberOfPoints=\"{count}\" NumberOfVerts=\"{vertices}\" NumberOfLines=\"{lines}\" \
-             NumberOfStrips=\"0\" NumberOfPolys=\"0\">",
+             NumberOfStrips=\"0\" NumberOfPolys=\"{triangles}\">",
             Number(self.time)
         ));
         let point_fields = self.point_fields.iter().map(|field| Array::of(field, self.order));
@@ -160,6 +164,10 @@ impl PolyData<'_> {
                 head.section("Verts", [Array::counting("connectivity", 0, 1, cells), offsets("offsets", 1)]);
             }
             Cells::Lines(pairs) => head.section("Lines", [Array::pairs(pairs), offsets("offsets", 2)]),
+            Cells::Triangles => {
+                let corners = Array::counting("connectivity", 0, 1, 3 * cells);
+                head.section("Polys", [corners, offsets("offsets", 3)]);
+            }
         }
         head.text += "</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
         (head.text, head.arrays)

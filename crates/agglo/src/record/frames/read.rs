@@ -9,7 +9,7 @@ use crate::record::{RecordError, door};
 pub struct Frame {
     /// Time [s].
     pub time: f64,
-    /// Points [n, 3] [m].
+    /// Points [n, 3] [m]; in a frame of walls three by three the corners of triangles.
     pub points: Vec<[f64; 3]>,
     /// Pairs of points that lines join [m, 2]; empty where points stand alone.
     pub lines: Vec<[u32; 2]>,
@@ -109,9 +109,9 @@ fn time_of(head: &str) -> Result<f64, &'static str> {
     text.and_then(|text| text.parse().ok()).ok_or("it has no time")
 }
 
-/// The arrays that the head announces; lines have their ends in `Lines`, vertices are left out.
+/// The arrays that the head announces; lines have their ends in `Lines`; vertices, and triangles of three points each, are left out.
 fn announced(head: &str) -> impl Iterator<Item = Announced<'_>> {
-    let shown = head.split("<Verts>").next().unwrap_or(head);
+    let shown = ["<Verts>", "<Polys>"].iter().fold(head, |head, tag| head.split(tag).next().unwrap_or(head));
     shown.split("<DataArray ").skip(1).filter_map(|tag| {
         let attribute = |name: &str| between(tag, &format!("{name}=\""), "\"");
         Some(Announced {

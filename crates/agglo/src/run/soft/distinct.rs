@@ -110,7 +110,7 @@ pub fn ledger() -> Ledger {
     };
     let mut supplies = Supplies::default();
     (supplies.drag, supplies.gravity, supplies.field) = (supply(-2.125), supply(5.0), supply(9.5));
-    supplies.hook = supply(1.75);
+    (supplies.hook, supplies.walls) = (supply(1.75), supply(3.625));
     let start = Opening {
         stored: Stored {
             kinetic: 1.0,
@@ -292,8 +292,8 @@ pub fn by_hand() -> ByHand {
     }
     let ledger = ledger();
     let (flows, start) = (&ledger.flows, &ledger.start.momentum);
-    let Supplies { drag, gravity, field, hook, .. } = flows.supplies;
-    let supplies = [flows.rays, drag, gravity, field, hook];
+    let Supplies { drag, gravity, field, hook, walls, .. } = flows.supplies;
+    let supplies = [flows.rays, drag, gravity, field, hook, walls];
     let impulse: Vec3 = supplies.iter().map(|supply| supply.force).sum();
     let twist: Vec3 = supplies.iter().map(|supply| supply.torque).sum();
     ByHand {
@@ -314,11 +314,11 @@ pub fn by_hand() -> ByHand {
 
 /// What energies are due under the names of the table and of the summary, drawn up from [`by_hand`] and the flows of
 /// [`ledger`].
-pub fn energies() -> [(&'static str, f64); 19] {
+pub fn energies() -> [(&'static str, f64); 20] {
     let (stored, start) = (by_hand().stored, ledger().start.stored);
     // Of the 4.5 J that tangential forces took, the springs gave back what they had more at the start.
     let friction = 4.5 + 0.4 - stored.tangential_spring;
-    let drift = stored.mechanical() - start.mechanical() - (20.0 + 5.0 + 9.5 + 1.375 + 2.625)
+    let drift = stored.mechanical() - start.mechanical() - (20.0 + 5.0 + 9.5 + 1.375 + 2.625 + 3.625)
         + (2.125 + 3.25 + friction + 6.5 + 7.75);
     [
         ("kinetic_J", stored.kinetic),
@@ -333,6 +333,7 @@ pub fn energies() -> [(&'static str, f64); 19] {
         ("work_fields_J", 9.5),
         ("work_volume_J", 1.375),
         ("work_custom_J", 2.625),
+        ("work_walls_J", 3.625),
         ("lost_drag_J", 2.125),
         ("lost_contact_damping_J", 3.25),
         ("lost_friction_J", friction),

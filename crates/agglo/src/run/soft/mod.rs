@@ -14,8 +14,10 @@ mod frames_tests;
 mod rows_tests;
 #[cfg(test)]
 mod summary_tests;
+#[cfg(test)]
+mod walls_tests;
 
-pub use summary::{Clusters, EnergyQuantities, PulseQuantities, SoftSummary};
+pub use summary::{Clusters, EnergyQuantities, PulseQuantities, SoftSummary, WallQuantities};
 
 use serde::{Deserialize, Serialize};
 
@@ -146,7 +148,8 @@ impl Job for Soft {
 
     fn record_rows(&mut self, to: &mut Tables) -> Result<(), RecordError> {
         let now = Now::of(&self.simulation, self.cluster_gap, &self.start);
-        tables::OVER_TIME.into_iter().try_for_each(|table| to.put(table, &now))
+        tables::OVER_TIME.into_iter().try_for_each(|table| to.put(table, &now))?;
+        now::walls(&self.simulation).try_for_each(|wall| to.put(&tables::WALLS, &wall))
     }
 
     fn record_frame(&self, frames: &mut Frames) -> Result<(), RecordError> {
@@ -160,6 +163,9 @@ impl Job for Soft {
         }
         if self.with_rays && simulation.pulses.scheduled() > 0 {
             frames.rays(self.time(), simulation.pulses.flight())?;
+        }
+        if !simulation.system.laws.walls.is_empty() {
+            frames.walls(self.time(), grains, &simulation.system.laws.walls)?;
         }
         Ok(())
     }

@@ -3,6 +3,7 @@
 use crate::acoustics::{BeamPower, PulseCount};
 use crate::engine::soft::{Clock, Simulation};
 use crate::ledger::{Balance, Momentum};
+use crate::math::Vec3;
 use crate::measure::{ClusterSummary, Moments, mean_nearest_distance, moments};
 
 use super::summary::Clusters;
@@ -86,4 +87,33 @@ impl Now {
     pub fn count(&self, quantity: fn(&PulseCount) -> u64) -> u64 {
         self.pulses.iter().map(quantity).sum()
     }
+}
+
+/// A wall at one moment of a run.
+pub struct WallNow {
+    /// Simulated time [s].
+    pub time: f64,
+    /// Its number in the scenario's list.
+    pub number: u64,
+    /// Contacts with grains.
+    pub contacts: u64,
+    /// Force [N] of all grains on it.
+    pub force: Vec3,
+    /// Their torque [N m] about the point that it turns about.
+    pub torque: Vec3,
+    /// Work [J] that it has put in since the start.
+    pub work: f64,
+}
+
+/// The walls of a simulation now.
+pub fn walls(simulation: &Simulation) -> impl Iterator<Item = WallNow> {
+    let time = simulation.clock().time;
+    (0..).zip(simulation.system.wall_states(time)).map(move |(number, wall)| WallNow {
+        time,
+        number,
+        contacts: u64::from(wall.contacts),
+        force: wall.force,
+        torque: wall.torque,
+        work: wall.work,
+    })
 }

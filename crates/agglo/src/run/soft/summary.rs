@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::acoustics::{BeamPower, PulseCount};
-use crate::engine::soft::{Pulses, Simulation};
+use crate::engine::soft::{Pulses, Simulation, WallState};
 use crate::ledger::Balance;
+use crate::math::Vec3;
 use crate::run::summary::{time_row, wall_row, warnings_row};
 use crate::text::readable;
 
@@ -67,6 +68,9 @@ pub struct SoftSummary {
     pub near_field_energy: Option<f64>,
     /// Momentum that impulses do not explain, over the grains' momenta.
     pub momentum_drift_relative: f64,
+    /// Walls at the end, in the order of the scenario.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub walls: Vec<WallQuantities>,
     /// Warnings, with how often each came up.
     pub warnings: BTreeMap<String, u64>,
 }
@@ -134,6 +138,50 @@ impl PulseQuantities {
     fn of_all(pulses: &Pulses) -> Vec<Self> {
         let (counts, flight) = (pulses.counts(), pulses.flight());
         counts.iter().enumerate().map(|(place, count)| Self::new(count, &flight.pulse_power(place))).collect()
+    }
+}
+
+/// What a wall came to.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct WallQuantities {
+    /// Its name.
+    pub name: String,
+    /// Contacts with grains.
+    pub contacts: u64,
+    /// Force [N] of all grains on it along x, y and z.
+    #[serde(rename = "force_N")]
+    pub force: [f64; 3],
+    /// Their torque [N m] about x, y and z through the point that it turns about.
+    #[serde(rename = "torque_N_m")]
+    pub torque: [f64; 3],
+    /// Work [J] that it has put in since the start; negative where grains drove it.
+    #[serde(rename = "work_J")]
+    pub work: f64,
+}
+
+impl WallQuantities {
+    pub(super) fn of_all(simulation: &Simulation) -> Vec<Self> {
+        let states = simulation.system.wall_states(simulation.clock().time);
+        let of = |wall: WallState<'_>| Self {
+            name: wall.name.to_owned(),
+            contacts: u64::from(wall.contacts),
+            force: wall.force.to_array(),
+            torque: wall.torque.to_array(),
+            work: wall.work,
+        };
+        states.map(of).collect()
+    }
+
+    /// In words.
+    pub(super) fn told(&self) -> String {
+        let force = Vec3::from(self.force).norm();
+        let contacts = if self.contacts == 1 { "contact" } else { "contacts" };
+        format!(
+            "{} {contacts}, {} on it, {} put in",
+            self.contacts,
+            readable(force, "N"),
+            readable(self.work, "J")
+        )
     }
 }
 
@@ -208,6 +256,7 @@ impl SoftSummary {
             near_field_truncation: simulation.truncation.map(|found| found.forces),
             near_field_energy: simulation.truncation.and_then(|found| found.energy),
             momentum_drift_relative: simulation.momentum_drift_relative(),
+            walls: WallQuantities::of_all(simulation),
             warnings: simulation.warnings.counts().clone(),
         }
     }
@@ -254,6 +303,9 @@ impl SoftSummary {
                 "near-field cut-off",
                 format!("left out {:.2} % of the forces at the start{energy}", 100.0 * part),
             );
+        }
+        for wall in &self.walls {
+            row(&format!("wall {}", wall.name), wall.told());
         }
         row("energy drift", format!("{:.3e} of all energy", self.energy.balance.drift_relative));
         if self.energy.is_alarming() {

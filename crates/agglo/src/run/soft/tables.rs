@@ -6,7 +6,7 @@ use crate::folder::names;
 use crate::ledger::{Entry, entry::soft as told};
 use crate::record::columns::{Column, Table, Tables, count, entry, number, number_or_none, word};
 
-use super::now::Now;
+use super::now::{Now, WallNow};
 use super::panels::{
     BEAM, CLUSTERS, DISPERSION, FLOWS, FLYING, ITERATIONS, POWER, RAYS, SPEED, STEP, STORES, STRAIN,
 };
@@ -33,6 +33,7 @@ pub static ENERGY: Table<Now> = Table { file: names::ENERGY, columns: &[
     energy(&told::FIELDS).on(&FLOWS),
     energy(&told::STRAINED).on(&FLOWS),
     energy(&told::CUSTOM).on(&FLOWS),
+    energy(&told::WALLS).on(&FLOWS),
     energy(&told::DRAG).on(&FLOWS),
     energy(&told::DAMPING).on(&FLOWS),
     energy(&told::FRICTION).on(&FLOWS),
@@ -125,7 +126,22 @@ pub static STEPS: Table<Now> = Table { file: names::STEPS, columns: &[
     number("step_size_s", "s", "step", "length of the last", |now: &Now| now.clock.last_step).on(&STEP).glance(10),
     count("iterations", "iterations", "of the staggered scheme since the start", |now: &Now| now.clock.iterations).on(&ITERATIONS),
     count("rejected", "rejected tries", "of the staggered scheme since the start", |now: &Now| now.clock.rejected).on(&ITERATIONS),
-    number("largest_strain", "", "largest overlap", "over the sum of the radii, now", |now: &Now| now.largest_strain).on(&STRAIN),
+    number("largest_strain", "", "largest overlap", "over the sum of the radii, at a wall over the radius; now", |now: &Now| now.largest_strain).on(&STRAIN),
+] };
+
+/// Walls: a row for each at each time.
+#[rustfmt::skip]
+pub static WALLS: Table<WallNow> = Table { file: names::WALLS, columns: &[
+    number("time_s", "s", "time", "simulated", |wall: &WallNow| wall.time),
+    count("wall", "wall", "its number in the scenario's list, from 0", |wall: &WallNow| wall.number),
+    count("contacts", "contacts", "with grains", |wall: &WallNow| wall.contacts),
+    number("force_x_N", "N", "force on the wall along x", "of all grains", |wall: &WallNow| wall.force.x),
+    number("force_y_N", "N", "force on the wall along y", "", |wall: &WallNow| wall.force.y),
+    number("force_z_N", "N", "force on the wall along z", "", |wall: &WallNow| wall.force.z),
+    number("torque_x_N_m", "N m", "torque on the wall about x", "through the point that it turns about", |wall: &WallNow| wall.torque.x),
+    number("torque_y_N_m", "N m", "torque on the wall about y", "", |wall: &WallNow| wall.torque.y),
+    number("torque_z_N_m", "N m", "torque on the wall about z", "", |wall: &WallNow| wall.torque.z),
+    number("work_J", "J", "work of the wall", "that it has put in since the start; negative where grains drive it", |wall: &WallNow| wall.work),
 ] };
 
 /// Bonds that broke or were made.
@@ -146,8 +162,8 @@ fn what_happened(event: &BondEvent) -> &str {
     }
 }
 
-/// The tables with a row at each time.
+/// The tables with one row at each time.
 pub const OVER_TIME: [&Table<Now>; 6] = [&ENERGY, &MOMENTUM, &TOGETHER, &MOTION, &SOUND, &STEPS];
 
 /// All tables.
-pub const TABLES: Tables = &[&ENERGY, &MOMENTUM, &TOGETHER, &MOTION, &SOUND, &STEPS, &EVENTS];
+pub const TABLES: Tables = &[&ENERGY, &MOMENTUM, &TOGETHER, &MOTION, &SOUND, &STEPS, &WALLS, &EVENTS];

@@ -42,6 +42,7 @@ fn of_hard_spheres(check: &mut Check, scenario: &ScenarioFile) {
     let nothing = Fields::default();
     let fields = scenario.fields.as_ref().unwrap_or(&nothing);
     let foreign = [
+        ("walls", !scenario.walls.is_empty()),
         ("contact", scenario.contact.is_some()),
         ("bonds", scenario.bonds.is_some()),
         ("acoustics", scenario.acoustics.is_some()),

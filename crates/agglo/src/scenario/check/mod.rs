@@ -8,6 +8,7 @@ mod materials;
 mod placement;
 mod time;
 mod volume;
+mod walls;
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -36,6 +37,7 @@ pub(super) fn faults(scenario: &ScenarioFile, base: Option<&Path>) -> Vec<Fault>
     acoustics::check(&mut check, scenario);
     impact::check(&mut check, scenario);
     volume::check(&mut check, scenario);
+    walls::check(&mut check, scenario);
     let faults = check.found().iter().map(|found| {
         let fault = Fault::new(found.key.clone(), found.message.clone());
         match &found.help {
@@ -85,10 +87,11 @@ fn shown(value: f64, dimension: Dimension) -> String {
     readable(value, &dimension.symbol())
 }
 
-/// Names of the materials that grains are made of; of all where an earlier run brings the grains.
+/// Names of the materials that grains and walls are made of; of all where an earlier run brings the grains.
 fn used_materials(scenario: &ScenarioFile) -> BTreeSet<&str> {
     if scenario.start.from.is_some() {
         return scenario.materials.keys().map(String::as_str).collect();
     }
-    scenario.grains.iter().map(|group| group.material.as_str()).collect()
+    let of_walls = scenario.walls.iter().map(|wall| wall.material.as_str());
+    scenario.grains.iter().map(|group| group.material.as_str()).chain(of_walls).collect()
 }

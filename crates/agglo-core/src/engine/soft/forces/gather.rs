@@ -7,6 +7,7 @@ use crate::ledger::Supplies;
 use crate::math::Vec3;
 use crate::neighbors::PairList;
 use crate::particles::Particles;
+use crate::walls::WallContacts;
 
 use super::laws::{Laws, near_force};
 use super::loads::Loads;
@@ -22,6 +23,8 @@ pub struct Gather<'a> {
     pub network: &'a Network,
     /// Contacts, with theirs.
     pub contacts: &'a Contacts,
+    /// Contacts with walls, with theirs.
+    pub walls: &'a WallContacts,
     /// Pairs of the near field.
     pub near: &'a PairList,
     /// Centers of all grains [m], for the near field.
@@ -39,6 +42,10 @@ impl Gather<'_> {
     #[inline(always)]
     pub fn on(&self, grain: usize, motion: (Vec3, Vec3, Vec3), supplies: &mut Supplies) -> (Vec3, Vec3) {
         let (mut force, mut torque) = self.contacts.load_on(grain);
+        if let Some(of_walls) = self.walls.load_on(grain) {
+            force += of_walls.0;
+            torque += of_walls.1;
+        }
         self.network.gather(grain, &mut force, &mut torque);
         if self.laws.fields.near_field.is_some() {
             self.near_field(grain, &mut force, supplies);

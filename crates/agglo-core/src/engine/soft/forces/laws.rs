@@ -1,6 +1,7 @@
 //! The laws of a scenario, ready for use: what every evaluation of forces reads and none changes.
 
 use crate::acoustics::Medium;
+use crate::contact::pass::Record;
 use crate::contact::{Bonds, ContactLaws, PairTable};
 use crate::domain::Space;
 use crate::fields::near_field::{NearField, Source};
@@ -9,6 +10,7 @@ use crate::law::Chosen;
 use crate::ledger::{Supplies, Supply};
 use crate::math::Vec3;
 use crate::particles::{Material, Particles};
+use crate::walls::{WallStep, Walls};
 
 use super::response::Response;
 use crate::engine::soft::settings::Settings;
@@ -28,6 +30,8 @@ pub struct Laws {
     pub pairs: PairTable,
     /// The materials, by number.
     pub materials: Vec<Material>,
+    /// The walls.
+    pub walls: Walls,
     /// Density of the medium over that of each material.
     density_ratios: Vec<f64>,
     /// The flow of the medium, where it has one.
@@ -54,8 +58,29 @@ impl Laws {
             medium: settings.medium.clone(),
             pairs: PairTable::new(&settings.materials, &settings.mixtures, settings.contact.as_ref()),
             materials: settings.materials.values().cloned().collect(),
+            walls: Walls::new(&settings.walls, &settings.materials, settings.end),
             density_ratios: settings.materials.values().map(density_ratio).collect(),
             flow: flow_of(settings, grains),
+        }
+    }
+
+    /// What grains meet walls by at the end of a step: its time, the time that went by and its length [s].
+    pub fn wall_step<'a>(
+        &'a self,
+        grains: &'a Particles,
+        records: &'a [Record],
+        [time, elapsed, dt]: [f64; 3],
+    ) -> WallStep<'a> {
+        WallStep {
+            walls: &self.walls,
+            laws: self.contact.as_ref(),
+            bond: self.bonds.as_ref().and_then(Bonds::in_contact),
+            pairs: &self.pairs,
+            grains,
+            records,
+            time,
+            elapsed,
+            dt,
         }
     }
 

@@ -24,7 +24,9 @@ impl Simulation {
     pub(in crate::engine::soft) fn guard(&mut self, step: &Step) -> Result<(), SimError> {
         let (change, contact, limits) = (&step.change, self.system.trial.contact, self.limits.clone());
         let is_too_deep = contact.worst_strain > limits.strain;
-        let deepest = if is_too_deep { self.system.with_trial_contacts(deepest_pair) } else { None };
+        let in_wall = self.system.walls.deepest().filter(|(strain, ..)| *strain == contact.worst_strain);
+        let is_pair = is_too_deep && in_wall.is_none();
+        let deepest = if is_pair { self.system.with_trial_contacts(deepest_pair) } else { None };
         let id = |place: usize| self.system.grains.id[place];
         let (at, laws) = (|| self.moment(step.dt), || self.acting_laws());
         if let Some(place) = change.not_finite {
@@ -44,7 +46,17 @@ impl Simulation {
             limit: limits.strain,
             laws: laws(),
         });
+        let into_wall =
+            in_wall.filter(|_| is_too_deep).map(|(strain, grain, wall)| SimError::TooDeepInWall {
+                at: Box::new(at()),
+                grain: id(grain),
+                wall: self.system.laws.walls.name(wall).into(),
+                strain,
+                limit: limits.strain,
+                laws: laws(),
+            });
         self.breach(too_far, "grains moved farther in one step than limits.displacement")?;
+        self.breach(into_wall, "grains overlapped walls by more than limits.strain")?;
         self.breach(too_deep, "grains overlapped by more than limits.strain")
     }
 

@@ -10,7 +10,8 @@ use crate::particles::Particles;
 ///
 /// # Errors
 /// [`SimError::NarrowSpace`] where half a period is not above the longest distance of centers at which grains act on one another,
-/// [`SimError::RaysAcrossFaces`] where there are beams.
+/// [`SimError::RaysAcrossFaces`] where there are beams, [`SimError::WallAcrossFaces`] and [`SimError::WallsInDeformation`] where walls
+/// cannot follow space.
 pub fn hold(settings: &Settings, grains: &Particles) -> Result<(), SimError> {
     let space = settings.space();
     if !space.repeats() {
@@ -18,6 +19,15 @@ pub fn hold(settings: &Settings, grains: &Particles) -> Result<(), SimError> {
     }
     if settings.acoustics.is_some() {
         return Err(SimError::RaysAcrossFaces);
+    }
+    for wall in &settings.walls {
+        if let Some(axis) = wall.cut_by(&space) {
+            return Err(SimError::WallAcrossFaces { wall: wall.name.clone(), axis: ['x', 'y', 'z'][axis] });
+        }
+    }
+    let is_deformed = settings.volume.as_ref().is_some_and(|volume| volume.deformation.is_some());
+    if is_deformed && !settings.walls.is_empty() {
+        return Err(SimError::WallsInDeformation);
     }
     let largest = grains.radius.iter().copied().fold(0.0, f64::max);
     let beyond = settings.contact.as_ref().map_or(0.0, ContactLaws::reach);

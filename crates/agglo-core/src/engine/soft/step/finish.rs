@@ -87,13 +87,15 @@ impl System {
     pub(in crate::engine::soft) fn finish(&mut self, time: f64, dt: f64) {
         let mut moving = self.take_motion();
         let ray_scale = self.ray_scale(dt);
-        let Self { grains, laws, network, contacts, near, trial, hook, loads, ray_loads, records, .. } = self;
+        let Self {
+            grains, laws, network, contacts, walls, near, trial, hook, loads, ray_loads, records, ..
+        } = self;
         let (space, images) = (&self.space, across(&self.space, &mut self.images));
         let has_response = laws.has_response();
         let rays = ray_scale.map(|scale| (&*ray_loads, scale));
         let hook = hook.as_ref().map(|hook| &hook.loads);
         let positions = &trial.position[..];
-        let gather = Gather { grains, laws, network, contacts, near, positions, space, time, hook };
+        let gather = Gather { grains, laws, network, contacts, walls, near, positions, space, time, hook };
         let ending = Ending { gather, rays, dt };
         let leaf = |range: Range<usize>, ((r, v, w), loads, mut images): Finished<'_>| {
             let (mut supplies, mut correction) = (Supplies::default(), Correction::default());
@@ -119,7 +121,7 @@ impl System {
         let join = |a: (Supplies, Correction), b: (Supplies, Correction)| (a.0 + b.0, a.1 + b.1);
         let (supplies, correction) =
             parallel::over(0..records.len(), LEAF, (columns, loads.views(), images), &leaf, &join);
-        trial.rates = Rates::new(&trial.contact, trial.bonds, supplies);
+        trial.rates = Rates::new(&trial.contact, trial.bonds, supplies.with_walls(walls.supply()));
         trial.rates.correct(correction);
         self.put_motion(moving);
         self.afloat = None;
@@ -131,10 +133,10 @@ impl System {
         // Grains come home in space as it is now, and move on to as it will be.
         let space = self.space;
         let stretch = self.move_space(time, time + next);
-        let Self { grains, laws, network, contacts, near, trial, records, .. } = self;
+        let Self { grains, laws, network, contacts, walls, near, trial, records, .. } = self;
         let (space, images) = (&space, across(&space, &mut self.images));
-        let gather =
-            Gather { grains, laws, network, contacts, near, positions: &[], space, time, hook: None };
+        let (positions, hook) = (&[][..], None);
+        let gather = Gather { grains, laws, network, contacts, walls, near, positions, space, time, hook };
         let ending = Ending { gather, rays: None, dt };
         let leaf = |range: Range<usize>, (records, mut images): (&mut [Record], Images<'_>)| {
             let (mut supplies, mut change) = (Supplies::default(), Change::default());
@@ -156,7 +158,7 @@ impl System {
         let join = |a: (Supplies, Change), b: (Supplies, Change)| (a.0 + b.0, Change::join(a.1, b.1));
         let n = grains.len();
         let (supplies, change) = parallel::over(0..n, LEAF, (&mut records[..], images), &leaf, &join);
-        trial.rates = Rates::new(&trial.contact, trial.bonds, supplies);
+        trial.rates = Rates::new(&trial.contact, trial.bonds, supplies.with_walls(walls.supply()));
         self.note_way(change.wavering);
         self.afloat = Some(Afloat { dt: next, change });
     }

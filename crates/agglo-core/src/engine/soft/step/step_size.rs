@@ -51,7 +51,7 @@ pub fn critical(settings: &Settings, system: &System) -> f64 {
 /// How fast the laws are, one by one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Paces {
-    /// Contact laws and the bond that acts in contact.
+    /// Contact laws and the bond that acts in contact, between grains and at walls.
     pub contact: Pace,
     /// Bonds between grains.
     pub bonds: Pace,
@@ -72,8 +72,9 @@ impl Paces {
         let reached = system.trial.contact.worst_strain;
         let strain = allowed.map_or(reached, |strain| strain.max(reached)).min(DEEPEST);
         let contact = contact(system, &extremes, strain, allowed.is_some());
+        let at_walls = system.wall_pace(strain).max(system.at_walls(time).pace());
         Self {
-            contact: contact.max(system.with_contacts(contact_pace)),
+            contact: contact.max(system.with_contacts(contact_pace)).max(at_walls),
             bonds: system.network.pace(&system.grains),
             near_field: near_field(system, &extremes, strain).max(system.near_pace_now()),
             hook: system.hook_pace(time).unwrap_or(Pace::NONE),
@@ -123,7 +124,11 @@ impl Fast {
             || laws.bonds.as_ref().and_then(Bonds::in_contact).is_some()
             || system.trial.contact.worst_strain > strain;
         Self {
-            contact: if by_area { system.with_trial_contacts(contact_pace) } else { Pace::NONE },
+            contact: if by_area {
+                system.with_trial_contacts(contact_pace).max(system.pace_at_walls_at_trial())
+            } else {
+                Pace::NONE
+            },
             near_field: system.near_pace_at_trial(),
         }
     }
