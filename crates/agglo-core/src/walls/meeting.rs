@@ -122,3 +122,89 @@ pub(super) fn meet(
     met.power = met.force.dot(surface);
     met
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::friction::{Friction, Mindlin};
+    use crate::contact::normal::{Hooke, Normal};
+    use crate::math::formula::Written;
+    use crate::particles::{Particles, Row};
+    use crate::units::Quantity;
+    use crate::walls::course::Course;
+    use crate::walls::motion::{Constant, Motion, Traveling};
+
+    const DT: f64 = 1e-6;
+    const RADIUS: f64 = 1e-3;
+    const GAP: f64 = 0.99e-3;
+
+    /// A grain 10 um deep in a floor at z = 0 that moves so, with velocities [m/s] and spins [rad/s] at both ends of the step.
+    fn met(
+        motion: &Motion,
+        velocities: [Vec3; 2],
+        spins: [Vec3; 2],
+        before: Option<TangentialSpring>,
+    ) -> Met {
+        let friction = Mindlin {
+            static_friction: 1e6,
+            dynamic_friction: None,
+            stiffness_ratio: Some(0.5),
+            dashpot: 0.0,
+        };
+        let laws = ContactLaws {
+            normal: Some(Normal::Hooke(Hooke { stiffness: Quantity(20.0) })),
+            custom: None,
+            damping: None,
+            friction: Some(Friction::Mindlin(friction)),
+        };
+        let mut constants = PairConstants::default();
+        laws.settle(&mut constants, None);
+        let place = Vec3::AXES[2] * GAP;
+        let mut grains = Particles::default();
+        grains.push(Row { radius: RADIUS, mass: 1e-5, position: place, ..Row::default() });
+        let mut record = Record::at_start(&grains, 0, 1e-5);
+        record.begin(place, velocities[0], spins[0]);
+        record.end(place, velocities[1] - velocities[0], spins[1] - spins[0]);
+        let course = Course::new(motion, Vec3::ZERO, 1.0);
+        let partners = Partners {
+            laws: Some(&laws),
+            bond: None,
+            constants: &constants,
+            mass: 1e-5,
+            stiffness: [0.0; 2],
+        };
+        let near = Near { normal: -Vec3::AXES[2], gap: GAP };
+        let lasted = Lasted { elapsed: DT, dt: DT };
+        meet(&partners, &record, &near, [&course.at(0.0), &course.at(DT)], lasted, before.as_ref())
+    }
+
+    /// By hand: the stiffness of 10 N/m times the mean slip over the step, of the floor 0.4 m/s and of the grain 0.2 m/s, times its
+    /// length; it pulls the grain along, and turns it about its center by the gap.
+    #[test]
+    fn springs_follow_the_mean_motion_of_grain_and_wall() {
+        let motion = Motion::Formula(Traveling { velocity: ["0", "0.8e6*t", "0"].map(Written::new) });
+        let [slow, fast] = [0.1, 0.3].map(|speed| Vec3::AXES[1] * speed);
+        let found = met(&motion, [slow, fast], [Vec3::ZERO; 2], None);
+        let size = 10.0 * 0.2 * DT;
+        let repulsion = Vec3::AXES[2] * (20.0 * (RADIUS - GAP));
+        assert_near_vector!(found.force, Vec3::AXES[1] * size + repulsion, 1e-12 * repulsion.z, "in N");
+        assert_close_vector!(found.torque, Vec3::AXES[0] * (GAP * size), 1e-9, "in N m");
+        assert_close_vector!(found.spring.unwrap().force, Vec3::AXES[1] * size, 1e-9, "in N");
+        // At the end of the step the floor has 0.8 m/s, and slips by 0.5 m/s.
+        assert_close!(found.power, 0.8 * size, 1e-9, "in W");
+        assert_close!(found.tangential, 0.5 * size, 1e-9, "in W");
+    }
+
+    /// By hand: about the normal a spring turns by half of what grain and wall do, (2e4 + 4e4)/2 rad/s for a microsecond.
+    #[test]
+    fn springs_turn_with_grain_and_wall() {
+        let angular_velocity = [0.0, 0.0, 4e4].map(Quantity);
+        let motion =
+            Motion::Constant(Constant { velocity: [Quantity(0.0); 3], angular_velocity, about: None });
+        let spins = [1e4, 3e4].map(|rate| Vec3::AXES[2] * rate);
+        let loaded = TangentialSpring { force: Vec3::AXES[1] * 1e-4, stiffness: 10.0, sliding: false };
+        let found = met(&motion, [Vec3::ZERO; 2], spins, Some(loaded)).spring.unwrap().force;
+        assert_close!(found.norm(), 1e-4, 1e-12, "in N");
+        assert_close!(found.x / found.y, -0.03, 1e-9);
+    }
+}

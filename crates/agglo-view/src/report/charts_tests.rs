@@ -89,6 +89,7 @@ const SHOWN_SOFT: &[Shown] = &[
             ("put in by fields", "work_fields_J"),
             ("put in by the volume", "work_volume_J"),
             ("put in by custom laws", "work_custom_J"),
+            ("put in by walls", "work_walls_J"),
             ("lost to drag", "lost_drag_J"),
             ("lost in contacts", "lost_contact_damping_J"),
             ("lost to friction", "lost_friction_J"),

@@ -5,6 +5,7 @@ mod flying_tests;
 mod forces;
 mod guard;
 mod hook;
+mod near_pairs;
 mod outside;
 #[cfg(test)]
 mod periodic_tests;

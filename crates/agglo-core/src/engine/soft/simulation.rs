@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::contact::Bonds;
 use crate::contact::network::{Bond, BondEvent, Network};
 use crate::contact::pass::Remembered;
-use crate::domain::{Image, resolution};
+use crate::domain::Image;
 use crate::engine::{Moment, SimError, Start, Warnings};
 use crate::ledger::{Ledger, Opening, Rates};
 use crate::math::rounding_of_sum;
@@ -484,15 +484,6 @@ impl Simulation {
             }
         }
         self.warn_of_drag();
-    }
-
-    pub(super) fn warn_of_places(&mut self) {
-        let grains = &self.system.grains;
-        let motions = grains.position.iter().zip(&grains.velocity).zip(&grains.radius);
-        let motions = motions.map(|((&position, &velocity), &radius)| (position, velocity, radius));
-        if let Some(warning) = resolution::warning(motions, self.clock.last_step, self.end) {
-            self.warnings.add(warning);
-        }
     }
 }
 

@@ -13,7 +13,7 @@ use crate::particles::{Motion, Particles};
 use crate::walls::WallContacts;
 
 use super::forces::gather::Gather;
-use super::forces::laws::{Laws, source};
+use super::forces::laws::Laws;
 use super::forces::loads::{LoadViews, Loads};
 use super::hook::{Attached, Hook, Scene};
 use super::skin::Skin;
@@ -372,40 +372,6 @@ impl System {
         self.network.bond_pressed(&self.grains, &self.space, &self.list, time)
     }
 
-    /// Pairs within the near field's cut-off and a little more; nothing where all pairs count.
-    pub fn near_list(&self) -> Option<&PairList> {
-        self.laws.fields.near_field.as_ref().and_then(|law| law.cutoff).map(|_| &self.near)
-    }
-
-    /// How fast the fastest pair of the near field is where grains are.
-    pub fn near_pace_now(&self) -> Pace {
-        self.near_pace(&self.grains.position)
-    }
-
-    /// The same at the trial motion, where neither a contact nor the law's own cap keeps grains apart; else nothing.
-    pub fn near_pace_at_trial(&mut self) -> Pace {
-        let is_capped = self.laws.fields.near_field.as_ref().is_none_or(|law| law.law.is_capped());
-        if is_capped || self.laws.contact.is_some() {
-            return Pace::NONE;
-        }
-        self.look_at_trial();
-        self.near_pace(&self.trial.position)
-    }
-
-    fn near_pace(&self, positions: &[Vec3]) -> Pace {
-        let Some(law) = &self.laws.fields.near_field else { return Pace::NONE };
-        let pace = |a: usize, b: usize| {
-            let distance = self.space.shortest(positions[b] - positions[a]).norm();
-            law.pace(&source(&self.grains, a), &source(&self.grains, b), distance)
-        };
-        self.over_grains(|a| match self.near_list() {
-            Some(list) => {
-                list.owned(a).map(|pair| pace(a, list.partners()[pair] as usize)).fold(Pace::NONE, Pace::max)
-            }
-            None => (a + 1..self.grains.len()).map(|b| pace(a, b)).fold(Pace::NONE, Pace::max),
-        })
-    }
-
     /// Energy [J] of the tangential springs of contacts.
     pub fn spring_energy(&self) -> f64 {
         self.contacts.spring_energy() + self.walls.spring_energy()
@@ -436,14 +402,6 @@ impl System {
         if !self.near.holds_for(&self.trial.position) {
             self.list_near(true);
         }
-    }
-
-    /// Lists the pairs of the near field anew, if it has a cut-off, at the trial or the committed positions.
-    fn list_near(&mut self, at_trial: bool) {
-        let Some(cutoff) = self.laws.fields.near_field.as_ref().and_then(|law| law.cutoff) else { return };
-        let positions = if at_trial { &self.trial.position } else { &self.grains.position };
-        let skin = self.skin.of_near_field(cutoff.si());
-        self.near.build(&self.space, positions, &vec![0.0; self.grains.len()], cutoff.si(), skin);
     }
 
     /// Lists the pairs anew, at the trial or the committed positions.

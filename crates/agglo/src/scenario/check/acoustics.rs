@@ -3,6 +3,7 @@
 use super::laws::needed;
 use super::{Check, region};
 use crate::acoustics::{Acoustics, Beam, Profile, Strength};
+use crate::domain::Volume;
 use crate::math::Vec3;
 use crate::packing::{Placement, Size};
 use crate::particles::property::SOUND_SPEED;
@@ -13,7 +14,8 @@ use crate::units::vector;
 pub(super) fn check(check: &mut Check, scenario: &ScenarioFile) {
     let Some(acoustics) = &scenario.acoustics else { return };
     needed(check, scenario, "acoustics", &SOUND_SPEED);
-    if scenario.volume.as_ref().is_some_and(|volume| volume.repeats().contains(&true)) {
+    let repeats = |volume: &Volume| volume.repeats().contains(&true);
+    if !scenario.engine.is_hard() && scenario.volume.as_ref().is_some_and(repeats) {
         let message = "rays do not go on across faces across which space repeats itself".to_owned();
         check.fail_with("acoustics", message, "let the faces of [volume] be open");
     }

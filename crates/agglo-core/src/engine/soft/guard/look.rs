@@ -1,6 +1,7 @@
 //! What the simulation looks at now and then: whether its laws hold, its step is short enough, and its energy is
 //! accounted for.
 
+use crate::domain::resolution;
 use crate::engine::{Moment, SimError};
 
 use super::validity;
@@ -49,6 +50,15 @@ impl Simulation {
 
     pub(in crate::engine::soft) fn warn_of_drag(&mut self) {
         if let Some(warning) = validity::of_drag(&self.system.laws, &self.system.grains, self.clock().time) {
+            self.warnings.add(warning);
+        }
+    }
+
+    fn warn_of_places(&mut self) {
+        let grains = &self.system.grains;
+        let motions = grains.position.iter().zip(&grains.velocity).zip(&grains.radius);
+        let motions = motions.map(|((&position, &velocity), &radius)| (position, velocity, radius));
+        if let Some(warning) = resolution::warning(motions, self.clock().last_step, self.end()) {
             self.warnings.add(warning);
         }
     }
