@@ -264,7 +264,7 @@ mod tests {
         let (radii, masses) = (vec![0.5; 22], vec![3.0; 22]);
         let mut edges = Vec::new();
         crate::measure::close_pairs(&crate::domain::Space::OPEN, &positions, &radii, 0.01, &mut |i, j| {
-            edges.push((i, j))
+            edges.push((i, j));
         });
         let clusters = Clusters::new(&masses, edges);
         let found = summarize(&clusters, &positions, &radii, &masses);

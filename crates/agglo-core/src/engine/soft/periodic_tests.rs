@@ -136,6 +136,11 @@ fn a_gas_in_a_small_box_keeps_its_books() {
     );
 }
 
+/// All of a list in one text.
+fn joined(parts: impl Iterator<Item = String>) -> String {
+    parts.collect::<Vec<String>>().concat()
+}
+
 /// A ring of N grains on springs k that closes through a face: the mode of wave number j has ω² = 4 k/m sin²(π j/N). Grains are
 /// pressed together by 1e-3 of their diameter and swing by 1e-7 of it, so that all contacts stay closed and the law is linear; after
 /// a period in 2,000 steps Verlet's own error of the frequency is (ω Δt)²/24, 4e-7, which shifts the phase by 3e-6.
@@ -156,9 +161,8 @@ fn a_ring_of_springs_swings_as_by_hand() {
              size.constant.radius = \"1 mm\"\nplacement.list.positions = [{places}]\n",
             step = period / 2000.0,
             edge = spacing * f64::from(N),
-            places = (0..N)
-                .map(|k| format!("[\"{:e} m\", \"0 m\", \"0 m\"],", spacing * f64::from(k)))
-                .collect::<String>(),
+            places =
+                joined((0..N).map(|k| format!("[\"{:e} m\", \"0 m\", \"0 m\"],", spacing * f64::from(k)))),
         );
         let scenario = Scenario::from_toml(&text).unwrap_or_else(|faults| panic!("{faults}"));
         let mut grains = place(&scenario).unwrap();
@@ -220,7 +224,7 @@ fn a_crystal_is_pressed_as_by_hand() {
          [contact.custom]\nforce = \"{stiffness}*overlap + {dashpot}*speed\"\n[[grains]]\nmaterial = \"glass\"\n\
          size.constant.radius = \"{radius} m\"\n\
          placement.list.positions = [{}]\n",
-        (0..ACROSS.pow(3)).map(at).collect::<String>()
+        joined((0..ACROSS.pow(3)).map(at))
     );
     let scenario = Scenario::from_toml(&text).unwrap_or_else(|faults| panic!("{faults}"));
     let grains = place(&scenario).unwrap();

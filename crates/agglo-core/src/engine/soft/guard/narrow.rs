@@ -5,6 +5,7 @@ use crate::contact::ContactLaws;
 use crate::engine::SimError;
 use crate::engine::soft::settings::Settings;
 use crate::particles::Particles;
+use crate::units::Length;
 
 /// Holds the periods of space to how far grains reach, and its faces to what can cross them.
 ///
@@ -33,7 +34,7 @@ pub fn hold(settings: &Settings, grains: &Particles) -> Result<(), SimError> {
     let beyond = settings.contact.as_ref().map_or(0.0, ContactLaws::reach);
     let gap = settings.beam().map_or(0.0, |law| law.gap * largest);
     let near_field = settings.fields.near_field.as_ref();
-    let cutoff = near_field.map_or(0.0, |law| law.cutoff.map_or(f64::INFINITY, |cutoff| cutoff.si()));
+    let cutoff = near_field.map_or(0.0, |law| law.cutoff.map_or(f64::INFINITY, Length::si));
     let reach = (2.0 * largest + beyond.max(gap)).max(cutoff);
     let last = settings.space_in_time(grains).at(settings.end);
     let period = space.shortest_period().min(last.shortest_period());
