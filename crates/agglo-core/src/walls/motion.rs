@@ -94,9 +94,4 @@ impl Motion {
             }
         }
     }
-
-    /// Whether it is ever elsewhere than at time zero.
-    pub fn moves(&self) -> bool {
-        *self != Self::Fixed
-    }
 }

@@ -189,11 +189,6 @@ impl Walls {
         &self.bodies[wall].name
     }
 
-    /// Shape of one at time zero.
-    pub fn shape(&self, wall: usize) -> &Shape {
-        &self.bodies[wall].shape
-    }
-
     /// How many faces one has; none if there is no such wall.
     pub fn faces(&self, wall: u32) -> u32 {
         self.bodies.get(wall as usize).map_or(0, |body| body.shape.faces())

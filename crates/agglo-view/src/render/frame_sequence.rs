@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::error::RenderError;
-use agglo::domain::Volume;
+use agglo::domain::{SpaceInTime, Volume};
 use agglo::folder::{CampaignFolder, RunFolder};
 use agglo::math::Vec3;
 use agglo::record::frames::{Collection, FieldValues, Frame};
@@ -82,9 +82,23 @@ impl FrameSequence {
         Some(format!("the edges of the control volume and the names of materials are left out: {reason}"))
     }
 
-    /// The control volume, where there is one.
+    /// The control volume at the start, where there is one.
     pub(super) fn volume(&self) -> Option<&Volume> {
         self.scenario()?.volume()
+    }
+
+    /// Corners [m] of the control volume at the time of a frame, where there is one.
+    ///
+    /// # Errors
+    /// [`RenderError`] where a volume that changes cannot be told, as its grains cannot be read.
+    pub(super) fn volume_at(&self, number: usize) -> Result<Option<[Vec3; 2]>, RenderError> {
+        let Some(volume) = self.volume() else { return Ok(None) };
+        if volume.deformation.is_none() {
+            return Ok(Some([volume.lower(), volume.upper()]));
+        }
+        let balls = self.balls(number, &self.read(number)?)?;
+        let solid = balls.iter().map(|(_, radius)| 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3)).sum();
+        Ok(Some(SpaceInTime::new(Some(volume), solid).at(self.grains[number].0).corners()))
     }
 
     /// Reads a frame of grains.

@@ -298,7 +298,8 @@ impl Renderer {
         }
         if self.options.volume {
             let (radius, color) = (0.9 * pixel, light_of(EDGE));
-            lines.extend(edges(&self.sequence).map(|ends| Line { ends, radius, color }));
+            let volume = self.sequence.volume_at(number)?;
+            lines.extend(volume.into_iter().flat_map(edges).map(|ends| Line { ends, radius, color }));
         }
         Ok(lines)
     }
@@ -458,26 +459,25 @@ fn ground(reach: [[f64; 2]; 3], side: Side) -> Ground {
 
 fn corners(sequence: &FrameSequence, options: &Options) -> impl Iterator<Item = Vec3> {
     let is_shown = options.volume && options.view != View::First;
-    edges(sequence).flatten().filter(move |_| is_shown)
+    let at_start = sequence.volume().map(|volume| [volume.lower(), volume.upper()]);
+    at_start.into_iter().flat_map(edges).flatten().filter(move |_| is_shown)
 }
 
-/// The edges of the control volume.
-fn edges(sequence: &FrameSequence) -> impl Iterator<Item = [Vec3; 2]> {
-    sequence.volume().into_iter().flat_map(|volume| {
-        let (lower, upper) = (volume.lower().to_array(), volume.upper().to_array());
-        (0..12).map(move |edge| {
-            let (along, others) = (edge / 4, [(edge / 4 + 1) % 3, (edge / 4 + 2) % 3]);
-            let mut ends = [lower; 2];
-            ends[1][along] = upper[along];
-            for (bit, other) in others.into_iter().enumerate() {
-                if edge >> bit & 1 == 1 {
-                    for end in &mut ends {
-                        end[other] = upper[other];
-                    }
+/// The edges of the block between two corners [m].
+fn edges(corners: [Vec3; 2]) -> impl Iterator<Item = [Vec3; 2]> {
+    let [lower, upper] = corners.map(Vec3::to_array);
+    (0..12).map(move |edge| {
+        let (along, others) = (edge / 4, [(edge / 4 + 1) % 3, (edge / 4 + 2) % 3]);
+        let mut ends = [lower; 2];
+        ends[1][along] = upper[along];
+        for (bit, other) in others.into_iter().enumerate() {
+            if edge >> bit & 1 == 1 {
+                for end in &mut ends {
+                    end[other] = upper[other];
                 }
             }
-            ends.map(Vec3::from)
-        })
+        }
+        ends.map(Vec3::from)
     })
 }
 

@@ -213,3 +213,20 @@ fn outputs_are_told_by_their_names() {
     let refused = animate(Path::new("nowhere"), wanted, &mut |_| ControlFlow::Continue(()));
     assert_matches!(refused, Err(RenderError::TransparentMovie));
 }
+
+/// A box of 4 m, pressed together by 30 % a second from all sides: after half a second its edges are drawn 4 exp(-0.15) m long.
+#[test]
+fn the_volume_is_drawn_as_it_is_by_then() {
+    let dir = tempfile::tempdir().unwrap();
+    write_frames(dir.path(), &[ball(3, 1.0), ball(3, 0.8)]);
+    let text = "version = 1\ntime.end = \"1 s\"\nengine.verlet.step = \"1 ms\"\nmaterials.clay.density = \"2000 kg/m3\"\n\
+                [volume]\nlower = [\"-2 m\", \"-2 m\", \"-2 m\"]\nupper = [\"2 m\", \"2 m\", \"2 m\"]\n\
+                deformation.strain_rate = [\"-0.3 1/s\", \"-0.3 1/s\", \"-0.3 1/s\"]\n[[grains]]\nmaterial = \"clay\"\n\
+                size.constant.radius = \"5 cm\"\nplacement.fill.count = 3\n";
+    std::fs::write(dir.path().join("scenario.toml"), text).unwrap();
+    let sequence = FrameSequence::open(dir.path()).unwrap();
+    for (number, factor) in [(0, 1.0), (1, (-0.15_f64).exp())] {
+        let [lower, upper] = sequence.volume_at(number).unwrap().unwrap();
+        assert_near_vector!(upper - lower, Vec3::new(4.0, 4.0, 4.0) * factor, 1e-14, "m");
+    }
+}
