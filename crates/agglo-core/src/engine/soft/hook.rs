@@ -34,6 +34,7 @@
 //!     mixtures: Vec::new(),
 //!     smallest_radius: None,
 //!     relax: None,
+//!     volume: None,
 //!     walls: Vec::new(),
 //!     contact: None,
 //!     bonds: None,
