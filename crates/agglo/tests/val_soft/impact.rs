@@ -1,6 +1,6 @@
 //! Head-on impacts: Y. C. Chung and J. Y. Ooi, Granular Matter 13, 643 (2011), tests 1 to 3.
 //!
-//! A sphere ten thousand times as large as the grain stands for the rigid plane here; `val_walls` has the plane itself.
+//! A sphere ten thousand times as large as the grain stands for the rigid plane here; `walls` has the plane itself.
 
 use agglo::engine::soft::Simulation;
 use agglo::math::Vec3;

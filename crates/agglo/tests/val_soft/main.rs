@@ -22,3 +22,4 @@ mod pulse;
 mod stability;
 mod unequal;
 mod unlike;
+mod walls;

@@ -1,13 +1,5 @@
 //! Soft spheres at walls against closed forms and published numbers, through the whole engine.
 
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
-
-#[macro_use]
-extern crate agglo_testing;
-
-#[path = "../common/mod.rs"]
-mod common;
-
 mod bits;
 mod impact;
 mod ledger;

@@ -4,7 +4,7 @@ use agglo::engine::SimError;
 use agglo::engine::soft::Simulation;
 
 use crate::common::{self, grains, scenario};
-use crate::{GRAVITY, grains_at, plane};
+use crate::walls::{GRAVITY, grains_at, plane};
 
 const HOOKE: &str = "[contact.normal.hooke]\nstiffness = \"1e4 N/m\"\n";
 
@@ -58,7 +58,7 @@ fn the_automatic_step_knows_walls() {
         common::start(&text, |grains| grains.velocity[0].z = -0.3)
     };
     let mut simulation = start("");
-    let by_hand = 0.03 * 2.0 * (crate::mass() / 1e4).sqrt();
+    let by_hand = 0.03 * 2.0 * (crate::walls::mass() / 1e4).sqrt();
     // Two equal grains on such a spring have half the mass, and are there in principle.
     assert_close!(simulation.clock().next_step, by_hand / 2.0_f64.sqrt(), 1e-9, "in s");
     common::finish(&mut simulation);

@@ -5,7 +5,7 @@ use agglo::math::Vec3;
 use agglo::math::rng::{Purpose, Stream};
 
 use crate::common;
-use crate::{GRAVITY, grains_at};
+use crate::walls::{GRAVITY, grains_at};
 
 const ELASTIC: &str = "[contact.normal.hertz]\n";
 const RUBBED: &str = "[contact.normal.hertz]\n[contact.damping.restitution]\nrestitution = 0.7\n\

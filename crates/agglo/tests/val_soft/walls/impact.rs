@@ -84,7 +84,7 @@ fn the_walls_material_counts() {
     let text = touching(1e-3, material, of_floor, &common::verlet(2e-8), "[contact.normal.hertz]\n");
     let found = contact(&mut falling(&text, 0.3), 1e-3);
     let modulus = 1.0 / ((1.0 - 0.0625) / 1e9 + (1.0 - 0.16) / 0.5e9);
-    let (mass, root) = (crate::mass(), 1e-3_f64.sqrt());
+    let (mass, root) = (crate::walls::mass(), 1e-3_f64.sqrt());
     let overlap = (15.0 * mass * 0.09 / (16.0 * modulus * root)).powf(0.4);
     assert_close!(found.overlap, overlap, 1e-4, "in m");
     assert_close!(found.force, 4.0 / 3.0 * modulus * root * overlap.powf(1.5), 1e-4, "in N");
@@ -123,7 +123,7 @@ fn strains_are_taken_over_the_grains_radius() {
     let strain = found.overlap / 1e-3;
     assert_between!(strain, 0.1..0.5);
     // The overlap is largest between two steps, to second order in their length.
-    assert_close!(energy(strain), 0.5 * crate::mass() * 0.09, 1e-4, "in J");
+    assert_close!(energy(strain), 0.5 * crate::walls::mass() * 0.09, 1e-4, "in J");
     let area = std::f64::consts::PI * found.overlap * (2e-3 - found.overlap);
     assert_close!(found.force, 2e6 * strain * strain * area, 1e-6, "in N");
 }

@@ -4,8 +4,8 @@ use agglo::engine::soft::Simulation;
 use agglo::math::Vec3;
 
 use crate::common::{bytes, scenario, steps, written_and_read};
-use crate::ledger::{DRUM, SHAKEN_SPHERE, shaken};
-use crate::wall;
+use crate::walls::ledger::{DRUM, SHAKEN_SPHERE, shaken};
+use crate::walls::wall;
 
 const RUBBED: &str = "[contact.normal.hertz]\n[contact.damping.restitution]\nrestitution = 0.7\n\
                       [contact.friction.mindlin]\nstatic_friction = 0.4\ndashpot = 0.3\n";
@@ -46,13 +46,13 @@ fn press_on_walls(simulation: &mut Simulation) {
 /// The scenario of `shaken`, whose grains are not asked for.
 fn text(container: &str) -> String {
     let elastic = "density = \"2500 kg/m3\"\nyoungs_modulus = \"10 MPa\"\npoisson_ratio = 0.25";
-    crate::grains_at(
+    crate::walls::grains_at(
         &[[0.0; 3]],
         50e-3,
         &crate::common::verlet(4e-6),
         &format!(
             "[[walls]]\nname = \"container\"\nmaterial = \"glass\"\n{container}\n{RUBBED}{}",
-            crate::GRAVITY
+            crate::walls::GRAVITY
         ),
     )
     .replace("density = \"2500 kg/m3\"", elastic)

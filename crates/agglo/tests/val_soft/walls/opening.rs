@@ -3,7 +3,7 @@
 use agglo::math::Vec3;
 
 use crate::common::{self, grain};
-use crate::{G, GRAVITY, grains_at, wall};
+use crate::walls::{G, GRAVITY, grains_at, wall};
 
 fn plate(start: [f64; 3], end: f64) -> String {
     let more = "[[walls]]\nname = \"plate\"\nmaterial = \"glass\"\n\

@@ -4,7 +4,7 @@ use agglo::math::Vec3;
 use agglo::math::quadrature::integral;
 
 use crate::common::{self, grain};
-use crate::{G, GRAVITY, at_rest, damped, grains_at, mass, plane, wall};
+use crate::walls::{G, GRAVITY, at_rest, damped, grains_at, mass, plane, wall};
 
 fn resting() -> [f64; 3] {
     [0.0, 0.0, 1e-3 - at_rest(1.0)]

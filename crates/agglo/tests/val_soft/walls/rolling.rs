@@ -3,7 +3,7 @@
 use agglo::math::Vec3;
 
 use crate::common::{self, grain};
-use crate::{G, GRAVITY, at_rest, damped, grains_at, mass, plane, wall};
+use crate::walls::{G, GRAVITY, at_rest, damped, grains_at, mass, plane, wall};
 
 /// A grain that slides at v0 rolls from t = 2 v0/(7 μ g) on, with (5/7) v0: what it has of angular momentum about the point of contact stays.
 /// Steps are 2e-4 of that time. The arm of the moment is shorter by the overlap, 1e-5 of the radius.
