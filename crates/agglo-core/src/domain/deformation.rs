@@ -2,32 +2,32 @@
 //!
 //! # Equation
 //! ```text
-//! L_k(t) = L_k(0) exp(e_k t)                                                          D1
-//! r' = v + e (r - c),   m v' = F                                                      D2
-//! P = -sum over pairs of F_ij · (e r_ij)                                              D3
+//! ℓ_k(t) = ℓ_k(0) exp(ε̇_k t)                                                          D1
+//! r' = v + ε̇ (r - r_c),   m v' = F                                                    D2
+//! P = -sum over pairs of F_ij · (ε̇ r_ij)                                              D3
 //! ```
-//! Places follow the volume, velocities are those beside its flow: so do contacts, dashpots and friction see v_j - v_i + e r_ij, and
+//! Places follow the volume, velocities are those beside its flow: so do contacts, dashpots and friction see v_j - v_i + ε̇ r_ij, and
 //! the power P that the volume puts in is what the pairs' forces do on that flow.
 //!
 //! # Source
-//! D1 and D2: D. J. Evans and G. P. Morriss, *Statistical Mechanics of Nonequilibrium Liquids* (1990), chapter 6, without their term
-//! -e p, so that free grains keep their velocities; D3 follows.
+//! D1 and D2: D. J. Evans and G. P. Morriss, *Statistical Mechanics of Nonequilibrium Liquids* (1990), without their term
+//! -ε̇ p, so that free grains keep their velocities; D3 follows.
 //!
 //! # Symbols
 //! | symbol | name in code     | unit | meaning                                                          |
 //! |--------|------------------|------|------------------------------------------------------------------|
-//! | L_k    | `periods`        | m    | edge along axis k                                                |
-//! | e_k    | `strain_rate`    | 1/s  | growth of the edge over its length; below 0 it becomes shorter   |
-//! | c      |                  | m    | middle of the volume, which stays                                |
+//! | ℓ_k    | `periods`        | m    | edge along axis k                                                |
+//! | ε̇_k    | `strain_rate`    | 1/s  | growth of the edge over its length; below 0 it becomes shorter   |
+//! | r_c    |                  | m    | middle of the volume, which stays                                |
 //! | r_ij   |                  | m    | from grain i to the nearest image of grain j                     |
 //! | F_ij   |                  | N    | force on j                                                       |
 //! |        | `solid_fraction` | -    | volume of the grains over that of the volume where it stops      |
 //!
 //! # Critical step
-//! Neighbors come nearer by e Δt of their distance in a step: the automatic step keeps that below 1e-3.
+//! Neighbors come nearer by ε̇ Δt of their distance in a step: the automatic step keeps that below 1e-3.
 //!
 //! # Valid when
-//! e is small beside the rates of contacts and collisions, or the volume presses on grains faster than they can give way.
+//! ε̇ is small beside the rates of contacts and collisions, or the volume presses on grains faster than they can give way.
 //!
 //! # Compared with others
 //! LAMMPS' `fix deform erate ... remap x` moves places likewise; its granular dashpots and friction do not see the flow, and its
