@@ -2,21 +2,21 @@
 //!
 //! # Equation
 //! ```text
-//! ℓ_k(t) = ℓ_k(0) exp(ε̇_k t)                                                          D1
-//! r' = v + ε̇ (r - r_c),   m v' = F                                                    D2
-//! P = -sum over pairs of F_ij · (ε̇ r_ij)                                              D3
+//! D_k(t) = D_k(0) exp(ε̇_k t)                                                          B1
+//! r' = v + ε̇ (r - r_c),   m v' = F                                                    B2
+//! P = -sum over pairs of F_ij · (ε̇ r_ij)                                              B3
 //! ```
 //! Places follow the volume, velocities are those beside its flow: so do contacts, dashpots and friction see v_j - v_i + ε̇ r_ij, and
 //! the power P that the volume puts in is what the pairs' forces do on that flow.
 //!
 //! # Source
-//! D1 and D2: D. J. Evans and G. P. Morriss, *Statistical Mechanics of Nonequilibrium Liquids* (1990), without their term
-//! -ε̇ p, so that free grains keep their velocities; D3 follows.
+//! B1 and B2: D. J. Evans and G. P. Morriss, *Statistical Mechanics of Nonequilibrium Liquids* (1990), without their term
+//! -ε̇ p, so that free grains keep their velocities; B3 follows.
 //!
 //! # Symbols
 //! | symbol | name in code     | unit | meaning                                                          |
 //! |--------|------------------|------|------------------------------------------------------------------|
-//! | ℓ_k    | `periods`        | m    | edge along axis k                                                |
+//! | D_k    |                  | m    | half the edge along axis k                                       |
 //! | ε̇_k    | `strain_rate`    | 1/s  | growth of the edge over its length; below 0 it becomes shorter   |
 //! | r_c    |                  | m    | middle of the volume, which stays                                |
 //! | r_ij   |                  | m    | from grain i to the nearest image of grain j                     |
