@@ -1,5 +1,7 @@
 //! Space that changes as its volume is deformed: all of it follows from time.
 
+use std::f64::consts::PI;
+
 use super::space::Space;
 use super::volume::Volume;
 use crate::math::Vec3;
@@ -14,8 +16,9 @@ pub struct SpaceInTime {
 }
 
 impl SpaceInTime {
-    /// Space as the faces of a volume make it, among grains of this volume [m³].
-    pub fn new(volume: Option<&Volume>, solid: f64) -> Self {
+    /// Space as the faces of a volume make it, among grains of these radii [m].
+    pub fn new(volume: Option<&Volume>, radii: impl Iterator<Item = f64>) -> Self {
+        let solid = radii.map(|radius| 4.0 / 3.0 * PI * radius.powi(3)).sum();
         let start = volume.map_or(Space::OPEN, Volume::space);
         let deformation = volume.and_then(|volume| Some((volume, volume.deformation.as_ref()?)));
         let (strain_rate, end) = deformation.map_or((Vec3::ZERO, 0.0), |(volume, deformation)| {

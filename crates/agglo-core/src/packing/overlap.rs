@@ -38,17 +38,16 @@ pub struct Overlap {
 /// assert_eq!((found.ids, found.overlap), ([1, 2], 0.5));
 /// ```
 pub fn first_overlap(grains: &Particles, volume: Option<&Volume>) -> Option<Overlap> {
-    let mut crowd =
-        Crowd { ids: grains.id.clone(), positions: grains.position.clone(), radii: grains.radius.clone() };
-    if let Some(volume) = volume {
-        crowd.add_images(volume);
-    }
+    let space = volume.map_or(Space::OPEN, Volume::space);
     let mut cells = CellIndex::<Sorted>::default();
-    cells.fill(&(&crowd.positions[..], &crowd.radii[..]), &Span::Free(Space::OPEN), 0.0);
+    cells.fill(&(&grains.position[..], &grains.radius[..]), &Span::Free(space), 0.0);
     let search = |range: Range<usize>, ()| {
-        range.fold(None, |found, sphere| first_of(found, crowd.first_partner(&cells, sphere as u32)))
+        range.fold(None, |found, sphere| {
+            let own = with_itself(grains, sphere, space.shortest_period());
+            first_of(first_of(found, own), first_partner(grains, &space, &cells, sphere))
+        })
     };
-    parallel::over(0..crowd.ids.len(), LEAF, (), &search, &first_of)
+    parallel::over(0..grains.len(), LEAF, (), &search, &first_of)
 }
 
 /// The first grain, by its place, that lies outside a volume whose faces hold grains in: with its center where faces
@@ -73,61 +72,38 @@ pub(super) fn first_outside(grains: &Particles, volume: &Volume, may_reach_in: b
 }
 
 fn first_of(a: Option<Overlap>, b: Option<Overlap>) -> Option<Overlap> {
-    // The larger overlap where a pair has its images twice, so that order does not matter.
-    let before = |a: &Overlap, b: &Overlap| a.ids < b.ids || (a.ids == b.ids && a.overlap >= b.overlap);
     match (a, b) {
-        (Some(a), Some(b)) => Some(if before(&a, &b) { a } else { b }),
+        (Some(a), Some(b)) => Some(if a.ids <= b.ids { a } else { b }),
         (a, b) => a.or(b),
     }
 }
 
-/// Grains, and images of those that others may touch across a face.
-struct Crowd {
-    ids: Vec<u32>,
-    positions: Vec<Vec3>,
-    radii: Vec<f64>,
+/// The overlap of a sphere with its own image a period [m] away.
+fn with_itself(grains: &Particles, sphere: usize, period: f64) -> Option<Overlap> {
+    let (id, diameter) = (grains.id[sphere], 2.0 * grains.radius[sphere]);
+    let overlap = diameter - period;
+    (overlap > TOLERANCE * diameter).then_some(Overlap { ids: [id; 2], overlap })
 }
 
-impl Crowd {
-    fn add_images(&mut self, volume: &Volume) {
-        let (lower, upper, edges) = (volume.lower(), volume.upper(), volume.edges());
-        let largest = self.radii.iter().copied().fold(0.0, f64::max);
-        let repeats = volume.repeats();
-        // Images along one axis after the other: those of images make edges and corners.
-        for axis in (0..3).filter(|axis| repeats[*axis]) {
-            for at in 0..self.ids.len() {
-                let (position, reach) = (self.positions[at], self.radii[at] + largest);
-                if position[axis] - reach < lower[axis] {
-                    self.add_image(at, Vec3::AXES[axis] * edges[axis]);
-                }
-                if position[axis] + reach > upper[axis] {
-                    self.add_image(at, -Vec3::AXES[axis] * edges[axis]);
-                }
+/// The overlap with the smallest ids among the pairs that the cells give to a sphere, each where it is nearest.
+fn first_partner(
+    grains: &Particles,
+    space: &Space,
+    cells: &CellIndex<Sorted>,
+    sphere: usize,
+) -> Option<Overlap> {
+    let mut first = None;
+    let (at, radius) = (grains.position[sphere], grains.radius[sphere]);
+    cells.visit_partners(sphere as u32, at, radius, &mut |other, _| {
+        let reach = radius + grains.radius[other as usize];
+        let between = space.shortest(grains.position[other as usize] - at).norm_squared();
+        if between < reach * reach {
+            let overlap = reach - between.sqrt();
+            if overlap > TOLERANCE * reach {
+                let (a, b) = (grains.id[sphere], grains.id[other as usize]);
+                first = first_of(first, Some(Overlap { ids: [a.min(b), a.max(b)], overlap }));
             }
         }
-    }
-
-    fn add_image(&mut self, of: usize, shift: Vec3) {
-        self.ids.push(self.ids[of]);
-        self.positions.push(self.positions[of] + shift);
-        self.radii.push(self.radii[of]);
-    }
-
-    /// The overlap with the smallest ids among the pairs that the cells give to this sphere.
-    fn first_partner(&self, cells: &CellIndex<Sorted>, sphere: u32) -> Option<Overlap> {
-        let mut first = None;
-        let (at, radius) = (self.positions[sphere as usize], self.radii[sphere as usize]);
-        cells.visit_partners(sphere, at, radius, &mut |other, _| {
-            let reach = radius + self.radii[other as usize];
-            let between = (self.positions[other as usize] - at).norm_squared();
-            if between < reach * reach {
-                let overlap = reach - between.sqrt();
-                if overlap > TOLERANCE * reach {
-                    let (a, b) = (self.ids[sphere as usize], self.ids[other as usize]);
-                    first = first_of(first, Some(Overlap { ids: [a.min(b), a.max(b)], overlap }));
-                }
-            }
-        });
-        first
-    }
+    });
+    first
 }

@@ -4,6 +4,7 @@
 //! not touch. So sums depend neither on threads nor on when the list was made, and a resumed run has the same bits. Memory is
 //! committed when a step is accepted, as that of contacts between grains.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
@@ -292,6 +293,16 @@ impl WallContacts {
     /// Energy [J], impulse [N s] and angular impulse [N m s] that each wall has put in since the start.
     pub fn flows(&self) -> &[Supply] {
         &self.flows
+    }
+
+    /// Where walls are at a time [s]: known if grains met them then.
+    pub(super) fn poses_at(&self, walls: &Walls, time: f64) -> Cow<'_, [Pose]> {
+        let known = &self.poses[1];
+        if self.time == time && known.len() == walls.len() {
+            Cow::Borrowed(known)
+        } else {
+            Cow::Owned((0..walls.len()).map(|wall| walls.pose(wall, time)).collect())
+        }
     }
 
     pub(super) fn candidates(&self) -> &[Candidate] {

@@ -53,7 +53,7 @@ impl<'a> WallSnapshot<'a> {
     fn pressed(&self) -> impl Iterator<Item = Pressed<'a>> + use<'a> {
         let own = *self;
         let reach = self.laws.map_or(0.0, ContactLaws::reach);
-        let poses: Vec<_> = (0..self.walls.len()).map(|wall| self.walls.pose(wall, self.time)).collect();
+        let poses = self.contacts.poses_at(self.walls, self.time);
         self.contacts.candidates().iter().filter_map(move |candidate: &Candidate| {
             let (grain, wall) = (candidate.grain as usize, candidate.face[0] as usize);
             let center = own.now.position[grain];

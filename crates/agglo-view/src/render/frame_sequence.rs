@@ -87,18 +87,10 @@ impl FrameSequence {
         self.scenario()?.volume()
     }
 
-    /// Corners [m] of the control volume at the time of a frame, where there is one.
-    ///
-    /// # Errors
-    /// [`RenderError`] where a volume that changes cannot be told, as its grains cannot be read.
-    pub(super) fn volume_at(&self, number: usize) -> Result<Option<[Vec3; 2]>, RenderError> {
-        let Some(volume) = self.volume() else { return Ok(None) };
-        if volume.deformation.is_none() {
-            return Ok(Some([volume.lower(), volume.upper()]));
-        }
-        let balls = self.balls(number, &self.read(number)?)?;
-        let solid = balls.iter().map(|(_, radius)| 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3)).sum();
-        Ok(Some(SpaceInTime::new(Some(volume), solid).at(self.grains[number].0).corners()))
+    /// Corners [m] of the control volume at the time of a frame with these grains, where there is one.
+    pub(super) fn volume_at(&self, number: usize, balls: &[Ball]) -> Option<[Vec3; 2]> {
+        let space = SpaceInTime::new(Some(self.volume()?), balls.iter().map(|ball| ball.1));
+        Some(space.at(self.grains[number].0).corners())
     }
 
     /// Reads a frame of grains.

@@ -298,7 +298,7 @@ impl Renderer {
         }
         if self.options.volume {
             let (radius, color) = (0.9 * pixel, light_of(EDGE));
-            let volume = self.sequence.volume_at(number)?;
+            let volume = self.sequence.volume_at(number, balls);
             lines.extend(volume.into_iter().flat_map(edges).map(|ends| Line { ends, radius, color }));
         }
         Ok(lines)

@@ -226,7 +226,8 @@ fn the_volume_is_drawn_as_it_is_by_then() {
     std::fs::write(dir.path().join("scenario.toml"), text).unwrap();
     let sequence = FrameSequence::open(dir.path()).unwrap();
     for (number, factor) in [(0, 1.0), (1, (-0.15_f64).exp())] {
-        let [lower, upper] = sequence.volume_at(number).unwrap().unwrap();
+        let balls = sequence.balls(number, &sequence.read(number).unwrap()).unwrap();
+        let [lower, upper] = sequence.volume_at(number, &balls).unwrap();
         assert_near_vector!(upper - lower, Vec3::new(4.0, 4.0, 4.0) * factor, 1e-14, "m");
     }
 }

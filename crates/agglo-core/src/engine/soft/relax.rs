@@ -8,7 +8,7 @@ use crate::particles::ById;
 use crate::walls::Motion;
 
 use super::forces::truncation;
-use super::guard::narrow;
+use super::guard::space;
 use super::settings::{Relaxation, Settings};
 use super::simulation::Simulation;
 use super::walls::refuse_grains_in_walls;
@@ -61,7 +61,7 @@ impl Simulation {
     }
 
     fn begin(settings: &Settings, mut start: Start, watch: &mut RestWatch<'_>) -> Result<Self, SimError> {
-        narrow::hold(settings, &start.grains)?;
+        space::hold(settings, &start.grains)?;
         refuse_grains_in_walls(settings, &start.grains)?;
         let truncation =
             truncation::hold(settings.fields.near_field.as_ref(), &start.grains, &settings.space())?;

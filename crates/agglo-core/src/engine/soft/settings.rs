@@ -63,9 +63,8 @@ impl Settings {
     pub(super) fn space_in_time(&self, grains: &Particles) -> SpaceInTime {
         // In the order of names, which is the same after any sorting.
         let by_id = ById::of(&grains.id);
-        let cubes = by_id.places().map(|at| grains.radius[at as usize].powi(3));
-        let solid = 4.0 / 3.0 * std::f64::consts::PI * cubes.sum::<f64>();
-        SpaceInTime::new(self.volume.as_ref(), solid)
+        let radii = by_id.places().map(|at| grains.radius[at as usize]);
+        SpaceInTime::new(self.volume.as_ref(), radii)
     }
 
     /// The law of bonds between grains, where that is the one that bonds them.

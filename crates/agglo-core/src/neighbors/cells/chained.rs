@@ -72,7 +72,7 @@ impl CellIndex<Chained> {
             let (count, largest) = &mut octaves[own];
             (*count, *largest) = (*count + 1, largest.max(radius));
         }
-        let span = Span::Periodic(corners, repeats);
+        let span = Span::Block(corners, repeats);
         let level = |(count, largest_radius): (usize, f64)| {
             let width = 2.0 * largest_radius + margin;
             let lattice = match count {

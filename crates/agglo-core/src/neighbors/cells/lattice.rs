@@ -13,10 +13,9 @@ pub enum Span {
     Free(Space),
     /// In the block around the spheres; for searches that reach any distance.
     Around,
-    /// In the block between two corners [m]; spheres outside belong to the cells at its border.
-    Block([Vec3; 2]),
-    /// In the block between two corners [m], which repeats itself along some axes: each image of a sphere counts.
-    Periodic([Vec3; 2], [bool; 3]),
+    /// In the block between two corners [m]; spheres outside belong to the cells at its border. Along some axes it may repeat itself:
+    /// each image of a sphere counts.
+    Block([Vec3; 2], [bool; 3]),
 }
 
 /// Most cells per sphere.
@@ -53,8 +52,8 @@ impl Lattice {
         let lattice = Self { lower, ..Self::default() };
         match span {
             Span::Free(space) => lattice.about(upper, width, most, space),
-            Span::Periodic(_, repeats) => Self { repeats: *repeats, ..lattice }.tiled(upper, width, most),
-            Span::Around | Span::Block(_) => lattice.tiled(upper, width, most),
+            Span::Block(_, repeats) => Self { repeats: *repeats, ..lattice }.tiled(upper, width, most),
+            Span::Around => lattice.tiled(upper, width, most),
         }
     }
 

@@ -125,7 +125,7 @@ impl CellIndex<Sorted> {
             let sorted = &mut level.spheres;
             let corners = match *span {
                 Span::Free(_) | Span::Around => corners_around(spheres, &sorted.indices),
-                Span::Block(corners) | Span::Periodic(corners, _) => corners,
+                Span::Block(corners, _) => corners,
             };
             let width = 2.0 * level.largest_radius + margin;
             level.lattice = Lattice::new(span, corners, width, sorted.indices.len());

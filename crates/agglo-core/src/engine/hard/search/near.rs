@@ -226,11 +226,7 @@ impl Surroundings for Near {
 /// Where cells are laid. Searches for the nearest sphere reach any distance, so that narrow cells would not do.
 fn span(volume: &Volume) -> Span {
     let corners = [volume.lower(), volume.upper()];
-    match volume.boundary {
-        Boundary::Periodic => Span::Periodic(corners, [true; 3]),
-        boundary if boundary.wraps() => Span::Block(corners),
-        _ => Span::Around,
-    }
+    if volume.boundary.wraps() { Span::Block(corners, volume.repeats()) } else { Span::Around }
 }
 
 /// What has to be added to a position to come to an image [m].

@@ -2,5 +2,5 @@
 
 mod breach;
 mod look;
-pub(super) mod narrow;
+pub(super) mod space;
 pub(super) mod validity;
