@@ -65,8 +65,14 @@ fn the_channels_of_energy_add_up_to_the_drift() {
             "near_field_J",
             "fields_J",
         ]);
-        let works =
-            sum(&["work_rays_J", "work_gravity_J", "work_fields_J", "work_volume_J", "work_custom_J"]);
+        let works = sum(&[
+            "work_rays_J",
+            "work_gravity_J",
+            "work_fields_J",
+            "work_volume_J",
+            "work_custom_J",
+            "work_walls_J",
+        ]);
         let losses = sum(&[
             "lost_drag_J",
             "lost_contact_damping_J",

@@ -57,6 +57,11 @@ pub struct Deformation {
     pub solid_fraction: Option<f64>,
 }
 
+/// Volume of spheres of these radii [m], in m³.
+pub fn volume_of_spheres(radii: impl Iterator<Item = f64>) -> f64 {
+    radii.map(|radius| 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3)).sum()
+}
+
 /// Longest step times the largest rate of strain.
 const LARGEST_STRAIN: f64 = 1e-3;
 
@@ -68,12 +73,34 @@ impl Deformation {
         LARGEST_STRAIN / fastest
     }
 
-    /// When it stops [s], in a volume [m³] with grains of this volume [m³]; never if it does not come to that.
-    pub fn end(&self, volume: f64, solid: f64) -> f64 {
+    /// When it stops [s], in a volume [m³] with grains of this volume [m³]: never where no solid fraction is given; nothing where it
+    /// leads away from that.
+    pub fn end(&self, volume: f64, solid: f64) -> Option<f64> {
         let growth: f64 = vector(self.strain_rate).to_array().iter().sum();
-        self.solid_fraction.map_or(f64::INFINITY, |fraction| {
-            let end = (solid / (fraction * volume)).ln() / growth;
-            if end.is_nan() || end < 0.0 { f64::INFINITY } else { end }
-        })
+        let Some(fraction) = self.solid_fraction else { return Some(f64::INFINITY) };
+        let end = (solid / (fraction * volume)).ln() / growth;
+        (end.is_finite() && end >= 0.0).then_some(end)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::units::Quantity;
+
+    /// By hand: at rates that sum up to -6 1/s a volume is half as large after ln 2/6 s, and never twice as large; at rates that sum up
+    /// to 0 it stays as large as it is.
+    #[test]
+    fn it_ends_at_the_solid_fraction_or_leads_away_from_it() {
+        let end = |strain_rate: [f64; 3], solid_fraction| {
+            let strain_rate = strain_rate.map(Quantity);
+            Deformation { strain_rate, solid_fraction }.end(10.0, 3.0)
+        };
+        let pressing = [-1.0, -2.0, -3.0];
+        assert_near!(end(pressing, Some(0.6)).unwrap(), 2.0_f64.ln() / 6.0, 1e-15, "s");
+        assert_eq!(end(pressing, None), Some(f64::INFINITY));
+        assert_eq!(end(pressing, Some(0.3)), Some(0.0));
+        assert_none!(end(pressing, Some(0.15)));
+        assert_none!(end([2.0, -1.0, -1.0], Some(0.6)));
     }
 }

@@ -10,7 +10,7 @@ mod space;
 mod space_in_time;
 mod volume;
 
-pub use deformation::Deformation;
+pub use deformation::{Deformation, volume_of_spheres};
 pub use disc::Disc;
 pub use extent::extent;
 pub use region::{Ball, Block, Cylinder, Region};

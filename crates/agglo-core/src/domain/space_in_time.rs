@@ -1,7 +1,6 @@
 //! Space that changes as its volume is deformed: all of it follows from time.
 
-use std::f64::consts::PI;
-
+use super::deformation::volume_of_spheres;
 use super::space::Space;
 use super::volume::Volume;
 use crate::math::Vec3;
@@ -18,11 +17,14 @@ pub struct SpaceInTime {
 impl SpaceInTime {
     /// Space as the faces of a volume make it, among grains of these radii [m].
     pub fn new(volume: Option<&Volume>, radii: impl Iterator<Item = f64>) -> Self {
-        let solid = radii.map(|radius| 4.0 / 3.0 * PI * radius.powi(3)).sum();
+        let solid = volume_of_spheres(radii);
         let start = volume.map_or(Space::OPEN, Volume::space);
         let deformation = volume.and_then(|volume| Some((volume, volume.deformation.as_ref()?)));
         let (strain_rate, end) = deformation.map_or((Vec3::ZERO, 0.0), |(volume, deformation)| {
-            (vector(deformation.strain_rate), deformation.end(volume.volume(), solid))
+            (
+                vector(deformation.strain_rate),
+                deformation.end(volume.volume(), solid).unwrap_or(f64::INFINITY),
+            )
         });
         Self { start, strain_rate, end }
     }

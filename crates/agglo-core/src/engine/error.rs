@@ -160,6 +160,22 @@ pub enum SimError {
         /// How far grains act on one another, from center to center [m].
         reach: f64,
     },
+    /// A deformation leads away from where it is to stop.
+    #[error(
+        "volume.deformation leads away from solid_fraction = {wanted}: the grains fill {now:.6} of [volume] at the start; turn the \
+         strain_rate round, take another solid_fraction, or leave it out"
+    )]
+    DeformsAway {
+        /// Volume of the grains over that of the control volume at the start.
+        now: f64,
+        /// Where it is to stop.
+        wanted: f64,
+    },
+    /// A deformation along an axis on which nothing presses.
+    #[error(
+        "volume.deformation.strain_rate: space does not repeat itself along {0}: take 0 there, or periodic faces"
+    )]
+    DeformsOpenSpace(char),
     /// A wall ends at a face.
     #[error(
         "wall \"{wall}\" is not the same all along {axis}, on which space repeats itself: let the faces of [volume] across it be open"

@@ -89,6 +89,7 @@ _FLOWS = {
     "work_fields_J": "put in by fields",
     "work_volume_J": "put in by the volume",
     "work_custom_J": "put in by custom laws",
+    "work_walls_J": "put in by walls",
     "lost_drag_J": "lost to drag",
     "lost_contact_damping_J": "lost in contacts",
     "lost_friction_J": "lost to friction",

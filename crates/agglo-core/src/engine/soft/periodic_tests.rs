@@ -21,6 +21,10 @@ const DRIFT: Vec3 = Vec3::new(2.0, -1.4, 0.9);
 
 /// A heap of 60 grains that fall in on one another, spin, and fly off together.
 fn heap(more: &str) -> Simulation {
+    started(more).unwrap()
+}
+
+fn started(more: &str) -> Result<Simulation, SimError> {
     let text = format!(
         r#"
 version = 1
@@ -51,7 +55,7 @@ strain = 0.2
         grains.velocity[at] = grains.position[at] * -1e4 + stream.direction() * 0.1 + DRIFT;
         grains.angular_velocity[at] = Vec3::new(stream.normal(), stream.normal(), stream.normal()) * 1e4;
     }
-    Simulation::start(&scenario, grains).unwrap()
+    Simulation::start(&scenario, grains)
 }
 
 /// Places [n] [m] by id, put together from where grains are inside and how often they went through faces.
@@ -201,6 +205,22 @@ fn space_too_narrow_is_refused() {
     assert_ok!(start(0.041));
     let SimError::NarrowSpace { period, reach } = start(0.039).unwrap_err() else { panic!("another error") };
     assert_eq!((period, reach), (0.039, 0.02));
+}
+
+/// 60 grains fill 3.7 % of the cube: pressed together it never comes to 2 %, drawn out never to 10 %; and nothing presses where space
+/// is open.
+#[test]
+fn a_deformation_that_leads_nowhere_is_refused() {
+    let refused = |rates: [i32; 3], more: &str| {
+        let [x, y, z] = rates.map(|rate| format!("\"{rate} 1/s\""));
+        let text = format!("{VERLET}{CUBE}{more}deformation.strain_rate = [{x}, {y}, {z}]\n");
+        started(&text).unwrap_err().to_string()
+    };
+    let fraction = |wanted: f64| format!("deformation.solid_fraction = {wanted}\n");
+    for (rates, wanted) in [([-1; 3], 0.02), ([1; 3], 0.1), ([1, 1, -2], 0.1)] {
+        assert_contains!(refused(rates, &fraction(wanted)), "leads away from solid_fraction");
+    }
+    assert_contains!(refused([-1; 3], "faces.z = \"open\"\n"), "along z");
 }
 
 /// A simple cubic crystal of N grains, pressed together evenly: by symmetry no grain leaves its place in it, each of the 3 N contacts

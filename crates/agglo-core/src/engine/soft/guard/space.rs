@@ -2,19 +2,28 @@
 //! alone, and without rays.
 
 use crate::contact::ContactLaws;
+use crate::domain::{Deformation, Volume, volume_of_spheres};
 use crate::engine::SimError;
 use crate::engine::soft::settings::Settings;
 use crate::particles::Particles;
-use crate::units::Length;
+use crate::units::{Frequency, Length};
+
+/// The axes, as they are named.
+const AXES: [char; 3] = ['x', 'y', 'z'];
 
 /// Holds the periods of space to how far grains reach, and its faces to what can cross them.
 ///
 /// # Errors
 /// [`SimError::NarrowSpace`] where half a period is not above the longest distance of centers at which grains act on one another,
 /// [`SimError::RaysAcrossFaces`] where there are beams, [`SimError::WallAcrossFaces`] and [`SimError::WallsInDeformation`] where walls
-/// cannot follow space.
+/// cannot follow space, [`SimError::DeformsAway`] and [`SimError::DeformsOpenSpace`] where a deformation leads nowhere.
 pub fn hold(settings: &Settings, grains: &Particles) -> Result<(), SimError> {
     let space = settings.space();
+    if let Some(volume) = &settings.volume
+        && let Some(law) = &volume.deformation
+    {
+        hold_deformation(law, volume, grains)?;
+    }
     if !space.repeats() {
         return Ok(());
     }
@@ -23,7 +32,7 @@ pub fn hold(settings: &Settings, grains: &Particles) -> Result<(), SimError> {
     }
     for wall in &settings.walls {
         if let Some(axis) = wall.cut_by(&space) {
-            return Err(SimError::WallAcrossFaces { wall: wall.name.clone(), axis: ['x', 'y', 'z'][axis] });
+            return Err(SimError::WallAcrossFaces { wall: wall.name.clone(), axis: AXES[axis] });
         }
     }
     let is_deformed = settings.volume.as_ref().is_some_and(|volume| volume.deformation.is_some());
@@ -39,4 +48,16 @@ pub fn hold(settings: &Settings, grains: &Particles) -> Result<(), SimError> {
     let last = settings.space_in_time(grains).at(settings.end);
     let period = space.shortest_period().min(last.shortest_period());
     if 2.0 * reach < period { Ok(()) } else { Err(SimError::NarrowSpace { period, reach }) }
+}
+
+fn hold_deformation(law: &Deformation, volume: &Volume, grains: &Particles) -> Result<(), SimError> {
+    let axes = law.strain_rate.map(Frequency::si).into_iter().zip(volume.repeats()).zip(AXES);
+    if let Some((_, axis)) = axes.into_iter().find(|((rate, repeats), _)| *rate != 0.0 && !repeats) {
+        return Err(SimError::DeformsOpenSpace(axis));
+    }
+    let solid = volume_of_spheres(grains.radius.iter().copied());
+    match law.solid_fraction.filter(|_| law.end(volume.volume(), solid).is_none()) {
+        Some(wanted) => Err(SimError::DeformsAway { now: solid / volume.volume(), wanted }),
+        None => Ok(()),
+    }
 }
