@@ -5,6 +5,7 @@ import re
 
 import agglo
 import agglo._html
+import agglo._plots
 import agglo._search_plots
 import numpy as np
 import pytest
@@ -22,6 +23,11 @@ def no_window():
 
 def lines(axes):
     return {line.get_label(): line for line in axes.lines}
+
+
+def test_charts_leave_out_no_energy(soft):  # noqa: F811
+    shown = set(agglo._plots._STORES) | set(agglo._plots._FLOWS)
+    assert shown == {column for column in soft.table("energy") if column.endswith("_J")}
 
 
 def test_charts_show_the_tables(soft, hard, tmp_path):  # noqa: F811
