@@ -5,11 +5,13 @@ use std::ops::Range;
 use super::blocks::Slot;
 use super::given::{Given, ends, rows, scalars, vectors};
 use super::memory::{SLIDES, TOUCHES};
+use super::record::Record;
 use super::touch::Touch;
 use super::touching::Touching;
 use super::world::{ContactRates, ContactWorld, Passage};
+use crate::contact::bond::StrainBond;
 use crate::contact::friction::{Sliding, TangentialSpring};
-use crate::contact::{Along, PairConstants};
+use crate::contact::{Along, ContactGeometry, PairConstants, PairTable};
 use crate::math::lanes::{Lanes, WIDEST, Work};
 use crate::math::{Real, Vector};
 
@@ -133,12 +135,7 @@ fn contacts<F: Lanes>(
     let apart = given.world.space.shortest(centers[1] - centers[0]);
     let touch = Touch::new(scalars(&place), scalars(&motion), scalars(&spin), apart);
     let Touch { geometry, normal, lever_arms, .. } = &touch;
-    let constants = if let Some(constants) = constants {
-        *constants
-    } else {
-        let material = |end: usize, lane: usize| ends[end][lane].kick[3] as u32;
-        PairConstants::from_lanes(|lane| pairs.of(material(0, lane), material(1, lane)))
-    };
+    let constants = if let Some(constants) = constants { *constants } else { constants_of(pairs, &ends) };
     let (before, kick) = (vectors(&motion), vectors(&rows::<F>(&ends, |of| &of.kick)));
     let (spin_before, twist) = (vectors(&spin), vectors(&rows::<F>(&ends, |of| &of.twist)));
     let velocities = [before[0] + kick[0], before[1] + kick[1]];
@@ -186,9 +183,7 @@ fn contacts<F: Lanes>(
     }
     if let Some(bond) = given.world.bond() {
         repulsion = repulsion - bond.attraction(geometry);
-        let speed = slip.norm();
-        let grip = slip * (bond.tangential(geometry, speed, F::of(*dt)) / speed);
-        tangential += Vector::select(F::of(0.0).below(speed), grip, Vector::default());
+        tangential += grip(bond, geometry, slip, F::of(*dt));
     }
     sums.tangential[part] = sums.tangential[part] + tangential.dot(slip);
     sums.worst_strain[part] = touch.strain.max(sums.worst_strain[part]);
@@ -199,6 +194,21 @@ fn contacts<F: Lanes>(
     }
     let couple = normal.cross(tangential);
     put_down(given, written, touching, first, (force, couple, lever_arms));
+}
+
+/// What the materials of the pairs have in common.
+#[inline(always)]
+fn constants_of<F: Lanes>(pairs: &PairTable, ends: &[[&Record; WIDEST]; 2]) -> PairConstants<F> {
+    let material = |end: usize, lane: usize| ends[end][lane].kick[3] as u32;
+    PairConstants::from_lanes(|lane| pairs.of(material(0, lane), material(1, lane)))
+}
+
+/// How a bond that acts in contact resists slip.
+#[inline(always)]
+fn grip<F: Real>(bond: &StrainBond, geometry: &ContactGeometry<F>, slip: Vector<F>, dt: F) -> Vector<F> {
+    let speed = slip.norm();
+    let grip = slip * (bond.tangential(geometry, speed, dt) / speed);
+    Vector::select(F::of(0.0).below(speed), grip, Vector::default())
 }
 
 /// What friction needs to know that does not go back to the start of the step.
