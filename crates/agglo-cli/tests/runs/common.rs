@@ -22,8 +22,8 @@ pub const STEPS: &str = include_str!("steps.toml");
 pub const SCENARIOS: [(&str, &str); 4] =
     [("staggered", STAGGERED), ("verlet", VERLET), ("events", EVENTS), ("steps", STEPS)];
 
-/// Bytes at the end of a checkpoint that tell the wall time [8] and the checksum [4].
-const AFTER_THE_STATE: usize = 12;
+/// Bytes at the end of a checkpoint that tell the wall time [8], the length of the state [8] and the checksum [4].
+const AFTER_THE_STATE: usize = 20;
 /// The file that the process locks whose folder it is.
 const LOCK: &str = "lock";
 
@@ -378,8 +378,8 @@ pub fn steps(run: &Path) -> u64 {
 /// The simulation's state in a run's newest checkpoint, without the recorder's.
 pub fn state(run: &Path) -> Vec<u8> {
     let file = fs::read(&checkpoints(run).last().unwrap().1).unwrap();
-    // Magic and format [12], the version with its length [1 + n], step and length [16]; see `record/checkpoint.rs`.
-    let payload = &file[12 + 1 + usize::from(file[12]) + 16..];
+    // Magic and format [12], the version with its length [1 + n], step [8]; see `record/checkpoint.rs`.
+    let payload = &file[12 + 1 + usize::from(file[12]) + 8..];
     // The number of the engine's kind stands before the scenario.
     if payload[0] == 0 {
         type Saved = (u8, String, soft::SimulationState<'static>);

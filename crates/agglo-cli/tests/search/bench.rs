@@ -14,8 +14,8 @@ use crate::common::{bytes, command, ended, lasting};
 pub const SCENARIO: &str = include_str!("scenario.toml");
 /// A search over two of its keys.
 pub const SEARCH: &str = include_str!("search.toml");
-/// Bytes at the end of a checkpoint that tell the wall time [8] and the checksum [4].
-const AFTER_THE_STATE: usize = 12;
+/// Bytes at the end of a checkpoint that tell the wall time [8], the length of the state [8] and the checksum [4].
+const AFTER_THE_STATE: usize = 20;
 
 /// A folder with a scenario and a campaign file in it, and the place of the results.
 pub struct Bench {

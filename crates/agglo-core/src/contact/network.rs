@@ -9,7 +9,7 @@ use super::lever_arms;
 use crate::domain::Space;
 use crate::math::{Groups, Pace, Vec3, parallel};
 use crate::neighbors::PairList;
-use crate::particles::{Motion, Particles};
+use crate::particles::{ById, Motion, Particles};
 
 /// Bonds per leaf of the parallel loop.
 const LEAF: usize = 1024;
@@ -19,7 +19,8 @@ const LEAF: usize = 1024;
 pub struct Bond {
     /// Stable names of the grains, the lower first.
     pub ids: [u32; 2],
-    /// Their places.
+    /// Their places; whoever reads a bond from a file works them out from the ids.
+    #[serde(skip)]
     pub grains: [u32; 2],
     /// What the bond remembers.
     pub state: BeamState,
@@ -70,7 +71,7 @@ impl Network {
         if let Some(law) = law {
             let largest = grains.radius.iter().copied().fold(0.0, f64::max);
             let mut list = PairList::default();
-            list.build(space, &grains.position, &grains.radius, 0.0, law.gap * largest);
+            list.build(space, &(&grains.position[..], &grains.radius[..]), 0.0, law.gap * largest);
             for (a, b) in list.pairs() {
                 let (i, j) = (a as usize, b as usize);
                 let distance_squared = space.shortest(grains.position[i] - grains.position[j]).norm_squared();
@@ -93,6 +94,15 @@ impl Network {
             }
             None => Self::bond_neighbors(law, grains, space),
         }
+    }
+
+    /// Bonds whose grains have been given places anew; without those of grains that are not there.
+    pub fn at_places(bonds: Vec<Bond>, places: &ById) -> Vec<Bond> {
+        let placed = bonds.into_iter().filter_map(|bond| {
+            let [a, b] = bond.ids.map(|id| places.find(id));
+            Some(Bond { grains: [a? as u32, b? as u32], ..bond })
+        });
+        placed.collect()
     }
 
     /// Puts saved bonds back.

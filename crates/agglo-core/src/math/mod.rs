@@ -9,6 +9,7 @@ mod prefetch;
 pub mod quadrature;
 mod real;
 pub mod rng;
+mod room;
 pub mod roots;
 mod sum;
 mod vector;
@@ -16,6 +17,7 @@ mod vector;
 pub use groups::Groups;
 pub use pace::Pace;
 pub use real::Real;
+pub use room::{make_room_for, refill};
 pub use sum::{Sum, rounding_of_sum};
 pub use vector::{Vec3, Vector};
 

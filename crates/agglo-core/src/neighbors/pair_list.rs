@@ -1,6 +1,6 @@
 //! Pairs of grains that may come to touch, kept with a skin so that the list serves many steps (Verlet list).
 //!
-//! Pairs stand by owner, partners in rising order, and every grain knows the pairs in which it is the partner,
+//! Pairs stand by owner, partners in rising order; on request every grain knows the pairs in which it is the partner,
 //! also in rising order. Which pairs touch, and the order in which a grain meets them, therefore does not depend
 //! on when the list was built or how thick its skin is.
 
@@ -8,12 +8,14 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::cells::{CellIndex, Sorted, Span};
+use super::cells::{CellIndex, Places, Sorted, Span};
 use crate::domain::Space;
-use crate::math::{Groups, Vec3, parallel};
+use crate::math::{Groups, Vec3, make_room_for, parallel, refill};
 
 /// Grains per task of the search.
 const CHUNK: usize = 1024;
+/// Tasks whose finds are kept aside at a time: enough for many threads, and little beside the list.
+const AT_ONCE: usize = 64;
 
 /// Candidate pairs with a skin.
 #[derive(Debug, Default)]
@@ -24,7 +26,7 @@ pub struct PairList {
     starts: Vec<u32>,
     partners: Vec<u32>,
     owners: Vec<u32>,
-    /// Pairs by their partners.
+    /// Pairs by their partners, where someone asks for them.
     back: Groups,
     reference: Vec<Vec3>,
     space: Space,
@@ -35,48 +37,64 @@ pub struct PairList {
 
 impl PairList {
     /// Lists all pairs whose surfaces are closer than `reach` + `skin` [m] in a space; valid until a grain has moved by half
-    /// the skin.
-    pub fn build(&mut self, space: &Space, positions: &[Vec3], radii: &[f64], reach: f64, skin: f64) {
-        let n = positions.len();
+    /// the skin. All spheres of `spheres` must be there.
+    pub fn build(&mut self, space: &Space, spheres: &(impl Places + Sync), reach: f64, skin: f64) {
+        let n = spheres.slots();
         let margin = reach + skin;
         (self.skin, self.space) = (skin, *space);
-        self.cells.fill(&(positions, radii), &Span::Free(*space), margin);
-        self.found.resize_with(n.div_ceil(CHUNK), Default::default);
-        let cells = &self.cells;
-        self.found.par_iter_mut().enumerate().for_each(|(chunk, (counts, partners))| {
-            counts.clear();
-            partners.clear();
-            for owner in chunk * CHUNK..((chunk + 1) * CHUNK).min(n) {
-                let first = partners.len();
-                let near = radii[owner] + margin;
-                cells.visit_partners(owner as u32, positions[owner], near, &mut |other, _| {
-                    let reach = radii[owner] + radii[other as usize] + margin;
-                    let apart = space.shortest(positions[other as usize] - positions[owner]);
-                    if apart.norm_squared() < reach * reach {
-                        partners.push(other);
-                    }
-                });
-                partners[first..].sort_unstable();
-                counts.push((partners.len() - first) as u32);
-            }
-        });
-        self.starts.clear();
-        self.starts.push(0);
+        self.cells.fill(spheres, &Span::Free(*space), margin);
+        refill(&mut self.starts, n + 1, 0);
         self.partners.clear();
-        for (counts, partners) in &self.found {
+        let chunks = n.div_ceil(CHUNK);
+        self.found.resize_with(chunks.min(AT_ONCE), Default::default);
+        for first in (0..chunks).step_by(AT_ONCE) {
+            let count = AT_ONCE.min(chunks - first);
+            let tasks = &mut self.found[..count];
+            let cells = &self.cells;
+            tasks.par_iter_mut().zip(first..first + count).for_each(|((counts, partners), chunk)| {
+                counts.clear();
+                partners.clear();
+                for owner in chunk * CHUNK..((chunk + 1) * CHUNK).min(n) {
+                    let before = partners.len();
+                    partners_of(owner as u32, spheres, cells, (space, margin), partners);
+                    counts.push((partners.len() - before) as u32);
+                }
+            });
+            self.take_found(first, chunks, n);
+        }
+        refill(&mut self.owners, self.partners.len(), 0);
+        for owner in 0..n {
+            let owned = self.owned(owner);
+            self.owners[owned].fill(owner as u32);
+        }
+        refill(&mut self.reference, n, Vec3::ZERO);
+        self.reference.iter_mut().zip(0..).for_each(|(place, at)| *place = spheres.position(at));
+        self.strayed = 0.0;
+    }
+
+    /// Takes over what the chunks from `first` on found.
+    fn take_found(&mut self, first: usize, chunks: usize, n: usize) {
+        let done = (first + AT_ONCE).min(chunks);
+        let found = &self.found[..done - first];
+        let more: usize = found.iter().map(|(_, partners)| partners.len()).sum();
+        // As many as those so far let expect, so that room need not grow again and again.
+        let expected = (self.partners.len() + more) as f64 * chunks as f64 / done as f64;
+        make_room_for(&mut self.partners, expected.ceil() as usize);
+        let (mut at, mut sum) = (first * CHUNK, self.partners.len() as u32);
+        for (counts, partners) in found {
             for count in counts {
-                self.starts.push(self.starts[self.starts.len() - 1] + count);
+                sum += count;
+                at += 1;
+                self.starts[at] = sum;
             }
             self.partners.extend_from_slice(partners);
         }
-        self.owners.clear();
-        for owner in 0..n {
-            self.owners.resize(self.starts[owner + 1] as usize, owner as u32);
-        }
-        self.back.fill(n, self.partners.iter().copied().zip(0..));
-        self.reference.clear();
-        self.reference.extend_from_slice(positions);
-        self.strayed = 0.0;
+        debug_assert_eq!(at, (done * CHUNK).min(n), "each sphere has a count");
+    }
+
+    /// Works out in which pairs each sphere is the partner, for [`PairList::joined`].
+    pub fn join_back(&mut self) {
+        self.back.fill(self.starts.len().saturating_sub(1), self.partners.iter().copied().zip(0..));
     }
 
     /// Takes note that no sphere has moved by more than this [m].
@@ -90,18 +108,19 @@ impl PairList {
     }
 
     /// Whether it has, by where the spheres are.
-    pub fn holds_for(&mut self, positions: &[Vec3]) -> bool {
-        if self.reference.len() != positions.len() {
+    pub fn holds_for(&mut self, spheres: &(impl Places + Sync)) -> bool {
+        let n = spheres.slots();
+        if self.reference.len() != n {
             return false;
         }
         let (reference, space) = (&self.reference, &self.space);
         let squared = parallel::over(
-            0..positions.len(),
+            0..n,
             4096,
             (),
             &|range: Range<usize>, ()| {
-                let ways = positions[range.clone()].iter().zip(&reference[range]);
-                ways.map(|(now, then)| space.shortest(*now - *then).norm_squared()).fold(0.0, f64::max)
+                let way = |at: usize| space.shortest(spheres.position(at as u32) - reference[at]);
+                range.map(|at| way(at).norm_squared()).fold(0.0, f64::max)
             },
             &f64::max,
         );
@@ -140,7 +159,7 @@ impl PairList {
         self.starts[grain] as usize..self.starts[grain + 1] as usize
     }
 
-    /// The pairs in which a grain is the partner.
+    /// The pairs in which a grain is the partner, after [`PairList::join_back`].
     #[inline]
     pub fn joined(&self, grain: usize) -> &[u32] {
         self.back.of(grain)
@@ -161,6 +180,27 @@ impl PairList {
     pub fn pairs(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
         self.owners.iter().copied().zip(self.partners.iter().copied())
     }
+}
+
+/// Appends the partners of a sphere in rising order.
+#[inline(always)]
+fn partners_of(
+    owner: u32,
+    spheres: &impl Places,
+    cells: &CellIndex<Sorted>,
+    (space, margin): (&Space, f64),
+    partners: &mut Vec<u32>,
+) {
+    let first = partners.len();
+    let (place, near) = (spheres.position(owner), spheres.radius(owner) + margin);
+    cells.visit_partners(owner, place, near, &mut |other, _| {
+        let reach = near + spheres.radius(other);
+        let apart = space.shortest(spheres.position(other) - place);
+        if apart.norm_squared() < reach * reach {
+            partners.push(other);
+        }
+    });
+    partners[first..].sort_unstable();
 }
 
 #[cfg(test)]
@@ -193,7 +233,8 @@ mod tests {
         for (spread, ratio) in [(1.0, 1.0), (1.0, 10.0), (200.0, 1.0), (200.0, 30.0), (0.05, 2.0)] {
             let (positions, radii) = cloud(400, spread, ratio);
             let mut list = PairList::default();
-            list.build(&Space::OPEN, &positions, &radii, 0.0, 0.02);
+            list.build(&Space::OPEN, &(&positions[..], &radii[..]), 0.0, 0.02);
+            list.join_back();
             let mut pairs: Vec<(u32, u32)> = list.pairs().map(|(a, b)| (a.min(b), a.max(b))).collect();
             pairs.sort_unstable();
             assert_eq!(pairs, brute(&positions, &radii, 0.02), "spread {spread}, ratio {ratio}");
@@ -221,7 +262,7 @@ mod tests {
                 .collect();
             let radii: Vec<f64> = (0..200).map(|_| 0.07 * 0.1_f64.powf(stream.uniform())).collect();
             let mut list = PairList::default();
-            list.build(&space, &positions, &radii, 0.0, 0.01);
+            list.build(&space, &(&positions[..], &radii[..]), 0.0, 0.01);
             let mut pairs: Vec<(u32, u32)> = list.pairs().map(|(a, b)| (a.min(b), a.max(b))).collect();
             pairs.sort_unstable();
             let mut wanted = Vec::new();
@@ -241,10 +282,10 @@ mod tests {
     fn holds_until_half_the_skin() {
         let (mut positions, radii) = cloud(50, 1.0, 1.0);
         let mut list = PairList::default();
-        list.build(&Space::OPEN, &positions, &radii, 0.0, 0.02);
+        list.build(&Space::OPEN, &(&positions[..], &radii[..]), 0.0, 0.02);
         positions[7].x += 0.0099;
         assert_true!(
-            list.holds_for(&positions) && list.holds(),
+            list.holds_for(&(&positions[..], &radii[..])) && list.holds(),
             "no grain has come nearer than the list allows for"
         );
         // Ways that were noted are added to what was seen, 0.0099.
@@ -252,8 +293,11 @@ mod tests {
         assert_true!(list.holds(), "it is 0.00999 at most");
         list.note_way(0.00002);
         assert_false!(list.holds(), "it may be 0.01001");
-        assert_true!(list.holds_for(&positions) && list.holds(), "seen again it is not");
+        assert_true!(list.holds_for(&(&positions[..], &radii[..])) && list.holds(), "seen again it is not");
         positions[7].x += 0.0002;
-        assert_false!(list.holds_for(&positions), "no grain has come nearer than the list allows for");
+        assert_false!(
+            list.holds_for(&(&positions[..], &radii[..])),
+            "no grain has come nearer than the list allows for"
+        );
     }
 }

@@ -24,7 +24,7 @@ pub fn move_apart(places: &mut [Vec3], radii: &[f64], masses: &[f64]) {
     let largest = radii.iter().copied().fold(0.0, f64::max);
     let mut list = PairList::default();
     for _ in 0..ROUNDS {
-        list.build(&Space::OPEN, places, radii, 0.0, CLEARANCE * largest);
+        list.build(&Space::OPEN, &(&*places, radii), 0.0, CLEARANCE * largest);
         let mut is_clear = true;
         for (a, b) in list.pairs() {
             let (i, j) = (a as usize, b as usize);
@@ -58,7 +58,7 @@ pub fn move_apart(places: &mut [Vec3], radii: &[f64], masses: &[f64]) {
 /// ```
 pub fn least_spread(places: &[Vec3], radii: &[f64]) -> f64 {
     let mut list = PairList::default();
-    list.build(&Space::OPEN, places, radii, 0.0, CLEARANCE * radii.iter().copied().fold(0.0, f64::max));
+    list.build(&Space::OPEN, &(places, radii), 0.0, CLEARANCE * radii.iter().copied().fold(0.0, f64::max));
     let factor = |(a, b): (u32, u32)| {
         let (i, j) = (a as usize, b as usize);
         let (apart, touching) = ((places[i] - places[j]).norm(), radii[i] + radii[j]);

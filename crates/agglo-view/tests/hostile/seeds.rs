@@ -97,12 +97,13 @@ pub fn make(place: &Path) {
 /// A checkpoint with the length of its payload and its checksum put right.
 pub fn sealed(bytes: &[u8]) -> Vec<u8> {
     let mut bytes = bytes.to_vec();
-    // Magic, format, length of the version, version, step, length of the payload.
-    let length_at = 13 + bytes.get(12).map_or(0, |length| usize::from(*length)) + 8;
-    if bytes.len() < length_at + 12 {
+    // Magic, format, length of the version, version, step before the payload; its length and the checksum behind it.
+    let payload_at = 13 + bytes.get(12).map_or(0, |length| usize::from(*length)) + 8;
+    if bytes.len() < payload_at + 12 {
         return bytes;
     }
-    let length = (bytes.len() - length_at - 12) as u64;
+    let length_at = bytes.len() - 12;
+    let length = (length_at - payload_at) as u64;
     bytes[length_at..length_at + 8].copy_from_slice(&length.to_le_bytes());
     let end = bytes.len() - 4;
     let sum = crc32fast::hash(&bytes[..end]);

@@ -7,18 +7,20 @@
 //! | 4          | version of this format                                           |
 //! | 1, then n  | length and text of the version of the library that wrote it      |
 //! | 8          | step                                                             |
-//! | 8          | length of the payload                                            |
 //! | n          | payload: the state in postcard's encoding                        |
+//! | 8          | length of the payload                                            |
 //! | 4          | CRC-32 of everything before                                      |
 //!
 //! Integers are little-endian. Checkpoints of another version of the library are refused: the payload does not
 //! describe itself, and a run is the same to the last bit only under the same version.
 //!
 //! A checkpoint is written to a temporary file, put onto the disk, and renamed; the newest two are kept. A run that is
-//! killed at any moment leaves the last whole one.
+//! killed at any moment leaves the last whole one. State and file pass by piece by piece: the bytes of a checkpoint are never
+//! in memory beside the state.
 
 use std::fmt;
-use std::io::Write;
+use std::fs::OpenOptions;
+use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
@@ -30,8 +32,12 @@ use crate::folder::{files, names};
 use crate::text::cell;
 
 const MAGIC: &[u8; 8] = b"AGGLO\r\n\x8a";
-const FORMAT: u32 = 5;
+const FORMAT: u32 = 6;
 const VERSION: &str = env!("CARGO_PKG_VERSION");
+/// Bytes after the payload: its length and the checksum.
+const TRAILER: u64 = 12;
+/// The longest text in a state: that of its scenario, with every default written out.
+const LONGEST_TEXT: u64 = 4 * door::MOST_OF_A_TEXT;
 /// Checkpoints that are kept.
 const KEPT: usize = 2;
 
@@ -58,10 +64,18 @@ impl fmt::Display for Refused {
 /// [`RecordError::File`] or [`RecordError::Encode`]; earlier checkpoints are then still there.
 pub fn save<T: Serialize>(dir: &Path, step: u64, state: &T) -> Result<PathBuf, RecordError> {
     let path = dir.join(names::checkpoint(step));
-    let bytes = encode(step, state)
-        .map_err(|error| RecordError::Encode { path: path.clone(), reason: error.to_string() })?;
     atomic::remove_leftovers(dir)?;
-    atomic::write_with(&path, Durability::Power, |file| file.write_all(&bytes))?;
+    let mut failed = None;
+    let written = atomic::write_with(&path, Durability::Power, |file| {
+        encode(file, step, state).inspect_err(|error| {
+            let is_of_the_state = error.kind() == io::ErrorKind::InvalidData;
+            failed = is_of_the_state.then(|| error.to_string());
+        })
+    });
+    if let Some(reason) = failed {
+        return Err(RecordError::Encode { path, reason });
+    }
+    written?;
     let (later, mut earlier): (Vec<_>, Vec<_>) = list(dir)?.into_iter().partition(|found| found.0 > step);
     let superseded = earlier.split_off(KEPT.min(earlier.len()));
     for (_, old) in later.into_iter().chain(superseded) {
@@ -109,8 +123,13 @@ pub fn load<T: DeserializeOwned>(path: &Path) -> Result<T, String> {
 }
 
 fn read<T: DeserializeOwned>(path: &Path) -> Result<(T, u64), String> {
-    let bytes = files::read(path, door::MOST_OF_A_STATE).map_err(|error| error.to_string())?;
-    decode(&bytes)
+    let open = || {
+        let file = files::open(path, OpenOptions::new().read(true))?;
+        let length = door::length(&file, door::MOST_OF_A_STATE)?;
+        Ok((file, length))
+    };
+    let (file, length) = open().map_err(|error: io::Error| error.to_string())?;
+    decode(BufReader::with_capacity(1 << 16, file), length)
 }
 
 /// The checkpoints in `dir`, newest first, whole or not.
@@ -138,58 +157,146 @@ fn list(dir: &Path) -> Result<Vec<(u64, PathBuf)>, RecordError> {
     Ok(found)
 }
 
-fn encode<T: Serialize>(step: u64, state: &T) -> postcard::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    bytes.extend_from_slice(MAGIC);
-    bytes.extend_from_slice(&FORMAT.to_le_bytes());
-    bytes.push(VERSION.len() as u8);
-    bytes.extend_from_slice(VERSION.as_bytes());
-    bytes.extend_from_slice(&step.to_le_bytes());
-    let length_at = bytes.len();
-    bytes.extend_from_slice(&0_u64.to_le_bytes());
-    let payload_at = bytes.len();
-    let mut bytes = postcard::to_extend(state, bytes)?;
-    let length = (bytes.len() - payload_at) as u64;
-    bytes[length_at..payload_at].copy_from_slice(&length.to_le_bytes());
-    let sum = crc32fast::hash(&bytes);
-    bytes.extend_from_slice(&sum.to_le_bytes());
-    Ok(bytes)
+/// What passes by, counted and summed up.
+struct Summed<S> {
+    inner: S,
+    sum: crc32fast::Hasher,
+    count: u64,
+    /// What went wrong below a layer that does not tell.
+    failed: Option<io::Error>,
 }
 
-fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Result<(T, u64), String> {
-    const CUT: &str = "the file is cut short";
-    if bytes.is_empty() {
-        return Err("the file is empty".to_owned());
+impl<S> Summed<S> {
+    fn new(inner: S) -> Self {
+        Self { inner, sum: crc32fast::Hasher::new(), count: 0, failed: None }
     }
-    if !bytes.starts_with(MAGIC) {
-        return Err("not a checkpoint, or its first bytes are damaged".to_owned());
+
+    fn note(&mut self, bytes: &[u8]) {
+        self.sum.update(bytes);
+        self.count += bytes.len() as u64;
     }
-    let (body, sum) = bytes.split_last_chunk::<4>().ok_or(CUT)?;
-    if crc32fast::hash(body) != u32::from_le_bytes(*sum) {
-        return Err("the checksum does not match: the file is damaged or cut short".to_owned());
+
+    /// The failure that has come through postcard as `error`.
+    fn failure(&mut self, error: &postcard::Error) -> io::Error {
+        self.failed.take().unwrap_or_else(|| io::Error::new(io::ErrorKind::InvalidData, error.to_string()))
     }
-    let rest = &body[MAGIC.len()..];
-    let (format, rest) = rest.split_first_chunk::<4>().ok_or(CUT)?;
-    let format = u32::from_le_bytes(*format);
-    if format != FORMAT {
-        return Err(format!("its format is version {format}, this program reads version {FORMAT}"));
+}
+
+impl<W: Write> Write for Summed<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self.inner.write(bytes) {
+            Ok(written) => {
+                self.note(&bytes[..written]);
+                Ok(written)
+            }
+            Err(error) => {
+                // Whoever asks again is told so again by the file.
+                let told = io::Error::from(error.kind());
+                self.failed = Some(error);
+                Err(told)
+            }
+        }
     }
-    let (&length, rest) = rest.split_first().ok_or(CUT)?;
-    let (version, rest) = rest.split_at_checked(length as usize).ok_or(CUT)?;
-    if version != VERSION.as_bytes() {
-        let version = cell(&String::from_utf8_lossy(version));
-        return Err(format!("written by agglo {version}; resume it with that version, this is {VERSION}"));
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.inner.flush()
     }
-    let (step, rest) = rest.split_first_chunk::<8>().ok_or(CUT)?;
-    let (length, payload) = rest.split_first_chunk::<8>().ok_or(CUT)?;
-    if u64::from_le_bytes(*length) != payload.len() as u64 {
+}
+
+impl<R: Read> Read for Summed<R> {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        let count = self.inner.read(bytes)?;
+        self.note(&bytes[..count]);
+        Ok(count)
+    }
+}
+
+/// Writes a checkpoint piece by piece; [`io::ErrorKind::InvalidData`] where the state cannot be put into bytes.
+fn encode<T: Serialize>(out: impl Write, step: u64, state: &T) -> io::Result<()> {
+    let mut out = Summed::new(out);
+    out.write_all(MAGIC)?;
+    out.write_all(&FORMAT.to_le_bytes())?;
+    out.write_all(&[VERSION.len() as u8])?;
+    out.write_all(VERSION.as_bytes())?;
+    out.write_all(&step.to_le_bytes())?;
+    let before = out.count;
+    if let Err(error) = postcard::to_io(state, &mut out) {
+        return Err(out.failure(&error));
+    }
+    let length = out.count - before;
+    out.write_all(&length.to_le_bytes())?;
+    let sum = out.sum.clone().finalize();
+    out.write_all(&sum.to_le_bytes())
+}
+
+/// What stands before the payload.
+struct Heading {
+    step: u64,
+    /// Bytes of it.
+    length: u64,
+}
+
+/// Reads a checkpoint of so many bytes: once to see that it is whole, and once to understand it.
+fn decode<T: DeserializeOwned>(mut file: impl Read + Seek, length: u64) -> Result<(T, u64), String> {
+    let words = |error: io::Error| error.to_string();
+    check_sum(&mut file, length)?;
+    file.seek(SeekFrom::Start(0)).map_err(words)?;
+    let heading = read_heading(&mut file)?;
+    let payload = length.checked_sub(heading.length + TRAILER).ok_or(CUT)?;
+    file.seek(SeekFrom::Start(length - TRAILER)).map_err(words)?;
+    if u64::from_le_bytes(take(&mut file)?) != payload {
         return Err("the payload has another length than it should".to_owned());
     }
-    match postcard::take_from_bytes(payload) {
-        Ok((state, [])) => Ok((state, u64::from_le_bytes(*step))),
+    file.seek(SeekFrom::Start(heading.length)).map_err(words)?;
+    let mut text = vec![0; payload.min(LONGEST_TEXT) as usize];
+    match postcard::from_io((file.take(payload), &mut text[..])) {
+        Ok((state, (rest, _))) if rest.limit() == 0 => Ok((state, heading.step)),
         Ok(_) => Err("the payload holds more than a state".to_owned()),
         Err(error) => Err(format!("the payload cannot be read: {error}")),
     }
+}
+
+const CUT: &str = "the file is cut short";
+
+/// Holds a file to the checksum at its end.
+fn check_sum(file: &mut impl Read, length: u64) -> Result<(), String> {
+    const DAMAGED: &str = "the checksum does not match: the file is damaged or cut short";
+    if length == 0 {
+        return Err("the file is empty".to_owned());
+    }
+    let mut body = Summed::new(file.take(length.saturating_sub(4)));
+    let mut magic = [0; MAGIC.len()];
+    if body.read_exact(&mut magic).is_err() || magic != *MAGIC {
+        return Err("not a checkpoint, or its first bytes are damaged".to_owned());
+    }
+    io::copy(&mut body, &mut io::sink()).map_err(|error| error.to_string())?;
+    let sum = body.sum.finalize();
+    if u32::from_le_bytes(take(body.inner.into_inner())?) == sum { Ok(()) } else { Err(DAMAGED.to_owned()) }
+}
+
+fn read_heading(file: &mut impl Read) -> Result<Heading, String> {
+    let mut file = Summed::new(file);
+    let _: [u8; MAGIC.len()] = take(&mut file)?;
+    let format = u32::from_le_bytes(take(&mut file)?);
+    if format != FORMAT {
+        return Err(format!("its format is version {format}, this program reads version {FORMAT}"));
+    }
+    let [length] = take(&mut file)?;
+    let mut version = vec![0; usize::from(length)];
+    file.read_exact(&mut version).map_err(|_| CUT)?;
+    if version != VERSION.as_bytes() {
+        let version = cell(&String::from_utf8_lossy(&version));
+        return Err(format!("written by agglo {version}; resume it with that version, this is {VERSION}"));
+    }
+    let step = u64::from_le_bytes(take(&mut file)?);
+    Ok(Heading { step, length: file.count })
+}
+
+/// The next bytes.
+fn take<const N: usize>(file: &mut impl Read) -> Result<[u8; N], String> {
+    let mut bytes = [0; N];
+    file.read_exact(&mut bytes).map_err(|_| CUT)?;
+    Ok(bytes)
 }
 
 #[cfg(test)]
@@ -211,6 +318,16 @@ mod tests {
             values: vec![f64::MIN_POSITIVE, -0.0, 1.0 / 3.0],
             names: vec![7; 40],
         }
+    }
+
+    fn bytes_of(step: u64, state: &impl Serialize) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        encode(&mut bytes, step, state).unwrap();
+        bytes
+    }
+
+    fn from_bytes<T: DeserializeOwned>(bytes: &[u8]) -> Result<(T, u64), String> {
+        decode(io::Cursor::new(bytes), bytes.len() as u64)
     }
 
     fn names(dir: &Path) -> Vec<String> {
@@ -284,37 +401,34 @@ mod tests {
     #[test]
     fn other_versions_and_other_states_are_refused() {
         let resealed = |change: &dyn Fn(&mut Vec<u8>)| {
-            let mut bytes = encode(4, &state(4)).unwrap();
+            let mut bytes = bytes_of(4, &state(4));
             bytes.truncate(bytes.len() - 4);
             change(&mut bytes);
             let sum = crc32fast::hash(&bytes);
             bytes.extend_from_slice(&sum.to_le_bytes());
-            decode::<State>(&bytes).unwrap_err()
+            from_bytes::<State>(&bytes).unwrap_err()
         };
         assert_contains!(resealed(&|bytes| bytes[8] = 9), "format is version 9");
         assert_contains!(resealed(&|bytes| bytes[13] = b'7'), "resume it with that version");
         assert_contains!(resealed(&|bytes| bytes[13] = 0x1b), "written by agglo \\u{1b}");
         assert_contains!(resealed(&|bytes| bytes.push(0)), "another length");
-        let other = encode(4, &(state(4), 1_u8)).unwrap();
-        assert_contains!(decode::<State>(&other).unwrap_err(), "more than a state");
-        assert_contains!(
-            decode::<(State, u64)>(&encode(4, &state(4)).unwrap()).unwrap_err(),
-            "cannot be read"
-        );
+        let other = bytes_of(4, &(state(4), 1_u8));
+        assert_contains!(from_bytes::<State>(&other).unwrap_err(), "more than a state");
+        assert_contains!(from_bytes::<(State, u64)>(&bytes_of(4, &state(4))).unwrap_err(), "cannot be read");
     }
 
     /// Every single bit, not a sample: a CRC finds all single-bit errors.
     #[test]
     fn any_flipped_bit_is_refused() {
-        let whole = encode(3, &state(3)).unwrap();
-        assert_eq!(decode(&whole), Ok((state(3), 3)));
+        let whole = bytes_of(3, &state(3));
+        assert_eq!(from_bytes(&whole), Ok((state(3), 3)));
         for bit in 0..8 * whole.len() {
             let mut damaged = whole.clone();
             damaged[bit / 8] ^= 1 << (bit % 8);
-            assert!(decode::<State>(&damaged).is_err(), "bit {bit}");
+            assert!(from_bytes::<State>(&damaged).is_err(), "bit {bit}");
         }
         for length in 0..whole.len() {
-            assert!(decode::<State>(&whole[..length]).is_err(), "cut at {length}");
+            assert!(from_bytes::<State>(&whole[..length]).is_err(), "cut at {length}");
         }
     }
 
@@ -328,15 +442,15 @@ mod tests {
             bit in 0..8_u32,
         ) {
             let state = State { time: 0.0, values, names };
-            let mut bytes = encode(step, &state).unwrap();
-            let (back, back_step) = decode::<State>(&bytes).unwrap();
+            let mut bytes = bytes_of(step, &state);
+            let (back, back_step) = from_bytes::<State>(&bytes).unwrap();
             prop_assert_eq!(back_step, step);
             prop_assert_eq!(back.names, state.names);
             let bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
             prop_assert_eq!(bits(&back.values), bits(&state.values));
             let at = place.index(bytes.len());
             bytes[at] ^= 1 << bit;
-            prop_assert!(decode::<State>(&bytes).is_err());
+            prop_assert!(from_bytes::<State>(&bytes).is_err());
         }
     }
 }

@@ -51,11 +51,17 @@ pub fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
 /// # Errors
 /// What the system says, or that the file is too large.
 pub fn read_all(file: File, most: u64) -> io::Result<Vec<u8>> {
-    let length = file.metadata()?.len();
-    if length > most {
-        return Err(too_large(most));
-    }
+    length(&file, most)?;
     take(file, most)
+}
+
+/// How many bytes an open file has: at most `most`.
+///
+/// # Errors
+/// What the system says, or that it is too large.
+pub fn length(file: &File, most: u64) -> io::Result<u64> {
+    let length = file.metadata()?.len();
+    if length > most { Err(too_large(most)) } else { Ok(length) }
 }
 
 /// The text of a regular file of at most `most` bytes.

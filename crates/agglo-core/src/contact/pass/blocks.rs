@@ -10,7 +10,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use crate::math::{Groups, Vec3};
+use crate::math::{Groups, Vec3, refill};
 use crate::neighbors::PairList;
 
 /// Grains per block.
@@ -41,8 +41,7 @@ impl Blocks {
     /// Gives slots to the grains and pairs of a new list over `n` grains.
     pub fn relist(&mut self, list: &PairList, n: usize) {
         self.ghosts.resize_with(n.div_ceil(BLOCK), Vec::new);
-        self.targets.clear();
-        self.targets.resize(list.len(), 0);
+        refill(&mut self.targets, list.len(), 0);
         let (starts, partners) = (list.starts(), list.partners());
         let mut rest = self.targets.as_mut_slice();
         let mut tasks = Vec::with_capacity(self.ghosts.len());

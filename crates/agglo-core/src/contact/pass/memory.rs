@@ -1,7 +1,7 @@
 //! What contacts remember from step to step, by the pair's number.
 
 use crate::contact::friction::TangentialSpring;
-use crate::math::Vec3;
+use crate::math::{Vec3, refill};
 use crate::neighbors::PairList;
 
 /// One remembered contact, named by its grains: for checkpoints and for lists that are built anew.
@@ -24,18 +24,29 @@ pub(super) struct Memory {
 impl Memory {
     /// Makes room for pairs, of which none touches.
     pub fn resize(&mut self, pairs: usize, with_springs: bool) {
+        refill(&mut self.states, pairs, 0);
+        refill(&mut self.springs, if with_springs { pairs } else { 0 }, [0.0; 4]);
+    }
+
+    /// Leaves nothing but the room.
+    pub fn clear(&mut self) {
         self.states.clear();
-        self.states.resize(pairs, 0);
         self.springs.clear();
-        self.springs.resize(if with_springs { pairs } else { 0 }, [0.0; 4]);
+    }
+
+    /// Adds a touching pair at the end.
+    pub fn push(&mut self, spring: &TangentialSpring, with_springs: bool) {
+        self.states.push(state_of(spring));
+        if with_springs {
+            self.springs.push(row_of(spring));
+        }
     }
 
     /// Puts a touching pair in its place.
     pub fn put(&mut self, pair: usize, spring: &TangentialSpring) {
-        self.states[pair] = TOUCHES | if spring.sliding { SLIDES } else { 0 };
+        self.states[pair] = state_of(spring);
         if let Some(place) = self.springs.get_mut(pair) {
-            let force = spring.force;
-            *place = [force.x, force.y, force.z, spring.stiffness];
+            *place = row_of(spring);
         }
     }
 
@@ -51,4 +62,13 @@ impl Memory {
     pub fn touching<'a>(&'a self, list: &'a PairList) -> impl Iterator<Item = Remembered> + 'a {
         list.pairs().enumerate().filter_map(|(pair, (a, b))| Some((a, b, self.of(pair)?)))
     }
+}
+
+fn state_of(spring: &TangentialSpring) -> u8 {
+    TOUCHES | if spring.sliding { SLIDES } else { 0 }
+}
+
+fn row_of(spring: &TangentialSpring) -> [f64; 4] {
+    let force = spring.force;
+    [force.x, force.y, force.z, spring.stiffness]
 }

@@ -16,7 +16,7 @@ mod world;
 
 pub use energy::{ContactEnergy, contact_energy, contact_pace, deepest_pair};
 pub use memory::Remembered;
-pub use record::Record;
+pub use record::{Centers, Record};
 pub use world::{ContactRates, ContactWorld, Passage, Snapshot};
 
 use std::ops::Range;
@@ -24,7 +24,7 @@ use std::ops::Range;
 use super::ContactLaws;
 use super::friction::TangentialSpring;
 use crate::math::lanes::{Work, widest};
-use crate::math::{Vec3, parallel};
+use crate::math::{Vec3, parallel, refill};
 use crate::neighbors::PairList;
 use batch::{BlockOfContacts, Written};
 use blocks::{Blocks, Slot, grains_of};
@@ -40,6 +40,8 @@ pub struct Contacts {
     trial: Memory,
     /// Committed contacts of pairs that the list left out because a try, not yet accepted, has parted them.
     parted: Vec<Remembered>,
+    /// Grains of the contacts that are set aside in `trial` while a list is built anew.
+    aside: Vec<[u32; 2]>,
 }
 
 /// What a pass writes, cut between blocks.
@@ -60,34 +62,51 @@ impl parallel::Split for Room<'_> {
 }
 
 impl Contacts {
-    /// Makes room for the pairs of a new list over `n` grains and puts the remembered contacts in their new places.
-    pub fn relist(
-        &mut self,
-        list: &PairList,
-        n: usize,
-        remembered: &[Remembered],
-        laws: Option<&ContactLaws>,
-    ) {
-        let with_springs = laws.is_some_and(ContactLaws::has_memory);
-        self.blocks.relist(list, n);
-        self.slots.resize(self.blocks.len(), Slot::default());
-        self.committed.resize(list.len(), with_springs);
-        self.trial.resize(list.len(), with_springs);
-        self.parted.clear();
-        for (a, b, spring) in remembered {
-            let mirrored = TangentialSpring { force: -spring.force, ..*spring };
-            let place = list.find(*a, *b).map(|pair| (pair, *spring));
-            if let Some((pair, spring)) = place.or_else(|| list.find(*b, *a).map(|pair| (pair, mirrored))) {
-                self.committed.put(pair, &spring);
-            } else {
-                self.parted.push((*a, *b, *spring));
-            }
+    /// Sets the committed contacts aside, before the list is built anew; `place` says where a grain comes to. They take the room
+    /// of those that are tried, whose loads must be worked out again.
+    pub fn set_aside(&mut self, list: &PairList, place: impl Fn(u32) -> u32) {
+        let Self { committed, trial, parted, aside, .. } = self;
+        let with_springs = !committed.springs.is_empty();
+        trial.clear();
+        aside.clear();
+        for (a, b, spring) in committed.touching(list).chain(parted.drain(..)) {
+            aside.push([place(a), place(b)]);
+            trial.push(&spring, with_springs);
         }
     }
 
+    /// Sets contacts aside in place of the committed ones.
+    pub fn set_aside_these(&mut self, remembered: &[Remembered]) {
+        self.parted.clear();
+        self.trial.clear();
+        self.aside = remembered.iter().map(|(a, b, _)| [*a, *b]).collect();
+        for (.., spring) in remembered {
+            self.trial.push(spring, true);
+        }
+    }
+
+    /// Makes room for the pairs of a new list over `n` grains and puts the contacts that were set aside in their new places.
+    pub fn relist(&mut self, list: &PairList, n: usize, laws: Option<&ContactLaws>) {
+        let with_springs = laws.is_some_and(ContactLaws::has_memory);
+        self.blocks.relist(list, n);
+        refill(&mut self.slots, self.blocks.len(), Slot::default());
+        self.committed.resize(list.len(), with_springs);
+        for (at, [a, b]) in std::mem::take(&mut self.aside).into_iter().enumerate() {
+            let Some(spring) = self.trial.of(at) else { continue };
+            let mirrored = TangentialSpring { force: -spring.force, ..spring };
+            let place = list.find(a, b).map(|pair| (pair, spring));
+            if let Some((pair, spring)) = place.or_else(|| list.find(b, a).map(|pair| (pair, mirrored))) {
+                self.committed.put(pair, &spring);
+            } else {
+                self.parted.push((a, b, spring));
+            }
+        }
+        self.trial.resize(list.len(), with_springs);
+    }
+
     /// The committed contacts with their memory.
-    pub fn remembered(&self, list: &PairList) -> Vec<Remembered> {
-        self.committed.touching(list).chain(self.parted.iter().copied()).collect()
+    pub fn remembered<'a>(&'a self, list: &'a PairList) -> impl Iterator<Item = Remembered> + 'a {
+        self.committed.touching(list).chain(self.parted.iter().copied())
     }
 
     /// Keeps the memory of the last pass.

@@ -1,6 +1,7 @@
 //! What a step needs of a grain, side by side in memory: it is fetched whole, not from a column each.
 
 use crate::math::Vec3;
+use crate::neighbors::Places;
 use crate::particles::Particles;
 
 /// A grain on its way through a step, in rows of four numbers that lanes are filled from.
@@ -97,5 +98,49 @@ impl Record {
     #[inline(always)]
     pub fn inverses(&self) -> [f64; 2] {
         [self.start[3], self.twist[3]]
+    }
+}
+
+/// Spheres where the step ends.
+impl Places for &[Record] {
+    fn slots(&self) -> usize {
+        self.len()
+    }
+
+    fn indices(&self) -> impl Iterator<Item = u32> + '_ {
+        0..self.len() as u32
+    }
+
+    #[inline(always)]
+    fn position(&self, at: u32) -> Vec3 {
+        vector(&self[at as usize].place)
+    }
+
+    #[inline(always)]
+    fn radius(&self, at: u32) -> f64 {
+        self[at as usize].radius()
+    }
+}
+
+/// Their centers alone.
+#[derive(Clone, Copy)]
+pub struct Centers<'a>(pub &'a [Record]);
+
+impl Places for Centers<'_> {
+    fn slots(&self) -> usize {
+        self.0.len()
+    }
+
+    fn indices(&self) -> impl Iterator<Item = u32> + '_ {
+        self.0.indices()
+    }
+
+    #[inline(always)]
+    fn position(&self, at: u32) -> Vec3 {
+        self.0.position(at)
+    }
+
+    fn radius(&self, _: u32) -> f64 {
+        0.0
     }
 }

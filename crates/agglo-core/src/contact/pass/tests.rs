@@ -94,9 +94,9 @@ fn bits_of_steps(laws: &ContactLaws, bonds: Option<&Bonds>, skin: f64, is_one_by
     let grains = crowd();
     let pairs = PairTable::new(&materials(), &[], Some(laws));
     let mut list = PairList::default();
-    list.build(&Space::OPEN, &grains.position, &grains.radius, laws.reach(), skin);
+    list.build(&Space::OPEN, &(&grains.position[..], &grains.radius[..]), laws.reach(), skin);
     let mut contacts = Contacts::default();
-    contacts.relist(&list, grains.len(), &[], Some(laws));
+    contacts.relist(&list, grains.len(), Some(laws));
     let mut found = Vec::new();
     let mut before = (grains.position.clone(), grains.velocity.clone(), grains.angular_velocity.clone());
     let dt = DT;
@@ -190,9 +190,9 @@ fn loads_are_those_of_all_pairs() {
     for (laws, _) in choices().into_iter().filter(|(laws, _)| !laws.has_memory()) {
         let pairs = PairTable::new(&materials(), &[], Some(&laws));
         let mut list = PairList::default();
-        list.build(&Space::OPEN, &grains.position, &grains.radius, laws.reach(), 1e-7);
+        list.build(&Space::OPEN, &(&grains.position[..], &grains.radius[..]), laws.reach(), 1e-7);
         let mut contacts = Contacts::default();
-        contacts.relist(&list, grains.len(), &[], Some(&laws));
+        contacts.relist(&list, grains.len(), Some(&laws));
         let record = |at: usize| Record::at_start(&grains, at, grains.mass[at]);
         let records: Vec<Record> = (0..grains.len()).map(record).collect();
         let world =
@@ -243,9 +243,9 @@ fn springs_follow_the_mean_motion_of_the_step() {
     }
     let pairs = PairTable::new(&materials(), &[], Some(&laws));
     let mut list = PairList::default();
-    list.build(&Space::OPEN, &grains.position, &grains.radius, 0.0, 1e-7);
+    list.build(&Space::OPEN, &(&grains.position[..], &grains.radius[..]), 0.0, 1e-7);
     let mut contacts = Contacts::default();
-    contacts.relist(&list, 2, &[], Some(&laws));
+    contacts.relist(&list, 2, Some(&laws));
     let mut pass = |velocities: [f64; 2], spins: [f64; 2]| {
         let record = |at: usize| {
             let mut record = Record::at_start(&grains, at, grains.mass[at]);
@@ -260,7 +260,7 @@ fn springs_follow_the_mean_motion_of_the_step() {
             ContactWorld { laws: Some(&laws), bonds: None, pairs: &pairs, list: &list, space: &Space::OPEN };
         contacts.compute(&world, &Passage { records: &records, elapsed: DT, dt: DT });
         contacts.commit();
-        contacts.remembered(&list)[0].2.force
+        contacts.remembered(&list).next().unwrap().2.force
     };
     let loaded = pass([0.1, 0.3], [0.0; 2]);
     let size = 0.5 * 20.0 * 0.2 * DT;

@@ -13,7 +13,8 @@ mod rays;
 #[cfg(test)]
 mod relations_tests;
 mod relax;
-
+mod saved;
+mod saved_contacts;
 mod settings;
 mod simulation;
 mod skin;
@@ -32,8 +33,9 @@ pub use forces::truncation::{Truncation, truncation};
 pub use hook::{Hook, Hooks, Scene};
 pub use rays::{FirstPulse, Pulses, Spheres, Traced, trace};
 pub use relax::{RestWatch, Resting};
+pub use saved::SimulationState;
 pub use settings::{Relaxation, Settings};
-pub use simulation::{Clock, Simulation, SimulationState};
+pub use simulation::{Clock, Simulation};
 pub use system::System;
 pub use types::{Breach, Limits, Scheme, Staggered, Verlet};
 pub use walls::{WallState, refuse_grains_in_walls};

@@ -1,5 +1,6 @@
 //! Pairs of the near field: which they are, and how fast.
 
+use crate::contact::pass::Centers;
 use crate::math::{Pace, Vec3};
 use crate::neighbors::PairList;
 
@@ -41,11 +42,11 @@ impl System {
         })
     }
 
-    /// Lists the pairs of the near field anew, if it has a cut-off, at the trial or the committed positions.
-    pub(super) fn list_near(&mut self, at_trial: bool) {
+    /// Lists the pairs of the near field anew, if it has a cut-off, where the records have the grains.
+    pub(super) fn list_near(&mut self) {
         let Some(cutoff) = self.laws.fields.near_field.as_ref().and_then(|law| law.cutoff) else { return };
-        let positions = if at_trial { &self.trial.position } else { &self.grains.position };
         let skin = self.skin.of_near_field(cutoff.si());
-        self.near.build(&self.space, positions, &vec![0.0; self.grains.len()], cutoff.si(), skin);
+        self.near.build(&self.space, &Centers(&self.records), cutoff.si(), skin);
+        self.near.join_back();
     }
 }

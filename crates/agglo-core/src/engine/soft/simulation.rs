@@ -1,22 +1,16 @@
 //! A simulation of soft spheres: one step after another, with rays, bonds, the ledger and the guards.
 
-use std::borrow::Cow;
-
 use serde::{Deserialize, Serialize};
 
 use crate::contact::Bonds;
-use crate::contact::network::{Bond, BondEvent, Network};
-use crate::contact::pass::Remembered;
-use crate::domain::Image;
+use crate::contact::network::{BondEvent, Network};
 use crate::engine::{Moment, SimError, Start, Warnings};
-use crate::ledger::{Ledger, Opening, Rates};
+use crate::ledger::{Ledger, Opening};
 use crate::math::rounding_of_sum;
-use crate::particles::Particles;
 
 use super::forces::laws::Laws;
-use super::forces::loads::Loads;
 use super::forces::truncation::Truncation;
-use super::rays::{PulseState, Pulses};
+use super::rays::Pulses;
 use super::settings::Settings;
 use super::step::change::Change;
 use super::step::step_size::{self, Fast, Paces};
@@ -24,10 +18,9 @@ use super::step::tempo::Tempo;
 use super::step::{staggered, verlet};
 use super::system::System;
 use super::types::{Limits, Scheme};
-use super::walls::WallMemory;
 
 /// Steps between two sortings of the grains in space. Counted in steps, so that it is the same after a resume.
-const SORT_EVERY: u64 = 2000;
+pub(super) const SORT_EVERY: u64 = 2000;
 /// Most steps of single grains between two looks from outside.
 const MOST_GRAIN_STEPS: usize = 1 << 22;
 /// Part of the time that whoever asks for a moment may allow for rounding.
@@ -54,38 +47,10 @@ pub struct Clock {
     pub rejected: u64,
 }
 
-/// All that a simulation needs to go on with the same bits; borrowed where it is written, owned where it is read.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct SimulationState<'a> {
-    pub(super) clock: Clock,
-    pub(super) grains: Cow<'a, Particles>,
-    pub(super) images: Cow<'a, [Image]>,
-    pub(super) loads: Cow<'a, Loads>,
-    pub(super) rates: Rates,
-    pub(super) contacts: Vec<Remembered>,
-    pub(super) walls: WallMemory,
-    pub(super) bonds: Vec<Bond>,
-    pub(super) bonds_made_at_start: usize,
-    pub(super) pulses: PulseState,
-    pub(super) ledger: Ledger,
-    pub(super) warnings: Warnings,
-    pub(super) tempo: Option<Tempo>,
-    pub(super) paces: Paces,
-    pub(super) truncation: Option<Truncation>,
-    pub(super) is_hooked: bool,
-}
-
 impl Clock {
     /// Whether a time [s] is reached, or may be but for rounding.
     fn is_near(&self, time: f64) -> bool {
         self.time + self.lag.abs() + ROUND_OFF * self.time >= time
-    }
-}
-
-impl SimulationState<'_> {
-    /// Where the simulation stands in time.
-    pub fn clock(&self) -> &Clock {
-        &self.clock
     }
 }
 
@@ -113,7 +78,7 @@ pub struct Simulation {
     pub truncation: Option<Truncation>,
     /// Steps between two sortings of the grains.
     pub(super) sort_every: u64,
-    end: f64,
+    pub(super) end: f64,
     /// Whether the loads have those of a hook in them.
     pub(super) is_hooked: bool,
 }
@@ -172,74 +137,6 @@ impl Simulation {
             sort_every: SORT_EVERY,
             end: settings.end,
             is_hooked: false,
-        }
-    }
-
-    /// Goes on from a saved state.
-    ///
-    /// # Errors
-    /// [`SimError::Forged`] where the state is none that a run under these settings can have come to; others as
-    /// [`Simulation::start`].
-    pub fn resume<S>(settings: S, state: SimulationState<'_>) -> Result<Self, SimError>
-    where
-        S: TryInto<Settings>,
-        SimError: From<S::Error>,
-    {
-        Self::restored(&settings.try_into()?, state)
-    }
-
-    fn restored(settings: &Settings, state: SimulationState<'_>) -> Result<Self, SimError> {
-        state.validate(settings).map_err(|reason| SimError::Forged { reason })?;
-        let n = state.grains.len();
-        let network = Network::restored(settings.beam(), state.bonds, state.bonds_made_at_start, n);
-        let pulses = Pulses::resume(settings, state.pulses);
-        let grains = state.grains.into_owned();
-        let laws = Laws::new(settings, &grains);
-        let space = (settings.space_in_time(&grains), state.clock.time);
-        let mut system = System::new(grains, laws, network, space);
-        system.images = state.images.into_owned();
-        system.rays_are_impulses = pulses.are_impulses();
-        system.loads = state.loads.into_owned();
-        system.rates = state.rates;
-        system.remember(&state.contacts);
-        system.resume_walls(state.walls, state.clock.time);
-        Ok(Self {
-            tempo: state.tempo.map(|tempo| tempo.up_to(settings.longest_step())),
-            truncation: state.truncation,
-            paces: state.paces,
-            system,
-            pulses,
-            ledger: state.ledger,
-            warnings: state.warnings,
-            events: Vec::new(),
-            clock: state.clock,
-            scheme: settings.scheme.clone(),
-            limits: settings.limits.clone(),
-            sort_every: SORT_EVERY,
-            end: settings.end,
-            is_hooked: state.is_hooked,
-        })
-    }
-
-    /// All that is needed to go on with the same bits.
-    pub fn state(&self) -> SimulationState<'_> {
-        SimulationState {
-            clock: self.clock,
-            grains: Cow::Borrowed(&self.system.grains),
-            images: Cow::Borrowed(&self.system.images),
-            loads: Cow::Borrowed(&self.system.loads),
-            rates: self.system.rates,
-            contacts: self.system.remembered(),
-            walls: self.system.wall_memory(),
-            bonds: self.system.network.bonds().to_vec(),
-            bonds_made_at_start: self.system.network.made_at_start(),
-            pulses: self.pulses.state(),
-            ledger: self.ledger.clone(),
-            warnings: self.warnings.clone(),
-            tempo: self.tempo,
-            truncation: self.truncation,
-            paces: self.paces,
-            is_hooked: self.is_hooked,
         }
     }
 
@@ -463,7 +360,7 @@ impl Simulation {
             stored: self.stored_energy(),
             momentum: self.momentum(),
             momentum_size: self.momentum_size(),
-            mass: self.system.grains.mass.iter().sum(),
+            mass: self.total_mass(),
         };
         self.ledger = Ledger::of_soft(start, self.system.grains.len());
         for warning in self.system.laws.standing_warnings() {

@@ -39,6 +39,11 @@ impl Simulation {
         }
     }
 
+    /// Mass of all grains [kg].
+    pub(super) fn total_mass(&self) -> f64 {
+        self.sum(|at| self.system.grains.mass[at], |a, b| a + b, 0.0)
+    }
+
     /// Linear and angular momentum.
     pub fn momentum(&self) -> Momentum {
         let system = &self.system;

@@ -4,7 +4,9 @@ use std::ops::Range;
 
 use crate::contact::ContactLaws;
 use crate::contact::network::{BondEvent, BondRates, Network};
-use crate::contact::pass::{ContactRates, ContactWorld, Contacts, Passage, Record, Remembered, Snapshot};
+use crate::contact::pass::{
+    Centers, ContactRates, ContactWorld, Contacts, Passage, Record, Remembered, Snapshot,
+};
 use crate::domain::{Image, Space, SpaceInTime, Stretch};
 use crate::ledger::{Rates, Supplies};
 use crate::math::{Pace, Vec3, parallel};
@@ -16,6 +18,7 @@ use super::forces::gather::Gather;
 use super::forces::laws::Laws;
 use super::forces::loads::{LoadViews, Loads};
 use super::hook::{Attached, Hook, Scene};
+use super::saved_contacts::SavedContacts;
 use super::skin::Skin;
 use super::step::change::Afloat;
 
@@ -62,7 +65,8 @@ pub struct System {
     pub loads: Loads,
     /// Rates at the last committed step.
     pub rates: Rates,
-    /// Loads of rays, constant over one step: impulses [N s, N m s], or forces where `rays_are_impulses` is false.
+    /// Loads of rays, constant over one step: impulses [N s, N m s], or forces where `rays_are_impulses` is false; empty until a
+    /// ray flies.
     pub ray_loads: Loads,
     /// Whether there is any load of rays in this step.
     pub has_ray_loads: bool,
@@ -105,11 +109,10 @@ impl System {
             *place = space.home(*place).0;
         }
         let inertial_mass: Vec<f64> = (0..n).map(|at| laws.inertial_mass(&grains, at)).collect();
-        let trial = Trial { loads: Loads::none(n), ..Trial::default() };
-        Self {
+        let mut system = Self {
             skin: Skin::new(&grains.radius),
             loads: Loads::none(n),
-            ray_loads: Loads::none(n),
+            ray_loads: Loads::default(),
             has_ray_loads: false,
             rays_are_impulses: true,
             rates: Rates::default(),
@@ -124,12 +127,14 @@ impl System {
             near: PairList::default(),
             laws,
             network,
-            trial,
-            records: records(&grains, &inertial_mass),
+            trial: Trial::default(),
+            records: Vec::new(),
             afloat: None,
             grains,
             inertial_mass,
-        }
+        };
+        system.renew_records();
+        system
     }
 
     /// Space moves on from one time [s] to another; how places follow it.
@@ -140,12 +145,19 @@ impl System {
         self.space_in_time.stretch(from, to)
     }
 
+    /// Puts the records of all grains at the start of a step.
+    fn renew_records(&mut self) {
+        let Self { records, grains, inertial_mass, .. } = self;
+        records.clear();
+        records.extend(inertial_mass.iter().zip(0..).map(|(mass, at)| Record::at_start(grains, at, *mass)));
+    }
+
     /// Puts the grains under other laws, in space that starts anew; bonds stay, and count as made at the start.
     pub fn change_laws(&mut self, laws: Laws, space_in_time: SpaceInTime) {
         self.space_in_time = space_in_time;
         self.move_space(0.0, 0.0);
         self.inertial_mass = (0..self.grains.len()).map(|at| laws.inertial_mass(&self.grains, at)).collect();
-        self.records = records(&self.grains, &self.inertial_mass);
+        self.renew_records();
         self.laws = laws;
         self.walls.count_from_here();
         self.network.count_from_here();
@@ -224,6 +236,7 @@ impl System {
             }
             supplies
         };
+        trial.loads.fit(grains.len());
         let supplies = parallel::over(0..grains.len(), LEAF, trial.loads.views(), &leaf, &|a, b| a + b);
         trial.rates = Rates::new(&trial.contact, trial.bonds, supplies.with_walls(walls.supply()));
     }
@@ -311,8 +324,10 @@ impl System {
     pub fn evaluate_again(&mut self, time: f64, dt: f64) {
         self.list_neighbors();
         self.meet(0.0, time, dt);
+        // Those that there are go, and few schemes try others: one pair of columns is enough.
+        self.trial.loads = std::mem::take(&mut self.loads);
         self.gather(time);
-        std::mem::swap(&mut self.loads, &mut self.trial.loads);
+        self.loads = std::mem::take(&mut self.trial.loads);
         self.rates = self.trial.rates;
         self.network.commit();
         self.contacts.commit_unmoved();
@@ -321,7 +336,7 @@ impl System {
 
     /// Lists the neighbors at the committed motion, so that pairs can be looked at before the first step.
     pub fn list_neighbors(&mut self) {
-        self.records = records(&self.grains, &self.inertial_mass);
+        self.renew_records();
         // Where grains were before is not known.
         self.note_way(f64::INFINITY);
         self.bring_lists_up_to_date();
@@ -379,13 +394,19 @@ impl System {
 
     /// The contacts' memory, by the grains' places.
     pub fn remembered(&self) -> Vec<Remembered> {
-        self.contacts.remembered(&self.list)
+        self.contacts.remembered(&self.list).collect()
     }
 
-    /// Puts back the contacts' memory.
+    /// The same by their ids, without a list of its own.
+    pub(super) fn saved_contacts(&self) -> SavedContacts<'_> {
+        SavedContacts::Kept { contacts: &self.contacts, list: &self.list, ids: &self.grains.id }
+    }
+
+    /// Puts back the contacts' memory, at the committed motion.
     pub fn remember(&mut self, remembered: &[Remembered]) {
-        self.rebuild(false, remembered);
-        self.list_near(false);
+        self.contacts.set_aside_these(remembered);
+        self.rebuild();
+        self.list_near();
     }
 
     fn bring_lists_up_to_date(&mut self) {
@@ -393,23 +414,21 @@ impl System {
         if self.list.holds() && (self.near_list().is_none() || self.near.holds()) {
             return;
         }
-        self.look_at_trial();
-        if !self.list.holds_for(&self.trial.position) {
-            let remembered = self.contacts.remembered(&self.list);
+        if !self.list.holds_for(&&self.records[..]) {
+            self.contacts.set_aside(&self.list, |grain| grain);
             self.skin.adapt(self.list.len(), self.grains.len());
-            self.rebuild(true, &remembered);
+            self.rebuild();
         }
-        if !self.near.holds_for(&self.trial.position) {
-            self.list_near(true);
+        if !self.near.holds_for(&Centers(&self.records)) {
+            self.list_near();
         }
     }
 
-    /// Lists the pairs anew, at the trial or the committed positions.
-    fn rebuild(&mut self, at_trial: bool, remembered: &[Remembered]) {
-        let positions = if at_trial { &self.trial.position } else { &self.grains.position };
+    /// Lists the pairs anew where the records have the grains, with the contacts that were set aside.
+    fn rebuild(&mut self) {
         let reach = self.laws.contact.as_ref().map_or(0.0, ContactLaws::reach);
-        self.list.build(&self.space, positions, &self.grains.radius, reach, self.skin.thickness());
-        self.contacts.relist(&self.list, self.grains.len(), remembered, self.laws.contact.as_ref());
+        self.list.build(&self.space, &&self.records[..], reach, self.skin.thickness());
+        self.contacts.relist(&self.list, self.grains.len(), self.laws.contact.as_ref());
     }
 
     /// Sorts the grains along a space-filling curve; returns the order, or nothing if it is that already.
@@ -427,10 +446,7 @@ impl System {
         for (new, &old) in order.iter().enumerate() {
             place[old as usize] = new as u32;
         }
-        let mut remembered = self.contacts.remembered(&self.list);
-        for (a, b, _) in &mut remembered {
-            (*a, *b) = (place[*a as usize], place[*b as usize]);
-        }
+        self.contacts.set_aside(&self.list, |grain| place[grain as usize]);
         let at_walls = self.walls_remembered_at(&place);
         self.grains.reorder(order);
         if self.space.repeats() {
@@ -439,10 +455,10 @@ impl System {
         self.loads.reorder(order);
         self.ray_loads.reorder(order);
         self.inertial_mass = order.iter().map(|&at| self.inertial_mass[at as usize]).collect();
-        self.records = records(&self.grains, &self.inertial_mass);
+        self.renew_records();
         self.network.reindex(&place);
-        self.rebuild(false, &remembered);
-        self.list_near(false);
+        self.rebuild();
+        self.list_near();
         self.remember_walls(&at_walls, None);
         place
     }
@@ -454,11 +470,6 @@ pub(super) fn bring_home(space: &Space, place: &mut Vec3, image: &mut Image) {
     let (home, out) = space.home(*place);
     *place = home;
     image.iter_mut().zip(out).for_each(|(sum, more)| *sum = sum.saturating_add(more));
-}
-
-/// All grains at the start of a step.
-fn records(grains: &Particles, inertial_mass: &[f64]) -> Vec<Record> {
-    inertial_mass.iter().enumerate().map(|(at, mass)| Record::at_start(grains, at, *mass)).collect()
 }
 
 /// Writes positions [m], velocities [m/s] and angular velocities [rad/s] at the end of the step into columns.

@@ -2,6 +2,7 @@
 //! space.
 
 use super::Simulation;
+use super::saved_contacts::SavedContacts;
 use crate::contact::friction::TangentialSpring;
 use crate::math::Vec3;
 use crate::testing::Scenario;
@@ -46,9 +47,11 @@ fn memory_turns_with_the_mean_of_both_spins() {
     let started = Simulation::start(&scenario, grains).unwrap_or_else(|error| panic!("{error}"));
     let mut state = started.state();
     let [y, z] = [Vec3::AXES[1], Vec3::AXES[2]];
-    let stiffness = state.contacts[0].2.stiffness;
-    state.contacts[0].2 = TangentialSpring { force: y * 1e-3, stiffness, sliding: false };
-    (state.bonds[0].state.shear, state.bonds[0].state.bending) = (y * 2e-3, z * 3e-6);
+    let (a, b, kept) = state.contacts.by_ids()[0];
+    let spring = TangentialSpring { force: y * 1e-3, sliding: false, ..kept };
+    state.contacts = SavedContacts::AtHand(vec![(a, b, spring)]);
+    let bond = &mut state.bonds.to_mut()[0].state;
+    (bond.shear, bond.bending) = (y * 2e-3, z * 3e-6);
     let mut simulation = Simulation::resume(&scenario, state).unwrap_or_else(|error| panic!("{error}"));
     for _ in 0..1000 {
         simulation.step().unwrap_or_else(|error| panic!("{error}"));

@@ -1,7 +1,7 @@
 //! Whether a saved state is one that a run of soft spheres can have come to.
 
+use super::saved::SimulationState;
 use super::settings::Settings;
-use super::simulation::SimulationState;
 use crate::contact::network::Bond;
 use crate::engine::validate::{Fault, MOST_COUNTED, ensure, finite, finite_vectors, length};
 use crate::particles::{ById, Particles};
@@ -9,7 +9,7 @@ use crate::particles::{ById, Particles};
 impl SimulationState<'_> {
     /// # Errors
     /// What is wrong with it.
-    pub(super) fn validate(&self, settings: &Settings) -> Result<(), Fault> {
+    pub(super) fn validate(&self, settings: &Settings, places: &ById) -> Result<(), Fault> {
         let clock = &self.clock;
         finite("clock", clock)?;
         let steps = [clock.step, clock.iterations, clock.rejected];
@@ -18,7 +18,7 @@ impl SimulationState<'_> {
         ensure(times.iter().all(|time| *time >= 0.0), || "clock: a time is below 0".to_owned())?;
         let grains = &*self.grains;
         let n = grains.len();
-        validate_grains(grains, settings)?;
+        validate_grains(grains, places, settings)?;
         let images = if settings.space().repeats() { n } else { 0 };
         length("images", self.images.len(), images)?;
         for (what, loads) in [("forces", &self.loads.force), ("torques", &self.loads.torque)] {
@@ -34,23 +34,27 @@ impl SimulationState<'_> {
         if let Some(tempo) = &self.tempo {
             tempo.validate()?;
         }
-        for (a, b, spring) in &self.contacts {
-            let holds = *a != *b && (*a as usize) < n && (*b as usize) < n;
-            ensure(holds, || format!("contact of {a} and {b} of {n} grains"))?;
+        for (a, b, spring) in &*self.contacts.by_ids() {
+            ensure(a != b && are_there([*a, *b], places), || format!("contact of {a} and {b}"))?;
             finite("contact", spring)?;
         }
-        self.walls.validate(&settings.walls, n)?;
-        validate_bonds(&self.bonds, grains)?;
+        self.walls.validate(&settings.walls, places)?;
+        validate_bonds(&self.bonds, places)?;
         ensure(self.bonds_made_at_start < MOST_COUNTED as usize, || "too many bonds".to_owned())?;
         self.pulses.validate(settings, n)
     }
 }
 
-fn validate_grains(grains: &Particles, settings: &Settings) -> Result<(), Fault> {
+/// Whether there are grains with these ids.
+fn are_there(ids: [u32; 2], places: &ById) -> bool {
+    ids.iter().all(|id| places.find(*id).is_some())
+}
+
+fn validate_grains(grains: &Particles, places: &ById, settings: &Settings) -> Result<(), Fault> {
     let n = grains.len();
     ensure(n > 0, || "there are no grains".to_owned())?;
     grains.validate()?;
-    if let Some(id) = ById::of(&grains.id).twice() {
+    if let Some(id) = places.twice() {
         return Err(format!("grains: two have the id {id}"));
     }
     let materials = settings.materials.len();
@@ -59,12 +63,10 @@ fn validate_grains(grains: &Particles, settings: &Settings) -> Result<(), Fault>
 }
 
 /// Bonds stand in the order of the ids that they join, the lower id first.
-fn validate_bonds(bonds: &[Bond], grains: &Particles) -> Result<(), Fault> {
+fn validate_bonds(bonds: &[Bond], places: &ById) -> Result<(), Fault> {
     for bond in bonds {
         let [a, b] = bond.ids;
-        let places = bond.grains.map(|place| place as usize);
-        let holds = a < b && places.iter().all(|place| *place < grains.len());
-        ensure(holds && places.map(|place| grains.id[place]) == bond.ids, || format!("bond of {a} and {b}"))?;
+        ensure(a < b && are_there(bond.ids, places), || format!("bond of {a} and {b}"))?;
         finite("bond", bond)?;
         ensure(bond.state.length > 0.0 && bond.state.radius > 0.0, || {
             format!("bond of {a} and {b}: its size")

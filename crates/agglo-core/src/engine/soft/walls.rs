@@ -7,7 +7,7 @@ use crate::engine::validate::{Fault, ensure, finite, length};
 use crate::engine::{SimError, SpringAtWall};
 use crate::ledger::Supply;
 use crate::math::{Pace, Vec3};
-use crate::particles::{Motion, Particles};
+use crate::particles::{ById, Motion, Particles};
 use crate::walls::{RememberedAtWall, Wall, WallRates, WallSnapshot, Walls};
 
 use super::forces::laws::Laws;
@@ -18,24 +18,25 @@ use super::types::Breach;
 /// What has to be kept of walls in a saved state; where they are follows from time.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct WallMemory {
+    /// By the ids of the grains.
     contacts: Vec<RememberedAtWall>,
     rates: Vec<WallRates>,
     flows: Vec<Supply>,
 }
 
 impl WallMemory {
-    /// Whether it can be of so many grains and of these walls.
+    /// Whether it can be of grains with these ids and of these walls.
     ///
     /// # Errors
     /// What is wrong with it.
-    pub fn validate(&self, walls: &[Wall], grains: usize) -> Result<(), Fault> {
+    pub fn validate(&self, walls: &[Wall], places: &ById) -> Result<(), Fault> {
         length("walls", self.rates.len(), walls.len())?;
         length("works of walls", self.flows.len(), walls.len())?;
         finite("walls", &(&self.rates, &self.flows))?;
         for (grain, wall, face, spring) in &self.contacts {
             let faces = walls.get(*wall as usize).map_or(0, |wall| wall.shape.faces());
-            ensure((*grain as usize) < grains && *face < faces, || {
-                format!("contact of {grain} of {grains} grains with face {face} of wall {wall}")
+            ensure(places.find(*grain).is_some() && *face < faces, || {
+                format!("contact of {grain} with face {face} of wall {wall}")
             })?;
             finite("contact with a wall", spring)?;
         }
@@ -63,7 +64,7 @@ impl System {
     pub(super) fn wall_memory(&self) -> WallMemory {
         let walls = &self.walls;
         WallMemory {
-            contacts: walls.remembered(),
+            contacts: self.walls_remembered_at(&self.grains.id),
             rates: walls.rates().to_vec(),
             flows: walls.flows().to_vec(),
         }
@@ -91,15 +92,19 @@ impl System {
     }
 
     /// Goes on with what was kept, at a time [s].
-    pub(super) fn resume_walls(&mut self, memory: WallMemory, time: f64) {
+    pub(super) fn resume_walls(&mut self, memory: WallMemory, places: &ById, time: f64) {
         self.walls.resume(memory.rates, memory.flows);
-        self.remember_walls(&memory.contacts, Some(time));
+        let placed = memory
+            .contacts
+            .into_iter()
+            .filter_map(|(grain, wall, face, spring)| Some((places.find(grain)? as u32, wall, face, spring)));
+        self.remember_walls(&placed.collect::<Vec<_>>(), Some(time));
     }
 
-    /// What contacts with walls remember, the grains being at new places.
-    pub(super) fn walls_remembered_at(&self, place: &[u32]) -> Vec<RememberedAtWall> {
+    /// What contacts with walls remember, each grain under the number that it has here: a new place, or its id.
+    pub(super) fn walls_remembered_at(&self, numbers: &[u32]) -> Vec<RememberedAtWall> {
         let moved =
-            |(grain, wall, face, spring): RememberedAtWall| (place[grain as usize], wall, face, spring);
+            |(grain, wall, face, spring): RememberedAtWall| (numbers[grain as usize], wall, face, spring);
         self.walls.remembered().into_iter().map(moved).collect()
     }
 

@@ -21,14 +21,24 @@ impl Loads {
         Self { force: vec![Vec3::ZERO; n], torque: vec![Vec3::ZERO; n] }
     }
 
+    /// Makes room for `n` grains, with no load on any; where there is room for as many, loads stay as they are.
+    pub fn fit(&mut self, n: usize) {
+        if self.force.len() != n {
+            *self = Self::none(n);
+        }
+    }
+
     /// Takes all loads away.
     pub fn clear(&mut self) {
         self.force.fill(Vec3::ZERO);
         self.torque.fill(Vec3::ZERO);
     }
 
-    /// Puts the grains into another order.
+    /// Puts the grains into another order, if there is room for any.
     pub fn reorder(&mut self, order: &[u32]) {
+        if self.force.is_empty() {
+            return;
+        }
         self.force = order.iter().map(|&at| self.force[at as usize]).collect();
         self.torque = order.iter().map(|&at| self.torque[at as usize]).collect();
     }

@@ -278,6 +278,7 @@ impl Pulses {
             return;
         }
         self.state.ray_time = now + dt;
+        system.ray_loads.fit(system.grains.len());
         let before = dropped(self.state.flight.pulses());
         let mut absorbed_power = std::mem::take(&mut system.grains.absorbed_power);
         let (grains, loads, hit_grains) = (&system.grains, &mut system.ray_loads, &mut self.hit_grains);

@@ -41,12 +41,20 @@ impl System {
         let from_start = ahead == Ahead::AsAtStart;
         let at_time = if from_start { time } else { time + dt };
         let has_response = laws.has_response();
-        let views = (trial.loads.views(), &mut records[..]);
-        let leaf = |range: Range<usize>, (end, records): (LoadViews<'_>, &mut [Record])| {
+        // Loads at the end are there where they are taken, or brought along.
+        let is_ended = has_response || !from_start;
+        if is_ended {
+            trial.loads.fit(grains.len());
+        }
+        let views = (is_ended.then(|| trial.loads.views()), &mut records[..]);
+        let leaf = |range: Range<usize>, (mut end, records): (Option<LoadViews<'_>>, &mut [Record])| {
             let (mut change, mut correction) = (Change::default(), Correction::default());
             for (slot, grain) in range.enumerate() {
                 let start = (loads.force[grain], loads.torque[grain]);
-                let mut ahead = if from_start { start } else { (end.force[slot], end.torque[slot]) };
+                let mut ahead = match &end {
+                    Some(end) if !from_start => (end.force[slot], end.torque[slot]),
+                    _ => start,
+                };
                 let mut force = ahead.0 * phi + start.0 * (1.0 - phi);
                 let mut torque = ahead.1 * phi + start.1 * (1.0 - phi);
                 if let Some(scale) = ray_scale {
@@ -71,7 +79,9 @@ impl System {
                     let solved = response.solved(explicit, (velocity_now, spin_now), parts);
                     (kick, twist) = (solved.velocity - velocity, solved.angular_velocity - spin);
                     solved.correct(&mut ahead, position, &mut correction);
-                    (end.force[slot], end.torque[slot]) = ahead;
+                    if let Some(end) = &mut end {
+                        (end.force[slot], end.torque[slot]) = ahead;
+                    }
                     let flow = laws.flow_change([(place, time), (position, at_time)]);
                     correction.bend += response.bend((kick, twist), flow);
                 }

@@ -84,6 +84,7 @@ fn rays_push_and_turn_each_grain() {
         let mut system = row(3, usize::MAX);
         for grain in 0..3 {
             let share = grain as f64 / if are_impulses { 1.0 } else { dt };
+            system.ray_loads.fit(system.grains.len());
             system.ray_loads.force[grain] = push * share;
             system.ray_loads.torque[grain] = twist * share;
         }
