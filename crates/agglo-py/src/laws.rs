@@ -158,6 +158,7 @@ pub(crate) fn trace<'py>(
     let scalars =
         |of: &dyn Fn(&agglo::acoustics::Hit) -> f64| arrays::scalars(py, found.hits.iter().map(of).collect());
     hits.set_item("sphere", arrays::integers(py, found.hits.iter().map(|hit| hit.grain).collect()))?;
+    hits.set_item("wall", arrays::integers(py, found.hits.iter().map(|hit| hit.wall).collect()))?;
     hits.set_item("point_m", vectors(&|hit| hit.point)?)?;
     hits.set_item("normal", vectors(&|hit| hit.normal)?)?;
     hits.set_item("direction_in", vectors(&|hit| hit.direction_in)?)?;

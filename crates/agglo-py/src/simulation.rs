@@ -341,7 +341,10 @@ pub(crate) fn in_dict<'py>(py: Python<'py>, pulse: &PulseCount) -> PyResult<Boun
     one.set_item("segments", pulse.segments)?;
     one.set_item("power_in_W", pulse.power_in)?;
     one.set_item("power_absorbed_W", pulse.power_absorbed)?;
+    one.set_item("reflections_at_walls", pulse.reflections_at_walls)?;
+    one.set_item("power_into_walls_W", pulse.power_into_walls)?;
     one.set_item("power_escaped_W", pulse.power_escaped)?;
+    one.set_item("power_cut_off_W", pulse.power_cut_off)?;
     Ok(one)
 }
 

@@ -24,18 +24,25 @@ pub struct Ray {
     pub first_power: f64,
     /// Area in the beam [m²].
     pub area: f64,
-    /// Index of the grain hit last; [`NO_SPHERE`] at the start.
+    /// Way that it came on the segments before [m].
+    pub way: f64,
+    /// Index of the grain hit last, [`FIRST_FACE`] and the number of the face of a wall, or [`NO_SPHERE`] at the start.
     pub last_hit: u32,
     /// Bounces so far.
     pub bounces: u32,
     /// Place of its pulse in [`Flight::pulses`].
     pub pulse: u32,
+    /// Its number in the pulse, from 0.
+    pub number: u32,
     /// How far the way is known to be clear; not part of the state.
     #[serde(skip)]
     pub(super) clear: Clear,
 }
 
-/// The books of one pulse. Powers obey in = absorbed + escaped + truncated + in flight.
+/// In [`Ray::last_hit`] faces of walls are counted on from this number.
+pub const FIRST_FACE: u32 = 1 << 31;
+
+/// The books of one pulse. Powers obey in = absorbed + into walls + escaped + truncated + cut off + in flight.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PulseCount {
     /// Number of the beam in the scenario.
@@ -48,17 +55,23 @@ pub struct PulseCount {
     pub rays: u32,
     /// Bounces.
     pub reflections: u64,
+    /// How many of them were at walls.
+    pub reflections_at_walls: u64,
     /// Straight pieces that are finished: bounces and the leaving legs of rays that escaped.
     pub segments: u64,
     /// Power at the start [W].
     pub power_in: f64,
     /// Power that grains took [W].
     pub power_absorbed: f64,
+    /// Power that walls took [W].
+    pub power_into_walls: f64,
     /// Power of rays that left for good [W].
     pub power_escaped: f64,
     /// Power of rays that were dropped [W]: at the truncation, at the largest number of bounces, crushed between grains, or
-    /// inside one at the start.
+    /// inside a grain or a wall at the start.
     pub power_truncated: f64,
+    /// Power of rays that had come as far as rays are followed [W].
+    pub power_cut_off: f64,
     /// Sum of power times direction of the rays that ended, as they were then [W].
     pub flow_ended: Vec3,
     /// Sum of the squared powers of the rays that ended, as they were then [W²].
@@ -67,8 +80,10 @@ pub struct PulseCount {
     pub capped: u32,
     /// Rays that were dropped between grains that closed in on them.
     pub crushed: u32,
-    /// Rays that were dropped at the start, inside a grain.
+    /// Rays that were dropped at the start, inside a grain or a wall.
     pub blocked: u32,
+    /// Rays that had come as far as rays are followed.
+    pub overlong: u32,
     /// Bounces of the ray that bounced most.
     pub longest_chain: u32,
     /// Rays in flight.
@@ -99,6 +114,12 @@ impl Ray {
     pub fn position(&self) -> Vec3 {
         self.origin + self.direction * self.traveled
     }
+
+    /// Number of the face of a wall that it left last.
+    #[inline]
+    pub fn last_face(&self) -> Option<u32> {
+        (self.last_hit >= FIRST_FACE && self.last_hit != NO_SPHERE).then(|| self.last_hit - FIRST_FACE)
+    }
 }
 
 impl Flight {
@@ -118,21 +139,23 @@ impl Flight {
             power_in: starts.iter().map(|start| start.power).sum(),
             ..PulseCount::default()
         });
-        self.rays.extend(starts.iter().map(|start| Ray {
+        self.rays.extend((0..).zip(&starts).map(|(number, start)| Ray {
             origin: start.position,
             direction,
             traveled: 0.0,
             power: start.power,
             first_power: start.power,
             area,
+            way: 0.0,
             last_hit: NO_SPHERE,
             bounces: 0,
             pulse: place,
+            number,
             clear: Clear::default(),
         }));
     }
 
-    /// Rays in flight, those of the earliest pulse first.
+    /// Rays in flight, those of the earliest pulse first, those of one pulse by their numbers.
     pub fn rays(&self) -> &[Ray] {
         &self.rays
     }
@@ -146,7 +169,9 @@ impl Flight {
     pub fn reindex(&mut self, new_index_of_old: &[u32]) {
         for ray in &mut self.rays {
             // A grain that is gone, and "none", stay none.
-            ray.last_hit = new_index_of_old.get(ray.last_hit as usize).copied().unwrap_or(NO_SPHERE);
+            if ray.last_hit < FIRST_FACE {
+                ray.last_hit = new_index_of_old.get(ray.last_hit as usize).copied().unwrap_or(NO_SPHERE);
+            }
             ray.clear = Clear::default();
         }
     }
@@ -183,7 +208,7 @@ impl Flight {
         for (pulse, _) in self.pulses.iter().zip(&counted).filter(|(_, counted)| **counted) {
             power_in += pulse.power_in;
             sum.flow += pulse.flow_ended;
-            sum.magnitude += pulse.power_escaped + pulse.power_truncated;
+            sum.magnitude += pulse.power_escaped + pulse.power_truncated + pulse.power_cut_off;
             sum.squares += pulse.squares_ended;
         }
         self.rays.iter().filter(|ray| counted[ray.pulse as usize]).for_each(|ray| sum.add(ray));

@@ -10,6 +10,10 @@
 //! the ray is outside, is s_x: where it comes out of the ball, if it then leaves faster than β c, else where the tangent of
 //! slope β touches.
 //!
+//! Where space repeats itself the images of the grains go on for ever along some axes. Then what lies along the open axes counts alone: R, b and
+//! s_0 are those of the places there, the ray is slower by the length d of what is left of its direction, and β/d stands for β and s d for s; from
+//! β = d on a ray never ends this way. So it does not where a wall is ahead, off which it comes back.
+//!
 //! # Source
 //! Worked out for this program; the derivation stands above.
 //!
@@ -48,7 +52,7 @@
 //! assert!((ball.exit_distance(Vec3::new(-3.0, 0.0, 0.0), Vec3::AXES[0]) - 5.0).abs() < 1e-8);
 //! ```
 
-use crate::domain::extent;
+use crate::domain::{Space, extent};
 use crate::math::Vec3;
 
 /// By how much of the speed of sound the fastest grain may become faster while a ray is near.
@@ -62,6 +66,8 @@ pub struct Followed {
     center: Vec3,
     radius: f64,
     slope: f64,
+    /// 1 along open axes and 0 along others, where space repeats itself along some.
+    open: Option<Vec3>,
 }
 
 impl Followed {
@@ -72,13 +78,29 @@ impl Followed {
         let center = (lower + upper) * 0.5;
         let reach = |(&position, &radius): (&Vec3, &f64)| (position - center).norm() + radius;
         let radius = positions.iter().zip(radii).map(reach).fold(0.0, f64::max);
-        Self { center, radius: radius * WIDER, slope: ALLOWANCE + mach }
+        Self { center, radius: radius * WIDER, slope: ALLOWANCE + mach, open: None }
+    }
+
+    /// The same in space that may repeat itself: of places and ways only what lies along the open axes counts.
+    pub fn across(space: &Space, positions: &[Vec3], radii: &[f64], mach: f64) -> Self {
+        if !space.repeats() {
+            return Self::of(positions, radii, mach);
+        }
+        let open = Vec3::from([0, 1, 2].map(|axis| f64::from(u8::from(!space.repeats_along(axis)))));
+        let (lower, upper) = extent(positions, radii).unwrap_or_default();
+        let center = along((lower + upper) * 0.5, open);
+        let reach = |(&position, &radius): (&Vec3, &f64)| (along(position, open) - center).norm() + radius;
+        let radius = positions.iter().zip(radii).map(reach).fold(0.0, f64::max);
+        Self { center, radius: radius * WIDER, slope: ALLOWANCE + mach, open: Some(open) }
     }
 
     /// Way [m] from `origin` along the unit vector `direction` from which on no grain can reach the ray; below 0 where that
     /// was so before, infinity where grains are as fast as sound.
     #[inline]
     pub fn exit_distance(&self, origin: Vec3, direction: Vec3) -> f64 {
+        if let Some(open) = self.open {
+            return self.exit_across(along(origin, open), along(direction, open));
+        }
         if self.slope >= 1.0 {
             return f64::INFINITY;
         }
@@ -93,6 +115,21 @@ impl Followed {
             nearest + (self.radius - lagging.sqrt()) / self.slope
         }
     }
+
+    /// The same of what lies along the open axes: there a ray is slower, and a grain seems to come after it faster.
+    fn exit_across(&self, origin: Vec3, direction: Vec3) -> f64 {
+        let speed = direction.norm();
+        if self.slope >= speed {
+            return f64::INFINITY;
+        }
+        let slower = Self { slope: self.slope / speed, open: None, ..*self };
+        slower.exit_distance(origin, direction / speed) / speed
+    }
+}
+
+/// What of a vector lies along axes that have a 1.
+fn along(vector: Vec3, axes: Vec3) -> Vec3 {
+    Vec3::new(vector.x * axes.x, vector.y * axes.y, vector.z * axes.z)
 }
 
 #[cfg(test)]
@@ -101,7 +138,7 @@ mod tests {
     use crate::math::rng::{Purpose, Stream};
 
     fn ball(mach: f64) -> Followed {
-        Followed { center: Vec3::new(1.0, -2.0, 0.5), radius: 1.5, slope: ALLOWANCE + mach }
+        Followed { center: Vec3::new(1.0, -2.0, 0.5), radius: 1.5, slope: ALLOWANCE + mach, open: None }
     }
 
     /// A ray that grazes the ball ends (1 - √(1 - β²))/β radii behind it, β = 0.1 and that of the fastest grain more.
@@ -158,5 +195,31 @@ mod tests {
     fn grains_as_fast_as_sound_keep_every_ray() {
         assert_eq!(ball(0.9).exit_distance(Vec3::ZERO, Vec3::AXES[0]), f64::INFINITY);
         assert_finite!(ball(0.89).exit_distance(Vec3::ZERO, Vec3::AXES[0]));
+    }
+
+    /// A layer of grains from z = -1 to 1 that goes on along x and y: a ray upward leaves where it comes out of it, 1/d_z on, unless it rises
+    /// more slowly than grains could come after it. Along two open axes it is the disc that it has to leave, at a way 1/d longer than in
+    /// the plane.
+    #[test]
+    fn across_faces_only_open_axes_count() {
+        let corner = Vec3::new(5.0, 5.0, 5.0);
+        let space = |axes| Space::repeating([-corner, corner], axes);
+        let (positions, radii) = ([Vec3::new(4.0, -3.0, 0.5), Vec3::new(-1.0, 2.0, -0.5)], [0.5, 0.5]);
+        let layer = Followed::across(&space([true, true, false]), &positions, &radii, 0.0);
+        let origin = Vec3::new(70.0, -3.0, 0.25);
+        for rise in [0.9, 0.3, 0.11] {
+            let direction = Vec3::new((1.0_f64 - rise * rise).sqrt(), 0.0, rise);
+            assert_near!(layer.exit_distance(origin, direction), 0.75 / rise, 1e-7);
+        }
+        assert_eq!(layer.exit_distance(origin, Vec3::new(0.995, 0.0, 0.0999).normalized()), f64::INFINITY);
+        let row = Followed::across(&space([false, false, true]), &positions, &radii, 0.0);
+        let flat = Followed { slope: ALLOWANCE / 0.6, open: None, ..row };
+        let from = Vec3::new(-9.0, 1.0, 33.0);
+        let wanted = flat.exit_distance(Vec3::new(-9.0, 1.0, 0.0), Vec3::AXES[0]) / 0.6;
+        assert_near!(row.exit_distance(from, Vec3::new(0.6, 0.0, 0.8)), wanted, 1e-12);
+        let closed = Followed::across(&space([true; 3]), &positions, &radii, 0.0);
+        assert_eq!(closed.exit_distance(origin, Vec3::AXES[2]), f64::INFINITY);
+        let open = Followed::across(&Space::OPEN, &positions, &radii, 0.2);
+        assert_eq!(open, Followed::of(&positions, &radii, 0.2));
     }
 }

@@ -4,8 +4,11 @@ mod beam;
 mod flight;
 mod follow;
 pub mod fresnel;
+mod hit;
 mod medium;
 pub mod ray_force;
+mod scene;
+mod tally;
 mod tracer;
 mod wavelength;
 
@@ -13,13 +16,15 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use beam::{Beam, Gaussian, Pattern, Profile, Pulses, RayStart, Strength};
-pub use flight::{BeamPower, Flight, PulseCount, Ray};
+pub use flight::{BeamPower, FIRST_FACE, Flight, PulseCount, Ray};
 pub use follow::{ALLOWANCE, Followed};
+pub use hit::{Ends, Hit, NONE, Targets};
 pub use medium::Medium;
 pub use ray_force::{Impedance, Impulse, PublishedStep, RadiationPressure, RayForce};
-pub use tracer::{Ends, Hit, Targets, Tracer};
+pub use tracer::{MOST_PERIODS, Tracer};
 
 use crate::domain::Region;
+use crate::units::Length;
 
 /// The acoustics of a scenario.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -39,6 +44,10 @@ pub struct Acoustics {
     /// the contact needs about y^(-3/4) bounces: 7e5 at 10 nm between grains of 1 m.
     #[serde(default = "most_bounces")]
     pub bounces: u32,
+    /// A ray that has come so far is dropped (and counted apart), at most a million of the shortest edge across which space repeats itself. If
+    /// left out, a thousand of the longest of these edges; where space does not repeat itself, rays end by themselves.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub way: Option<Length>,
     /// The beams.
     pub beams: Vec<Beam>,
 }
@@ -50,6 +59,11 @@ fn most_bounces() -> u32 {
 impl Acoustics {
     /// How its rays end.
     pub fn ends(&self) -> Ends {
-        Ends { region: self.region.clone(), truncation: self.truncation, bounces: self.bounces }
+        Ends {
+            region: self.region.clone(),
+            truncation: self.truncation,
+            bounces: self.bounces,
+            way: self.way.map_or(f64::INFINITY, Length::si),
+        }
     }
 }

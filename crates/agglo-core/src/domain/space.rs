@@ -115,6 +115,42 @@ impl Space {
         )
     }
 
+    /// In which image of the block a place [m] is: how many periods it is away along each axis, a face belonging to what is above it.
+    #[inline]
+    #[must_use]
+    pub fn image_at(&self, place: Vec3) -> Image {
+        let along = |axis: usize| ((place[axis] - self.lower[axis]) * self.per_period[axis]).floor() as i32;
+        [along(0), along(1), along(2)]
+    }
+
+    /// Way [m] from a point of the block to its image.
+    #[inline(always)]
+    #[must_use]
+    pub fn shift_to(&self, [x, y, z]: Image) -> Vec3 {
+        let Vec3 { x: a, y: b, z: c } = self.periods;
+        Vec3::new(a * f64::from(x), b * f64::from(y), c * f64::from(z))
+    }
+
+    /// A place [m] at home and its images about the block, 27 where space repeats itself along all axes.
+    pub fn images_about(&self, place: Vec3) -> impl Iterator<Item = Vec3> {
+        let steps = |axis: usize| if self.repeats_along(axis) { -1..=1 } else { 0..=0 };
+        let [xs, ys, zs] = [0, 1, 2].map(steps);
+        let (space, home) = (*self, self.home(place).0);
+        let images = xs.flat_map(move |x| {
+            let zs = zs.clone();
+            ys.clone().flat_map(move |y| zs.clone().map(move |z| [x, y, z]))
+        });
+        images.map(move |image| home + space.shift_to(image))
+    }
+
+    /// By how many periods two vectors [m] between the same points differ, if they do not differ otherwise.
+    #[inline]
+    #[must_use]
+    pub fn periods_between(&self, from: Vec3, to: Vec3) -> Image {
+        let along = |axis: usize| ((to[axis] - from[axis]) * self.per_period[axis]).round() as i32;
+        [along(0), along(1), along(2)]
+    }
+
     /// The image of a point [m] that lies inside, and through which faces it left. Coordinates that are inside keep their bits; the
     /// lower faces belong to the inside, the upper ones do not. What is not a number stays that: it must be noticed.
     #[inline]

@@ -189,11 +189,17 @@ pub enum SimError {
     /// Walls in a volume that is deformed.
     #[error("walls do not follow volume.deformation: leave out one of the two")]
     WallsInDeformation,
-    /// Rays would have to cross faces.
+    /// Rays would have to follow a space that changes.
     #[error(
-        "rays do not go on across faces across which space repeats itself: let the faces of [volume] be open, or leave acoustics out"
+        "volume.deformation is given beside acoustics, whose rays do not follow it: leave out one of the two"
     )]
-    RaysAcrossFaces,
+    RaysInDeformation,
+    /// Rays would have to end in a region that space repeats.
+    #[error(
+        "acoustics.region is given where space repeats itself, and its images are not known: leave it out, or let the faces of [volume] be \
+         open"
+    )]
+    RegionAcrossFaces,
     /// The observer asked to stop before the clock started.
     #[error("stopped while grains came to rest (start.relax); nothing is kept of that")]
     StoppedAtRest,
@@ -255,6 +261,21 @@ pub enum SimError {
         rays: u32,
         /// Id of one of the grains.
         grain: u32,
+    },
+    /// Rays start inside a wall before any grain has moved.
+    #[error(
+        "{at}: acoustics.beams.{beam}: {rays} rays of its disc start inside the wall \"{wall}\"; move the beam's start to where grains are, \
+         or make its radius smaller"
+    )]
+    BeamInWall {
+        /// The step.
+        at: Moment,
+        /// Number of the beam.
+        beam: u32,
+        /// How many rays.
+        rays: u32,
+        /// Name of the first wall.
+        wall: String,
     },
     /// A beam that the scenario has not.
     #[error("there is no beam {beam}; the scenario has {beams}, numbered from 0")]

@@ -9,6 +9,9 @@
 //!
 //! Source: J. Amanatides and A. Woo, *A fast voxel traversal algorithm for ray tracing*, Eurographics (1987).
 
+mod across;
+#[cfg(test)]
+mod across_tests;
 mod span;
 #[cfg(test)]
 mod tests;
@@ -16,10 +19,13 @@ mod walk;
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use crate::domain::Space;
 use crate::math::Vec3;
+use across::{Around, Piece};
 use span::Sphere;
 use walk::{Cells, Walk};
 
+pub use across::ImageHit;
 pub use span::{NO_SPHERE, RaySpan, SphereHit};
 
 /// Cells per sphere that a new grid aims at; twice as many are allowed for awkward boxes.
@@ -63,6 +69,8 @@ pub struct RayGrid {
     built: Vec<Sphere>,
     builds: u64,
     build: u64,
+    /// What there is besides where space repeats itself.
+    around: Option<Around>,
 }
 
 impl RayGrid {
@@ -80,6 +88,7 @@ impl RayGrid {
             built: Vec::new(),
             builds: 0,
             build: 0,
+            around: None,
         }
     }
 
@@ -98,7 +107,10 @@ impl RayGrid {
         self.builds
     }
 
-    fn is_valid(&self) -> bool {
+    fn is_valid(&mut self) -> bool {
+        if let Some(around) = &mut self.around {
+            return self.builds > 0 && around.follow(&self.spheres, self.margin);
+        }
         self.builds > 0
             && self.spheres.len() == self.built.len()
             && self.spheres.iter().zip(&self.built).all(|(now, then)| {
@@ -124,10 +136,15 @@ impl RayGrid {
         self.margin = MARGIN * mean;
         let mut built = std::mem::take(&mut self.built);
         built.clear();
-        built.extend(self.spheres.iter().map(|&sphere| {
-            let radius = if self.reaches_rays(sphere) { sphere.radius } else { -1.0 };
-            Sphere { radius, ..sphere }
-        }));
+        if let Some(mut around) = self.around.take() {
+            around.images_of(&self.spheres, |image| self.reaches_rays(image), &mut built);
+            self.around = Some(around);
+        } else {
+            built.extend(self.spheres.iter().map(|&sphere| {
+                let radius = if self.reaches_rays(sphere) { sphere.radius } else { -1.0 };
+                Sphere { radius, ..sphere }
+            }));
+        }
         self.built = built;
         self.lay_out(mean * BINNED_MARGIN);
         self.sort_into_cells(mean * BINNED_MARGIN);
@@ -239,6 +256,9 @@ impl RayGrid {
     /// The sphere that a point lies inside, that with the lowest number if there are several; a point on a surface, to nine
     /// digits, is outside.
     pub fn sphere_around(&self, point: Vec3) -> Option<u32> {
+        if let Some(around) = &self.around {
+            return self.image_around(around, point);
+        }
         let direction = Vec3::AXES[0];
         let span = RaySpan { origin: point, direction, from: 0.0, to: 0.0, skip: NO_SPHERE };
         let holds = |number: usize| {
@@ -252,6 +272,9 @@ impl RayGrid {
     /// How far the ray meets none of the spheres, wherever they move while this build of the grid is valid.
     pub fn clear_until(&self, span: &RaySpan) -> Clear {
         let margin = self.margin * (CLEAR_MARGIN / MARGIN);
+        if let Some(around) = &self.around {
+            return self.clear_across(around, span, margin);
+        }
         let ball = |sphere: Sphere| Sphere { radius: sphere.radius + margin, ..sphere };
         let first = self.first(span, |sphere| span.touches(ball(self.built[sphere])));
         let until = first.map_or(span.to, |hit| hit.at);
@@ -309,5 +332,113 @@ impl RayGrid {
             leave = leave.min(a.max(b));
         }
         (enter <= leave).then_some((enter, leave))
+    }
+}
+
+/// Where space repeats itself.
+impl RayGrid {
+    /// An empty grid for rays in space that repeats itself.
+    pub fn across(space: Space) -> Self {
+        let [lower, upper] = space.corners();
+        let along = |axis: usize, face: f64, open: f64| if space.repeats_along(axis) { face } else { open };
+        let corner = |of: Vec3, open: f64| Vec3::from([0, 1, 2].map(|axis| along(axis, of[axis], open)));
+        let grid = Self::new(corner(lower, f64::NEG_INFINITY), corner(upper, f64::INFINITY));
+        Self { around: Some(Around::new(space)), ..grid }
+    }
+
+    /// The nearest image of a sphere that the ray meets, in space that repeats itself; of several at the same distance that of the sphere
+    /// with the lowest number. The span has an end.
+    pub fn nearest_image(&self, span: &RaySpan) -> Option<ImageHit> {
+        let around = self.around.as_ref()?;
+        let left = around.left(span, &self.spheres);
+        let mut best = ImageHit { hit: SphereHit { at: span.to, sphere: NO_SPHERE }, shift: Vec3::ZERO };
+        around.pieces(span, |piece| {
+            let local = self.within(span, piece);
+            self.each_entry(&local, |entry| {
+                let (sphere, image) = around.image_of(entry, piece.image);
+                let shift = around.space().shift_to(image);
+                let moved = RaySpan { origin: span.origin - shift, ..*span };
+                if let Some(at) = moved.meets(self.spheres[sphere as usize])
+                    && (at < best.hit.at || (at == best.hit.at && sphere < best.hit.sphere))
+                    && !(sphere == span.skip && left == Some(image))
+                {
+                    best = ImageHit { hit: SphereHit { at, sphere }, shift };
+                }
+                best.hit.at
+            });
+            best.hit.at
+        });
+        (best.hit.sphere != NO_SPHERE).then_some(best)
+    }
+
+    /// As [`RayGrid::clear_until`], no farther than a period.
+    fn clear_across(&self, around: &Around, span: &RaySpan, margin: f64) -> Clear {
+        let to = span.to.min(span.from + around.space().shortest_period());
+        let span = RaySpan { to, ..*span };
+        let left = around.left(&span, &self.spheres);
+        let mut until = to;
+        around.pieces(&span, |piece| {
+            let local = self.within(&span, piece);
+            let here = RaySpan { from: span.from, to, ..local };
+            self.each_entry(&local, |entry| {
+                let (sphere, image) = around.image_of(entry, piece.image);
+                let built = self.built[entry as usize];
+                let ball = Sphere { radius: built.radius + margin, ..built };
+                if !(sphere == span.skip && left == Some(image))
+                    && let Some(at) = here.touches(ball)
+                {
+                    until = until.min(at);
+                }
+                until
+            });
+            until
+        });
+        Clear { until, build: self.build }
+    }
+
+    /// The sphere that a point lies inside in one of its images.
+    fn image_around(&self, around: &Around, point: Vec3) -> Option<u32> {
+        let span = RaySpan {
+            origin: around.space().home(point).0,
+            direction: Vec3::AXES[0],
+            from: 0.0,
+            to: 0.0,
+            skip: NO_SPHERE,
+        };
+        let mut found = None;
+        self.each_entry(&span, |entry| {
+            let (sphere, image) = around.image_of(entry, [0; 3]);
+            let shift = around.space().shift_to(image);
+            let Sphere { center, radius } = self.spheres[sphere as usize];
+            let radius = radius * (1.0 - 1e-9);
+            if (span.origin - shift - center).norm_squared() < radius * radius {
+                found = Some(found.map_or(sphere, |found: u32| found.min(sphere)));
+            }
+            0.0
+        });
+        found
+    }
+
+    /// A piece of a ray as the grid has it.
+    fn within(&self, span: &RaySpan, piece: &Piece) -> RaySpan {
+        let shift = self.around.as_ref().map_or(Vec3::ZERO, |around| around.space().shift_to(piece.image));
+        RaySpan { origin: span.origin - shift, from: piece.from, to: piece.to, ..*span }
+    }
+
+    /// Shows what the cells along a piece of a ray hold, as far as `visit` says that it matters [m].
+    #[inline]
+    fn each_entry(&self, span: &RaySpan, mut visit: impl FnMut(u32) -> f64) {
+        let Some((enter, leave)) = self.clip(span) else { return };
+        let mut walk = Walk::new(&self.cells, span, enter);
+        let mut most = f64::INFINITY;
+        loop {
+            let (first, last) = (self.starts[walk.cell] as usize, self.starts[walk.cell + 1] as usize);
+            for &entry in &self.entries[first..last] {
+                most = visit(entry);
+            }
+            if walk.next_face() > most.min(leave) || !walk.step() {
+                break;
+            }
+        }
     }
 }

@@ -133,6 +133,12 @@ impl Pose {
             }
     }
 
+    /// A direction as the wall sees it: what it would be if the wall were as it was at time zero.
+    #[inline]
+    pub fn direction_as_at_start(&self, now: Vec3) -> Vec3 {
+        self.turn.map_or(now, |(axis, [sin, cos])| turned(now, axis, [-sin, cos]))
+    }
+
     /// A direction of the wall at time zero, turned with it.
     #[inline]
     pub fn direction(&self, at_start: Vec3) -> Vec3 {

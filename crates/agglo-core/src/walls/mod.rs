@@ -4,6 +4,7 @@ mod contacts;
 mod course;
 mod listed;
 mod meeting;
+mod mirrors;
 mod motion;
 mod shape;
 mod snapshot;
@@ -11,7 +12,8 @@ mod wall;
 
 pub use contacts::{RememberedAtWall, WallContacts, WallRates, WallStep};
 pub use course::Pose;
+pub use mirrors::{AtWall, Mirrors, RayAtWalls};
 pub use motion::{Constant, Motion, OfTime, Oscillating, TimeFormula, Traveling};
-pub use shape::{Cuboid, Cylinder, Near, Opening, Plane, Shape, Side, Sphere, Triangle};
+pub use shape::{Cuboid, Cylinder, Line, Near, Opening, Plane, Shape, Side, Sphere, Triangle};
 pub use snapshot::{WallEnergy, WallSnapshot};
 pub use wall::{Wall, Walls};

@@ -12,6 +12,9 @@
 //! the grain, ℰ = δ/R, and the area of contact is the disc that the wall cuts out of it, π δ (2 R - δ): as if the grain met its mirror
 //! image. P_w is what a moving wall puts in; the ledger books it as `work_walls_J`.
 //!
+//! Rays of sound are reflected at walls as at grains ([`fresnel`](crate::acoustics::fresnel)), with the wall's material; the law of the
+//! rays' force says how they press on them.
+//!
 //! # Source
 //! The limit of unequal spheres: K. L. Johnson, *Contact Mechanics* (1985), section 4.2. Nearest points as in C. Ericson, *Real-Time
 //! Collision Detection* (2005), chapter 5.
@@ -187,6 +190,11 @@ impl Walls {
     /// Name of one.
     pub fn name(&self, wall: usize) -> &str {
         &self.bodies[wall].name
+    }
+
+    /// Numbers of their materials.
+    pub fn materials(&self) -> impl Iterator<Item = u32> + '_ {
+        self.bodies.iter().map(|body| body.material)
     }
 
     /// How many faces one has; none if there is no such wall.

@@ -101,8 +101,10 @@ _BEAM = {"magnitude": "in all", "x": "along x", "y": "along y", "z": "along z"}
 _POWER = {
     "power_in_W": "launched",
     "power_absorbed_W": "absorbed",
+    "power_into_walls_W": "taken up by walls",
     "power_escaped_W": "left",
     "power_truncated_W": "dropped",
+    "power_cut_off_W": "cut off",
 }
 _SOFT = {
     "dispersion": Chart(

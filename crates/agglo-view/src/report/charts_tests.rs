@@ -61,8 +61,10 @@ const SHOWN_SOFT: &[Shown] = &[
         &[
             ("launched", "power_in_W"),
             ("taken up by grains", "power_absorbed_W"),
+            ("taken up by walls", "power_into_walls_W"),
             ("left for good", "power_escaped_W"),
             ("dropped", "power_truncated_W"),
+            ("cut off", "power_cut_off_W"),
         ],
     ),
     (

@@ -4,6 +4,7 @@ use super::counts::{SLOW_FRACTION, asked_fraction, pulses_before};
 use super::push::Push;
 use super::{Plan, hard};
 use crate::acoustics::Beam;
+use crate::domain::Space;
 use crate::math::Vec3;
 use crate::packing::{GrainGroup, Placement};
 use crate::scenario::Scenario;
@@ -100,9 +101,15 @@ fn without_effect(notes: &mut Vec<String>, scenario: &Scenario) {
 /// Beams that miss all grains, reach them too late, or start where grains may be.
 fn aims(notes: &mut Vec<String>, scenario: &Scenario) {
     let (sound, end) = (scenario.medium.sound_speed.si(), scenario.time.end.si());
+    let space = scenario.space();
+    let comes_back = space.repeats() || scenario.soft().is_some_and(|soft| !soft.walls.is_empty());
     for (index, beam) in scenario.acoustics().into_iter().flat_map(|acoustics| &acoustics.beams).enumerate() {
-        let ways: Vec<Option<f64>> = scenario.grains.iter().map(|group| way_to(beam, group)).collect();
+        let ways: Vec<Option<f64>> =
+            scenario.grains.iter().map(|group| way_to(beam, group, &space)).collect();
         let Some(shortest) = ways.iter().copied().flatten().min_by(f64::total_cmp) else {
+            if comes_back {
+                continue;
+            }
             notes.push(format!("beam {index} misses all grains: it passes by or flies away from them"));
             continue;
         };
@@ -118,7 +125,8 @@ fn aims(notes: &mut Vec<String>, scenario: &Scenario) {
             Placement::Lattice(law) => beam.disc().distance_to(&law.region) == 0.0,
             Placement::List(list) => {
                 let reach = group.size.largest() * (1.0 - 1e-9);
-                list.positions.iter().any(|place| beam.disc().distance(vector(*place)) < reach)
+                let images = list.positions.iter().flat_map(|place| space.images_about(vector(*place)));
+                images.into_iter().any(|place| beam.disc().distance(place) < reach)
             }
             Placement::Table(_) | Placement::Fill(_) => false,
         };
@@ -131,17 +139,22 @@ fn aims(notes: &mut Vec<String>, scenario: &Scenario) {
 }
 
 /// Way [m] that a beam's rays fly at least until they meet a grain of a group; 0 where that is not known, none if they miss.
-fn way_to(beam: &Beam, group: &GrainGroup) -> Option<f64> {
+fn way_to(beam: &Beam, group: &GrainGroup, space: &Space) -> Option<f64> {
     let disc = beam.disc();
     let region = match &group.placement {
         Placement::Random(law) => &law.region,
         Placement::Lattice(law) => &law.region,
         Placement::List(list) => {
-            let positions: Vec<Vec3> = list.positions.iter().map(|place| vector(*place)).collect();
+            let images = list.positions.iter().flat_map(|place| space.images_about(vector(*place)));
+            let positions: Vec<Vec3> = images.collect();
             return beam.first_hit(&positions, &vec![group.size.largest(); positions.len()]);
         }
         Placement::Table(_) | Placement::Fill(_) => return Some(0.0),
     };
+    if space.repeats() {
+        // An image of the region may be nearer.
+        return Some(0.0);
+    }
     (disc.distance_of_way_to(region) == 0.0).then(|| disc.distance_to(region))
 }
 

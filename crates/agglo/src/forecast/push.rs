@@ -34,6 +34,8 @@ pub(super) struct Push {
     pub absorbed: f64,
     /// How long its rays fly [s].
     pub flight_s: f64,
+    /// Whether some fly on after that.
+    pub flies_on: bool,
     /// Time on the clock [s] to follow them.
     pub wall_s: f64,
     /// Speeds that it gives the grains [m/s]: in the mean, of the fastest, of their common center.
@@ -107,6 +109,7 @@ impl Push {
             hits: count.reflections as f64 * rays / f64::from(count.rays),
             absorbed: count.power_absorbed / count.power_in,
             flight_s: pulse.flight_s,
+            flies_on: count.in_flight > 0,
             mean_speed: part * speeds().sum::<f64>(),
             fastest: speeds().fold(0.0, f64::max),
             common_speed: common.norm(),
@@ -174,8 +177,9 @@ pub(super) fn describe(plan: &mut Plan, pushes: &[Push]) {
         let Push { beam, power, pressure, .. } = *push;
         row(format!("beam {beam}"), format!("{}, {}", readable(power, "W"), readable(pressure, "Pa")));
         let flight = readable(push.flight_s, "s");
+        let at_least = if push.flies_on { "more than " } else { "" };
         let what = format!(
-            "{} hits, {} % of the power enters grains, rays fly for {flight}",
+            "{} hits, {} % of the power enters grains, rays fly for {at_least}{flight}",
             digits(push.hits.round()),
             digits(100.0 * push.absorbed)
         );

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use crate::acoustics::{Flight, Ray};
+use crate::acoustics::Flight;
 use crate::contact::network::Bond;
 use crate::domain::{Image, Space};
 use crate::folder::names::{self, FRAMES};
@@ -167,10 +167,10 @@ impl Frames {
     }
 
     /// Writes the rays in flight at `time` [s].
-    pub fn rays(&mut self, time: f64, flight: &Flight) -> Result<(), RecordError> {
+    pub fn rays(&mut self, time: f64, flight: &Flight, space: &Space) -> Result<(), RecordError> {
         let name = self.lists.rays.next_name("rays");
         let rays = flight.rays();
-        let positions: Vec<Vec3> = rays.iter().map(Ray::position).collect();
+        let positions: Vec<Vec3> = rays.iter().map(|ray| space.home(ray.position()).0).collect();
         let directions: Vec<Vec3> = rays.iter().map(|ray| ray.direction).collect();
         let powers: Vec<f64> = rays.iter().map(|ray| ray.power).collect();
         let mark = write_rays(&self.folder.frames().join(&name), time, &positions, &directions, &powers)?;

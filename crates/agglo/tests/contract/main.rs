@@ -20,4 +20,5 @@ mod order_of_input;
 mod pairs;
 mod rest;
 mod restart;
+mod sound;
 mod threads;

@@ -3,9 +3,11 @@
 #[macro_use]
 extern crate agglo_testing;
 
+mod across;
 mod ends;
 #[path = "../common/figures.rs"]
 mod figures;
+mod walls;
 
 use std::f64::consts::PI;
 
@@ -23,7 +25,7 @@ use figures::found;
 const CERAMIC: Interface = Interface { impedance_ratio: 18.0, speed_ratio: 1.0 / 3.0, shear_ratio: 0.0 };
 /// Radiation pressure does not depend on what enters.
 const WHATEVER: Impedance = Impedance { sound: 1.0, shear: 0.0 };
-const FOLLOW_ALL: Ends = Ends { region: None, truncation: 0.0, bounces: 10_000_000 };
+const FOLLOW_ALL: Ends = Ends { region: None, truncation: 0.0, bounces: 10_000_000, way: f64::INFINITY };
 
 struct Packing {
     positions: Vec<Vec3>,

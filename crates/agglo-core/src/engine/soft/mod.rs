@@ -31,7 +31,7 @@ pub use forces::laws::Laws;
 pub use forces::loads::{LoadViews, Loads};
 pub use forces::truncation::{Truncation, truncation};
 pub use hook::{Hook, Hooks, Scene};
-pub use rays::{FirstPulse, Pulses, Spheres, Traced, trace};
+pub use rays::{FirstPulse, Pulses, Spheres, Traced, WallSound, trace};
 pub use relax::{RestWatch, Resting};
 pub use saved::SimulationState;
 pub use settings::{Relaxation, Settings};

@@ -315,7 +315,7 @@ impl Simulation {
         let system = &mut self.system;
         system.walls.book(step.phi, step.dt);
         self.ledger.flows.add_step(&system.rates, &system.trial.rates, step.phi, step.dt);
-        let rays = self.pulses.supply(&self.system, step.dt);
+        let rays = self.pulses.book(&self.system, step.dt);
         self.ledger.flows.rays = self.ledger.flows.rays + rays;
     }
 

@@ -3,7 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::surface::{Near, Side, Surface, Triangle, fan, toward, turned_over};
+use super::surface::{
+    Line, Near, Side, Struck, Surface, Triangle, Within, fan, toward, turned_over, upon_plane,
+};
 use crate::law::Faults;
 use crate::math::Vec3;
 use crate::text::told_apart;
@@ -80,6 +82,19 @@ impl Surface for Cuboid {
                 }
             }
         }
+    }
+
+    fn struck(&self, face: u32, line: &Line) -> Option<Struck> {
+        if self.side == Side::Inside {
+            let near = self.nearest(face, line.origin);
+            return upon_plane(line, near.gap, -near.normal);
+        }
+        let mut within = Within::ALL;
+        for (axis, along) in Vec3::AXES.into_iter().enumerate() {
+            let ends = [self.lower[axis].si(), self.upper[axis].si()];
+            within = within.and(Within::slab(line, along, ends, line.origin[axis])?);
+        }
+        within.struck(line, |place| -self.nearest(0, place).normal)
     }
 
     fn middle(&self) -> Vec3 {

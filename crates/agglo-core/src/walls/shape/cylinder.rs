@@ -4,7 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::surface::{
-    ASKEW, Near, Side, Surface, Triangle, circle, direction, fan, radial, strip, turned_over,
+    ASKEW, Line, Near, Side, Struck, Surface, Triangle, Within, circle, direction, fan, radial, strip,
+    turned_over, upon_hollow, upon_plane,
 };
 use crate::law::Faults;
 use crate::math::Vec3;
@@ -91,6 +92,27 @@ impl Surface for Cylinder {
             1 => Near { normal: -axis, gap: along },
             _ => Near { normal: axis, gap: self.length.map_or(f64::INFINITY, Length::si) - along },
         }
+    }
+
+    fn struck(&self, face: u32, line: &Line) -> Option<Struck> {
+        let (axis, offset) = (self.axis(), line.origin - vector(self.point));
+        let across = [offset, line.direction].map(|vector| vector.rejected_from(axis));
+        if self.side == Side::Inside {
+            if face == 0 {
+                return upon_hollow(line, across[0], across[1], self.radius.si());
+            }
+            let near = self.nearest(face, line.origin);
+            return upon_plane(line, near.gap, -near.normal);
+        }
+        let mut within = Within::round(across[0], across[1], self.radius.si())?;
+        if let Some(length) = self.length {
+            within = within.and(Within::slab(line, axis, [0.0, length.si()], offset.dot(axis))?);
+        }
+        within.struck(line, |place| -self.nearest(0, place).normal)
+    }
+
+    fn curves_around(&self, face: u32) -> bool {
+        self.side == Side::Inside && face == 0
     }
 
     fn middle(&self) -> Vec3 {

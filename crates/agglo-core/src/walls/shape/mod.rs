@@ -10,7 +10,7 @@ pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
 pub use plane::{Opening, Plane};
 pub use sphere::Sphere;
-pub use surface::{Near, Side, Surface, Triangle};
+pub use surface::{Line, Near, Side, Struck, Surface, Triangle};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -75,6 +75,22 @@ impl Shape {
     /// How many contacts a grain can have with it at once.
     pub fn faces(&self) -> u32 {
         self.surface().faces()
+    }
+
+    /// Where a line first comes upon a face; see [`Surface::struck`].
+    #[inline]
+    pub fn struck(&self, face: u32, line: &Line) -> Option<Struck> {
+        self.surface().struck(face, line)
+    }
+
+    /// Whether a line that leaves a face can come upon the same face next.
+    pub fn curves_around(&self, face: u32) -> bool {
+        self.surface().curves_around(face)
+    }
+
+    /// On which side of it a point [m] is, where it is thin.
+    pub fn side(&self, point: Vec3) -> Option<f64> {
+        self.surface().side(point)
     }
 
     /// The point [m] that it turns about where none is given.

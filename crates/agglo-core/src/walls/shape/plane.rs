@@ -3,7 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::surface::{ASKEW, Near, Surface, Triangle, circle, direction, fan, strip, toward};
+use super::surface::{
+    ASKEW, Line, Near, Struck, Surface, Triangle, circle, direction, fan, strip, toward, upon_plane,
+};
 use crate::law::Faults;
 use crate::math::Vec3;
 use crate::text::readable;
@@ -71,6 +73,22 @@ impl Surface for Plane {
         }
         let outward = if distance > 0.0 { aside / distance } else { normal.frame().0 };
         toward(outward * (radius - distance) - normal * height, outward)
+    }
+
+    #[inline]
+    fn struck(&self, _: u32, line: &Line) -> Option<Struck> {
+        let normal = self.normal();
+        let height = (line.origin - vector(self.point)).dot(normal);
+        let Some(opening) = &self.opening else { return upon_plane(line, height, normal) };
+        let speed = line.direction.dot(normal);
+        let at = -height / speed;
+        let meets = at >= line.from && at.is_finite();
+        let aside = || (line.at(at) - vector(opening.center)).rejected_from(normal).norm();
+        (meets && aside() >= opening.radius.si()).then(|| Struck { at, normal: normal * -speed.signum() })
+    }
+
+    fn side(&self, point: Vec3) -> Option<f64> {
+        self.opening.as_ref().map(|_| (point - vector(self.point)).dot(self.normal()))
     }
 
     fn middle(&self) -> Vec3 {

@@ -3,7 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::surface::{Near, PIECES, Side, Surface, Triangle, circle, strip, turned_over};
+use super::surface::{
+    Line, Near, PIECES, Side, Struck, Surface, Triangle, Within, circle, strip, turned_over, upon_hollow,
+};
 use crate::law::Faults;
 use crate::math::Vec3;
 use crate::units::{Length, Triple, vector};
@@ -39,6 +41,19 @@ impl Surface for Sphere {
             Side::Inside => Near { normal: outward, gap: self.radius.si() - distance },
             Side::Outside => Near { normal: -outward, gap: distance - self.radius.si() },
         }
+    }
+
+    fn struck(&self, _: u32, line: &Line) -> Option<Struck> {
+        let (offset, radius) = (line.origin - vector(self.center), self.radius.si());
+        match self.side {
+            Side::Inside => upon_hollow(line, offset, line.direction, radius),
+            Side::Outside => Within::round(offset, line.direction, radius)?
+                .struck(line, |place| -self.nearest(0, place).normal),
+        }
+    }
+
+    fn curves_around(&self, _: u32) -> bool {
+        self.side == Side::Inside
     }
 
     fn middle(&self) -> Vec3 {

@@ -19,6 +19,26 @@ pub struct Near {
     pub gap: f64,
 }
 
+/// A straight line along which sound flies, from a distance on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Line {
+    /// Where the distance is 0 [m].
+    pub origin: Vec3,
+    /// Unit vector.
+    pub direction: Vec3,
+    /// Distance [m] from which on it counts.
+    pub from: f64,
+}
+
+/// Where a line comes upon a face from the side where grains are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Struck {
+    /// Distance [m] along the line.
+    pub at: f64,
+    /// Unit vector away from the wall.
+    pub normal: Vec3,
+}
+
 /// Where grains are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -40,6 +60,20 @@ pub trait Surface {
 
     /// The point of a face that is nearest to a point [m].
     fn nearest(&self, face: u32, point: Vec3) -> Near;
+
+    /// Where a line first comes upon a face: at once where it is behind the face already and goes on into the wall, and never where
+    /// it comes out of it.
+    fn struck(&self, face: u32, line: &Line) -> Option<Struck>;
+
+    /// Whether a line that leaves a face can come upon the same face next.
+    fn curves_around(&self, _face: u32) -> bool {
+        false
+    }
+
+    /// On which side of it a point [m] is, where it is thin: a distance [m] with a sign. Nothing where there is a solid behind.
+    fn side(&self, _point: Vec3) -> Option<f64> {
+        None
+    }
 
     /// The point [m] that it turns about where none is given.
     fn middle(&self) -> Vec3;
@@ -73,6 +107,101 @@ pub(super) fn toward(offset: Vec3, fallback: Vec3) -> Near {
 pub(super) fn radial(offset: Vec3, axis: Vec3) -> (Vec3, f64) {
     let distance = offset.norm();
     (if distance > 0.0 { offset / distance } else { axis.frame().0 }, distance)
+}
+
+impl Line {
+    /// A point [m] of it.
+    #[inline]
+    pub fn at(&self, distance: f64) -> Vec3 {
+        self.origin + self.direction * distance
+    }
+}
+
+/// A plane with a solid behind it; `height` [m] is that of the line's origin above it.
+#[inline]
+pub(super) fn upon_plane(line: &Line, height: f64, normal: Vec3) -> Option<Struck> {
+    let toward = -line.direction.dot(normal);
+    (toward > 0.0).then(|| Struck { at: (height / toward).max(line.from), normal })
+}
+
+/// The piece of a line within something convex: where it begins and ends [m], and the normal where it begins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Within {
+    pub enter: f64,
+    pub leave: f64,
+    pub normal: Vec3,
+}
+
+impl Within {
+    /// All of it.
+    pub const ALL: Self = Self { enter: f64::NEG_INFINITY, leave: f64::INFINITY, normal: Vec3::ZERO };
+
+    /// What of it is in something else as well.
+    pub fn and(self, other: Self) -> Self {
+        let first = if other.enter > self.enter { other } else { self };
+        Self { leave: self.leave.min(other.leave), ..first }
+    }
+
+    /// The piece between two planes across a unit vector, whose places along it and that of the line's origin are given [m].
+    pub fn slab(line: &Line, along: Vec3, [low, high]: [f64; 2], origin: f64) -> Option<Self> {
+        let speed = line.direction.dot(along);
+        if speed == 0.0 {
+            return (low <= origin && origin <= high).then_some(Self::ALL);
+        }
+        let (near, far) = if speed > 0.0 { (low, high) } else { (high, low) };
+        let normal = along * -speed.signum();
+        Some(Self { enter: (near - origin) / speed, leave: (far - origin) / speed, normal })
+    }
+
+    /// The piece within a ball, or within a cylinder where the vectors are those across its axis: `origin` [m] seen from the middle.
+    pub fn round(origin: Vec3, direction: Vec3, radius: f64) -> Option<Self> {
+        let square = direction.norm_squared();
+        let beyond = origin.norm_squared() - radius * radius;
+        if square == 0.0 {
+            return (beyond <= 0.0).then_some(Self::ALL);
+        }
+        // Roots without cancellation; the offset form keeps what is far and small exact.
+        let nearest = -origin.dot(direction) / square;
+        let offset = origin + direction * nearest;
+        let half_squared = (radius * radius - offset.norm_squared()) / square;
+        if half_squared < 0.0 {
+            return None;
+        }
+        let half = half_squared.sqrt();
+        let (mut enter, mut leave) = (nearest - half, nearest + half);
+        if nearest > 0.0 {
+            enter = beyond / (square * leave);
+        } else if enter < 0.0 {
+            leave = beyond / (square * enter);
+        }
+        Some(Self { enter, leave, normal: (origin + direction * enter) / radius })
+    }
+
+    /// Where a line comes upon the solid; `outward` is its normal where the line is now, if that is inside.
+    pub fn struck(self, line: &Line, outward: impl FnOnce(Vec3) -> Vec3) -> Option<Struck> {
+        if self.enter > self.leave || self.leave <= line.from {
+            return None;
+        }
+        if self.enter >= line.from {
+            return Some(Struck { at: self.enter, normal: self.normal });
+        }
+        let normal = outward(line.at(line.from));
+        (line.direction.dot(normal) < 0.0).then_some(Struck { at: line.from, normal })
+    }
+}
+
+/// Where a line comes upon a round face from inside; vectors as for [`Within::round`].
+pub(super) fn upon_hollow(line: &Line, origin: Vec3, direction: Vec3, radius: f64) -> Option<Struck> {
+    let square = direction.norm_squared();
+    if square == 0.0 {
+        return None;
+    }
+    // Behind the face a line may miss the hollow: it is where it comes nearest then.
+    let nearest = -origin.dot(direction) / square;
+    let far = Within::round(origin, direction, radius).map_or(nearest, |within| within.leave);
+    let at = far.max(line.from);
+    let outward = (origin + direction * at).normalized();
+    (outward.dot(direction) > 0.0).then_some(Struck { at, normal: -outward })
 }
 
 /// A direction that is one.

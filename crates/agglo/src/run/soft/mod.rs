@@ -162,7 +162,7 @@ impl Job for Soft {
             frames.bonds(self.time(), grains, &system.space, network.bonds())?;
         }
         if self.with_rays && simulation.pulses.scheduled() > 0 {
-            frames.rays(self.time(), simulation.pulses.flight())?;
+            frames.rays(self.time(), simulation.pulses.flight(), &simulation.system.space)?;
         }
         if !simulation.system.laws.walls.is_empty() {
             frames.walls(self.time(), grains, &simulation.system.laws.walls)?;

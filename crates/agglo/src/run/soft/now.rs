@@ -1,7 +1,7 @@
 //! What the tables over time tell of soft spheres, measured at one moment.
 
 use crate::acoustics::{BeamPower, PulseCount};
-use crate::engine::soft::{Clock, Simulation};
+use crate::engine::soft::{Clock, Simulation, WallSound};
 use crate::ledger::{Balance, Momentum};
 use crate::math::Vec3;
 use crate::measure::{ClusterSummary, Moments, mean_nearest_distance, moments};
@@ -103,6 +103,8 @@ pub struct WallNow {
     pub torque: Vec3,
     /// Work [J] that it has put in since the start.
     pub work: f64,
+    /// What rays have given it since the start.
+    pub sound: WallSound,
 }
 
 /// The walls of a simulation now.
@@ -115,5 +117,6 @@ pub fn walls(simulation: &Simulation) -> impl Iterator<Item = WallNow> {
         force: wall.force,
         torque: wall.torque,
         work: wall.work,
+        sound: simulation.pulses.given_to(number as usize),
     })
 }

@@ -181,18 +181,21 @@ fn rays_of_soft_spheres_stand_under_their_names() {
     let mut beam = (latest.0, latest.1, latest.2);
     for ended in &pulses[1..] {
         beam.0 += ended.flow_ended;
-        beam.1 += ended.power_escaped + ended.power_truncated;
+        beam.1 += ended.power_escaped + ended.power_truncated + ended.power_cut_off;
         beam.2 += ended.squares_ended;
     }
     let wanted = [
         ("pulses", 3.0),
         ("in_flight", 7.0),
         ("reflections", sum(|pulse| pulse.reflections as f64)),
+        ("reflections_at_walls", sum(|pulse| pulse.reflections_at_walls as f64)),
         ("segments", sum(|pulse| pulse.segments as f64)),
         ("power_in_W", sum(|pulse| pulse.power_in)),
         ("power_absorbed_W", sum(|pulse| pulse.power_absorbed)),
+        ("power_into_walls_W", sum(|pulse| pulse.power_into_walls)),
         ("power_escaped_W", sum(|pulse| pulse.power_escaped)),
         ("power_truncated_W", sum(|pulse| pulse.power_truncated)),
+        ("power_cut_off_W", sum(|pulse| pulse.power_cut_off)),
         ("beam_x", beam.0.x / power_in),
         ("beam_y", beam.0.y / power_in),
         ("beam_z", beam.0.z / power_in),

@@ -86,6 +86,9 @@ pub struct PulseQuantities {
     pub rays: u64,
     /// Reflections.
     pub reflections: u64,
+    /// How many of them were at walls.
+    #[serde(default)]
+    pub reflections_at_walls: u64,
     /// Straight segments: reflections and the leaving leg of each ray that left.
     pub segments: u64,
     /// Longest chain of reflections of one ray.
@@ -98,12 +101,18 @@ pub struct PulseQuantities {
     /// Power that grains took [W].
     #[serde(rename = "power_absorbed_W")]
     pub power_absorbed: f64,
+    /// Power that walls took [W].
+    #[serde(default, rename = "power_into_walls_W")]
+    pub power_into_walls: f64,
     /// Power of rays that left for good [W].
     #[serde(rename = "power_escaped_W")]
     pub power_escaped: f64,
     /// Power of rays that were dropped [W].
     #[serde(rename = "power_truncated_W")]
     pub power_truncated: f64,
+    /// Power of rays that had come as far as rays are followed [W].
+    #[serde(default, rename = "power_cut_off_W")]
+    pub power_cut_off: f64,
     /// Power times direction of all its rays, those that ended as they were then, over the power launched ([A] 39).
     pub beam_x: f64,
     /// The same along y.
@@ -121,13 +130,16 @@ impl PulseQuantities {
             start_s: count.start_s,
             rays: u64::from(count.rays),
             reflections: count.reflections,
+            reflections_at_walls: count.reflections_at_walls,
             segments: count.segments,
             longest_chain: u64::from(count.longest_chain),
             in_flight: u64::from(count.in_flight),
             power_in: count.power_in,
             power_absorbed: count.power_absorbed,
+            power_into_walls: count.power_into_walls,
             power_escaped: count.power_escaped,
             power_truncated: count.power_truncated,
+            power_cut_off: count.power_cut_off,
             beam_x: left.flow.x,
             beam_y: left.flow.y,
             beam_z: left.flow.z,
@@ -157,27 +169,41 @@ pub struct WallQuantities {
     /// Work [J] that it has put in since the start; negative where grains drove it.
     #[serde(rename = "work_J")]
     pub work: f64,
+    /// Impulse [N s] of the rays that hit it along x, y and z, since the start.
+    #[serde(default, rename = "sound_impulse_N_s")]
+    pub sound_impulse: [f64; 3],
+    /// Energy [J] of sound that went into it since the start.
+    #[serde(default, rename = "sound_energy_J")]
+    pub sound_energy: f64,
 }
 
 impl WallQuantities {
     pub(super) fn of_all(simulation: &Simulation) -> Vec<Self> {
         let states = simulation.system.wall_states(simulation.clock().time);
-        let of = |wall: WallState<'_>| Self {
+        let of = |(number, wall): (usize, WallState<'_>)| Self {
+            sound_impulse: simulation.pulses.given_to(number).impulse.to_array(),
+            sound_energy: simulation.pulses.given_to(number).energy,
             name: wall.name.to_owned(),
             contacts: u64::from(wall.contacts),
             force: wall.force.to_array(),
             torque: wall.torque.to_array(),
             work: wall.work,
         };
-        states.map(of).collect()
+        states.enumerate().map(of).collect()
     }
 
     /// In words.
     pub(super) fn told(&self) -> String {
         let force = Vec3::from(self.force).norm();
         let contacts = if self.contacts == 1 { "contact" } else { "contacts" };
+        let sound = if self.sound_energy > 0.0 || self.sound_impulse != [0.0; 3] {
+            let [impulse, energy] = [Vec3::from(self.sound_impulse).norm(), self.sound_energy];
+            format!("; of sound {} and {}", readable(impulse, "N s"), readable(energy, "J"))
+        } else {
+            String::new()
+        };
         format!(
-            "{} {contacts}, {} on it, {} put in",
+            "{} {contacts}, {} on it, {} put in{sound}",
             self.contacts,
             readable(force, "N"),
             readable(self.work, "J")

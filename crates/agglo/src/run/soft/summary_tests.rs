@@ -58,7 +58,8 @@ fn quantities_of_pulses_stand_under_their_keys() {
     let summary = found();
     assert_eq!(summary.pulses.len(), 3, "pulses");
     for (at, (quantities, count)) in summary.pulses.iter().zip(pulses()).enumerate() {
-        let (mut flow, mut magnitude) = (count.flow_ended, count.power_escaped + count.power_truncated);
+        let ended = count.power_escaped + count.power_truncated + count.power_cut_off;
+        let (mut flow, mut magnitude) = (count.flow_ended, ended);
         for (_, _, direction, _, power) in RAYS.iter().filter(|ray| ray.0 == at) {
             flow += Vec3::from(*direction) * *power;
             magnitude += power;
@@ -67,12 +68,15 @@ fn quantities_of_pulses_stand_under_their_keys() {
             ("start_s", count.start_s),
             ("rays", f64::from(count.rays)),
             ("reflections", count.reflections as f64),
+            ("reflections_at_walls", count.reflections_at_walls as f64),
             ("segments", count.segments as f64),
             ("longest_chain", f64::from(count.longest_chain)),
             ("power_in_W", count.power_in),
             ("power_absorbed_W", count.power_absorbed),
+            ("power_into_walls_W", count.power_into_walls),
             ("power_escaped_W", count.power_escaped),
             ("power_truncated_W", count.power_truncated),
+            ("power_cut_off_W", count.power_cut_off),
             ("beam_x", flow.x / count.power_in),
             ("beam_y", flow.y / count.power_in),
             ("beam_z", flow.z / count.power_in),

@@ -102,11 +102,14 @@ pub static SOUND: Table<Now> = Table { file: names::RAYS, columns: &[
     count("pulses", "pulses", "launched so far", |now: &Now| now.pulses.len() as u64),
     count("in_flight", "rays in flight", "", |now: &Now| now.in_flight).on(&RAYS).glance(7),
     count("reflections", "reflections", "of all pulses so far", |now: &Now| now.count(|pulse| pulse.reflections)).on(&RAYS),
+    count("reflections_at_walls", "reflections at walls", "of all pulses so far; among the reflections", |now: &Now| now.count(|pulse| pulse.reflections_at_walls)),
     count("segments", "segments", "finished straight pieces: reflections and the leaving legs", |now: &Now| now.count(|pulse| pulse.segments)).on(&RAYS),
     number("power_in_W", "W", "launched", "power of all pulses so far", |now: &Now| now.sum(|pulse| pulse.power_in)).on(&POWER),
     number("power_absorbed_W", "W", "taken up by grains", "", |now: &Now| now.sum(|pulse| pulse.power_absorbed)).on(&POWER),
+    number("power_into_walls_W", "W", "taken up by walls", "", |now: &Now| now.sum(|pulse| pulse.power_into_walls)).on(&POWER),
     number("power_escaped_W", "W", "left for good", "", |now: &Now| now.sum(|pulse| pulse.power_escaped)).on(&POWER),
     number("power_truncated_W", "W", "dropped", "", |now: &Now| now.sum(|pulse| pulse.power_truncated)).on(&POWER),
+    number("power_cut_off_W", "W", "cut off", "of rays that had come as far as rays are followed (`acoustics.way`)", |now: &Now| now.sum(|pulse| pulse.power_cut_off)).on(&POWER),
     number("beam_x", "", "beam power along x", "[A] 39: power times direction of all rays of the latest pulse of each beam, over the power of these pulses; rays that left or were dropped count as they were then", |now: &Now| now.beam.flow.x).on(&BEAM),
     number("beam_y", "", "beam power along y", "", |now: &Now| now.beam.flow.y).on(&BEAM),
     number("beam_z", "", "beam power along z", "", |now: &Now| now.beam.flow.z).on(&BEAM),
@@ -142,6 +145,10 @@ pub static WALLS: Table<WallNow> = Table { file: names::WALLS, columns: &[
     number("torque_y_N_m", "N m", "torque on the wall about y", "", |wall: &WallNow| wall.torque.y),
     number("torque_z_N_m", "N m", "torque on the wall about z", "", |wall: &WallNow| wall.torque.z),
     number("work_J", "J", "work of the wall", "that it has put in since the start; negative where grains drive it", |wall: &WallNow| wall.work),
+    number("sound_impulse_x_N_s", "N s", "impulse of sound along x", "of the rays that hit the wall, since the start", |wall: &WallNow| wall.sound.impulse.x),
+    number("sound_impulse_y_N_s", "N s", "impulse of sound along y", "", |wall: &WallNow| wall.sound.impulse.y),
+    number("sound_impulse_z_N_s", "N s", "impulse of sound along z", "", |wall: &WallNow| wall.sound.impulse.z),
+    number("sound_energy_J", "J", "energy of sound", "that went into the wall since the start: power times how long a hit presses", |wall: &WallNow| wall.sound.energy),
 ] };
 
 /// Bonds that broke or were made.

@@ -36,13 +36,14 @@ fn walls_stand_under_their_names() {
     tables.flush().unwrap();
     let text = std::fs::read_to_string(folder.path().join("series/walls.csv")).unwrap();
     let mut lines = text.lines();
-    let head =
-        "time_s,wall,contacts,force_x_N,force_y_N,force_z_N,torque_x_N_m,torque_y_N_m,torque_z_N_m,work_J";
+    let head = "time_s,wall,contacts,force_x_N,force_y_N,force_z_N,torque_x_N_m,torque_y_N_m,torque_z_N_m,work_J,\
+         sound_impulse_x_N_s,sound_impulse_y_N_s,sound_impulse_z_N_s,sound_energy_J";
     assert_eq!(lines.next(), Some(head));
     let rows: Vec<Vec<f64>> =
         lines.map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect()).collect();
     let torque = [1e-3 * 0.2 - 1e-3 * 0.1, 3e-3 * 0.2 - 3e-3 * 0.1];
-    let wanted = [[0.0; 10], [0.0, 1.0, 2.0, 0.0, 0.0, -0.3, torque[0], torque[1], 0.0, 0.0]];
+    let wanted =
+        [[0.0; 14], [0.0, 1.0, 2.0, 0.0, 0.0, -0.3, torque[0], torque[1], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]];
     assert_eq!(rows.len(), wanted.len(), "rows: {rows:?}");
     for (row, wanted) in rows.iter().zip(wanted) {
         for ((found, wanted), name) in row.iter().zip(wanted).zip(head.split(',')) {

@@ -2,22 +2,24 @@
 
 use super::laws::needed;
 use super::{Check, region};
-use crate::acoustics::{Acoustics, Beam, Profile, Strength};
-use crate::domain::Volume;
+use crate::acoustics::{Acoustics, Beam, MOST_PERIODS, Profile, Strength};
+use crate::domain::{Space, Volume};
 use crate::math::Vec3;
 use crate::packing::{Placement, Size};
 use crate::particles::property::SOUND_SPEED;
 use crate::scenario::file::ScenarioFile;
 use crate::text::told_apart;
 use crate::units::vector;
+use crate::walls::{Mirrors, Walls};
 
 pub(super) fn check(check: &mut Check, scenario: &ScenarioFile) {
     let Some(acoustics) = &scenario.acoustics else { return };
     needed(check, scenario, "acoustics", &SOUND_SPEED);
-    let repeats = |volume: &Volume| volume.repeats().contains(&true);
-    if !scenario.engine.is_hard() && scenario.volume.as_ref().is_some_and(repeats) {
-        let message = "rays do not go on across faces across which space repeats itself".to_owned();
-        check.fail_with("acoustics", message, "let the faces of [volume] be open");
+    if let Some(volume) = scenario.volume.as_ref().filter(|_| !scenario.engine.is_hard()) {
+        across_faces(check, acoustics, volume);
+    }
+    if let Some(way) = acoustics.way {
+        check.positive("acoustics.way", way);
     }
     if !(0.0..1.0).contains(&acoustics.truncation) {
         let message = format!("found {}; a number from 0 and below 1 is wanted", acoustics.truncation);
@@ -36,7 +38,32 @@ pub(super) fn check(check: &mut Check, scenario: &ScenarioFile) {
                 inside(check, &key, beam, acoustics);
             }
             in_grains(check, &key, beam, scenario);
+            in_walls(check, &key, beam, scenario);
         }
+    }
+}
+
+/// Where space repeats itself, rays fly on across its faces: not in one that changes meanwhile, nor to the end of a region.
+fn across_faces(check: &mut Check, acoustics: &Acoustics, volume: &Volume) {
+    let space = volume.space();
+    if !space.repeats() {
+        return;
+    }
+    if volume.deformation.is_some() {
+        let message = "is given beside [acoustics], whose rays do not follow it".to_owned();
+        check.fail_with("volume.deformation", message, "leave out one of the two");
+    }
+    if acoustics.region.is_some() {
+        let message = "is given where space repeats itself, and its images are not known".to_owned();
+        check.fail_with("acoustics.region", message, "leave it out, or let the faces of [volume] be open");
+    }
+    let most = MOST_PERIODS * space.shortest_period();
+    if let Some(way) = acoustics.way.filter(|way| way.si() > most) {
+        let [way, most] = told_apart([way.si(), most], "m");
+        let message = format!(
+            "{way} is more than {most}, a million of the shortest edge across which space repeats itself"
+        );
+        check.fail_with("acoustics.way", message, "give a shorter way");
     }
 }
 
@@ -99,17 +126,53 @@ fn in_grains(check: &mut Check, key: &str, beam: &Beam, scenario: &ScenarioFile)
     if beam.pulses.first.si() > 0.0 || scenario.start.relax.is_some() {
         return;
     }
-    let disc = beam.disc();
+    let (disc, space) = (beam.disc(), space_of(scenario));
     for (index, group) in scenario.grains.iter().enumerate() {
         let (Placement::List(list), Size::Constant(size)) = (&group.placement, &group.size) else { continue };
         for (place, position) in list.positions.iter().enumerate() {
-            let depth = size.radius.si() - disc.distance(vector(*position));
+            let nearest = space
+                .images_about(vector(*position))
+                .map(|image| disc.distance(image))
+                .fold(f64::INFINITY, f64::min);
+            let depth = size.radius.si() - nearest;
             if depth > 1e-9 * size.radius.si() {
                 let message =
                     format!("the disc of rays cuts grains.{index}.placement.list.positions.{place}");
                 let help = "move the start away from the grains, or make the radius smaller: rays start outside grains";
                 return check.fail_with(&format!("{key}.start"), message, help);
             }
+        }
+    }
+}
+
+/// Space as soft spheres have it.
+fn space_of(scenario: &ScenarioFile) -> Space {
+    let volume = scenario.volume.as_ref().filter(|_| !scenario.engine.is_hard());
+    volume.map_or(Space::OPEN, Volume::space)
+}
+
+/// Rays that start inside a wall when the first pulse does.
+fn in_walls(check: &mut Check, key: &str, beam: &Beam, scenario: &ScenarioFile) {
+    let before = check.found().len();
+    if scenario.engine.is_hard() || scenario.walls.is_empty() {
+        return;
+    }
+    for (index, wall) in scenario.walls.iter().enumerate() {
+        let mut alone = Check::default();
+        wall.faults(&mut alone, scenario.time.end.si());
+        if !alone.found().is_empty() {
+            return;
+        }
+        let walls = Walls::new(std::slice::from_ref(wall), &scenario.materials, scenario.time.end.si());
+        let mut mirrors = Mirrors::new(walls);
+        mirrors.stand([beam.pulses.first.si(); 2]);
+        let starts = beam.ray_starts(&scenario.medium, scenario.seed, 0, 0);
+        let rays = starts.iter().filter(|start| mirrors.holding(start.position).is_some()).count();
+        if rays > 0 && check.found().len() == before {
+            let message =
+                format!("{rays} rays of the disc start inside the wall \"{}\", walls.{index}", wall.name);
+            let help = "move the start to the side of the wall where grains are, or make the radius smaller";
+            check.fail_with(&format!("{key}.start"), message, help);
         }
     }
 }

@@ -36,10 +36,6 @@ fn together(check: &mut Check, scenario: &ScenarioFile) {
     if let Some(law) = &laws.custom {
         custom(check, scenario, law);
     }
-    if scenario.acoustics.is_some() {
-        let message = "is given beside [[walls]], and rays would fly through them".to_owned();
-        check.fail_with("acoustics", message, "leave out one of the two");
-    }
 }
 
 /// Where space repeats itself, so must walls.

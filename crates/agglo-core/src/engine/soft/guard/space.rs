@@ -1,5 +1,5 @@
 //! Whether space that repeats itself is such as the engine can follow: wide enough, so that two grains meet in one of their images
-//! alone, and without rays.
+//! alone, and without what cannot go across its faces.
 
 use crate::contact::ContactLaws;
 use crate::domain::{Deformation, Volume, volume_of_spheres};
@@ -15,7 +15,7 @@ const AXES: [char; 3] = ['x', 'y', 'z'];
 ///
 /// # Errors
 /// [`SimError::NarrowSpace`] where half a period is not above the longest distance of centers at which grains act on one another,
-/// [`SimError::RaysAcrossFaces`] where there are beams, [`SimError::WallAcrossFaces`] and [`SimError::WallsInDeformation`] where walls
+/// [`SimError::RaysInDeformation`] and [`SimError::RegionAcrossFaces`] where rays cannot follow space, [`SimError::WallAcrossFaces`] and [`SimError::WallsInDeformation`] where walls
 /// cannot follow space, [`SimError::DeformsAway`] and [`SimError::DeformsOpenSpace`] where a deformation leads nowhere.
 pub fn hold(settings: &Settings, grains: &Particles) -> Result<(), SimError> {
     let space = settings.space();
@@ -27,8 +27,14 @@ pub fn hold(settings: &Settings, grains: &Particles) -> Result<(), SimError> {
     if !space.repeats() {
         return Ok(());
     }
-    if settings.acoustics.is_some() {
-        return Err(SimError::RaysAcrossFaces);
+    if let Some(acoustics) = &settings.acoustics {
+        let is_deformed = settings.volume.as_ref().is_some_and(|volume| volume.deformation.is_some());
+        if is_deformed {
+            return Err(SimError::RaysInDeformation);
+        }
+        if acoustics.region.is_some() {
+            return Err(SimError::RegionAcrossFaces);
+        }
     }
     for wall in &settings.walls {
         if let Some(axis) = wall.cut_by(&space) {

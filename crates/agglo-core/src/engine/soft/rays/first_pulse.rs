@@ -15,13 +15,15 @@ use crate::engine::soft::simulation::Simulation;
 const PARTS_OF_THE_WAY: f64 = 16.0;
 /// Parts after which rays that are still about are left to themselves.
 const MOST_PARTS: u32 = 4000;
+/// Part of a pulse's power that is left to itself where rays do not leave, but come back off walls and across faces.
+const NEGLIGIBLE: f64 = 1e-3;
 
 /// A pulse that has flown.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FirstPulse {
     /// Its counts and powers.
     pub count: PulseCount,
-    /// Time until its last ray has left [s], a little more.
+    /// Time until its last ray has left [s], a little more; or as long as its rays were followed.
     pub flight_s: f64,
     /// How long a hit presses [s].
     pub duration_s: f64,
@@ -35,6 +37,7 @@ impl FirstPulse {
     pub fn of(settings: &Settings, grains: &Particles, beam: usize, most_rays: u32) -> Self {
         let (count, places) = (grains.len(), ById::of(&grains.id));
         let mut simulation = Simulation::with(&alone(settings, beam, most_rays), grains.clone().into());
+        let comes_back = settings.space().repeats() || !settings.walls.is_empty();
         let part = widest_way(&simulation.system.grains) / PARTS_OF_THE_WAY;
         let dt = part / settings.medium.sound_speed.si();
         let Simulation { system, pulses, .. } = &mut simulation;
@@ -44,7 +47,8 @@ impl FirstPulse {
         let mut found =
             Self { duration_s: pulses.duration(), kicks: vec![Vec3::ZERO; count], ..Self::default() };
         for number in 0..MOST_PARTS {
-            if pulses.flight().rays().is_empty() {
+            let flight = pulses.flight();
+            if flight.rays().is_empty() || (comes_back && flight.power_flying().magnitude < NEGLIGIBLE) {
                 break;
             }
             let now = f64::from(number) * dt;

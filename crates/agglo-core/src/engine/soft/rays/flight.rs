@@ -14,8 +14,10 @@ pub(in crate::engine::soft) fn validate_flight(
     let beams = settings.acoustics.as_ref().map_or(0, |acoustics| acoustics.beams.len());
     for pulse in flight.pulses() {
         finite("pulse", pulse)?;
-        let counts = [pulse.reflections, pulse.segments].iter().all(|count| *count < MOST_COUNTED);
-        let rays = [pulse.capped, pulse.crushed, pulse.blocked, pulse.in_flight]
+        let counts = [pulse.reflections, pulse.reflections_at_walls, pulse.segments]
+            .iter()
+            .all(|count| *count < MOST_COUNTED);
+        let rays = [pulse.capped, pulse.crushed, pulse.blocked, pulse.overlong, pulse.in_flight]
             .iter()
             .all(|rays| *rays <= pulse.rays);
         let longest = pulse.longest_chain < u32::MAX / 2;
@@ -25,12 +27,21 @@ pub(in crate::engine::soft) fn validate_flight(
     }
     let pulses = flight.pulses().len();
     let mut flying = vec![0_u32; pulses];
+    let faces: usize = settings.walls.iter().map(|wall| wall.shape.faces() as usize).sum();
+    let mut last = None;
     for ray in flight.rays() {
-        let hit = ray.last_hit == NO_SPHERE || (ray.last_hit as usize) < n;
+        let of_walls = ray.last_face().is_some_and(|face| (face as usize) < faces);
+        let hit = ray.last_hit == NO_SPHERE || of_walls || (ray.last_hit as usize) < n;
         let bounces = ray.bounces < u32::MAX / 2;
         ensure(hit && bounces && (ray.pulse as usize) < pulses, || "ray: an index is too large".to_owned())?;
         flying[ray.pulse as usize] += 1;
-        let numbers = [ray.traveled, ray.power, ray.first_power, ray.area];
+        // Sums go by the numbers of rays.
+        let place = (ray.pulse, ray.number);
+        let in_order =
+            last.is_none_or(|last| last < place) && ray.number < flight.pulses()[ray.pulse as usize].rays;
+        last = Some(place);
+        ensure(in_order, || "ray: out of order".to_owned())?;
+        let numbers = [ray.traveled, ray.power, ray.first_power, ray.area, ray.way];
         let holds = ray.origin.is_finite() && numbers.iter().all(|value| value.is_finite() && *value >= 0.0);
         // Directions are unit vectors but for rounding.
         ensure(holds && (ray.direction.norm() - 1.0).abs() < 1e-6, || "ray: not a ray".to_owned())?;

@@ -3,9 +3,10 @@
 mod first_pulse;
 mod flight;
 mod pulses;
+mod setup;
 mod trace;
 
 pub use first_pulse::FirstPulse;
 pub(super) use pulses::PulseState;
-pub use pulses::Pulses;
+pub use pulses::{Pulses, WallSound};
 pub use trace::{Spheres, Traced, trace};

@@ -5,17 +5,15 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::acoustics::fresnel::Interface;
-use crate::acoustics::{
-    self, ALLOWANCE, Acoustics, Beam, Flight, Impedance, Medium, PulseCount, Targets, Tracer,
-};
-use crate::engine::validate::{Fault, ensure, length};
+use crate::acoustics::{self, Beam, Flight, Hit, NONE, PulseCount};
+use crate::engine::validate::{Fault, ensure, finite, length};
 use crate::engine::{Moment, SimError, Warnings};
 use crate::math::Vec3;
 use crate::particles::Particles;
-use crate::units::{Quantity, Velocity};
+use crate::units::Quantity;
 
 use super::flight::validate_flight;
+use super::setup::{Setup, dropped, targets, warn_of_drops, warn_of_flight};
 use crate::engine::soft::settings::Settings;
 use crate::engine::soft::system::System;
 use crate::ledger::Supply;
@@ -36,6 +34,10 @@ pub struct PulseState {
     /// Pulses that were asked for besides.
     asked: usize,
     ray_time: f64,
+    /// Start of the step in which rays flew last [s].
+    flew_at: f64,
+    /// What rays gave each wall so far, once they met any.
+    given: Vec<WallSound>,
     /// Mean radius of the grains at the start [m].
     mean_radius: f64,
 }
@@ -47,19 +49,17 @@ pub struct Pulses {
     state: PulseState,
     schedule: Vec<Launch>,
     hit_grains: Vec<u32>,
+    /// Force [N] of the rays on each wall in this step, or impulse [N s], and power [W] that it takes.
+    on_walls: Vec<(Vec3, f64)>,
 }
 
-/// What is the same for all pulses.
-#[derive(Debug)]
-pub(super) struct Setup {
-    pub acoustics: Acoustics,
-    pub medium: Medium,
-    pub seed: u64,
-    pub tracer: Tracer,
-    /// Impedances of the materials, by number.
-    pub impedances: Vec<Impedance>,
-    /// How long a hit presses [s].
-    pub duration: f64,
+/// What rays have given a wall.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct WallSound {
+    /// Impulse [N s].
+    pub impulse: Vec3,
+    /// Energy that went into it [J]: power times how long a hit presses.
+    pub energy: f64,
 }
 
 /// Grains that were hit are made a list without doubles whenever it is as long as this.
@@ -71,64 +71,18 @@ impl PulseState {
     /// # Errors
     /// What is wrong with it.
     pub(in crate::engine::soft) fn validate(&self, settings: &Settings, n: usize) -> Result<(), Fault> {
-        let times = [self.ray_time, self.mean_radius];
+        let times = [self.ray_time, self.flew_at, self.mean_radius];
         ensure(times.iter().all(|value| value.is_finite() && *value >= 0.0), || {
             "pulses: not finite".to_owned()
         })?;
         let pulses = self.flight.pulses().len();
         length("pulses that have started", self.launched.saturating_add(self.asked), pulses)?;
         validate_flight(&self.flight, settings, n)?;
+        let known = self.given.is_empty() || self.given.len() == settings.walls.len();
+        ensure(known, || format!("rays on {} walls of {}", self.given.len(), settings.walls.len()))?;
+        finite("rays on walls", &self.given)?;
         let due = schedule(settings).len();
         ensure(self.launched <= due, || format!("{} pulses have started of {due}", self.launched))
-    }
-}
-
-impl Setup {
-    pub fn new(settings: &Settings, radius: f64) -> Option<Self> {
-        let acoustics = settings.acoustics.clone()?;
-        let medium = settings.medium.clone();
-        let materials = || {
-            settings.materials.values().map(|material| {
-                let speed = |speed: Option<Velocity>| speed.map_or(0.0, Velocity::si);
-                let speeds = [speed(material.sound_speed), speed(material.shear_sound_speed)];
-                (material.density.si(), speeds)
-            })
-        };
-        let interfaces =
-            materials().map(|(density, [sound, shear])| Interface::new(&medium, density, sound, shear));
-        let impedances = materials()
-            .map(|(density, [sound, shear])| Impedance { sound: density * sound, shear: density * shear });
-        Some(Self {
-            tracer: Tracer::new(acoustics.ends(), interfaces.collect()),
-            impedances: impedances.collect(),
-            seed: settings.seed,
-            duration: acoustics.force.duration(radius, &medium),
-            acoustics,
-            medium,
-        })
-    }
-}
-
-impl Setup {
-    /// Warns of rays that start in grains, and of a pulse that comes to nothing in the time that is left [s].
-    fn warn_of_launch(
-        &self,
-        beam: u32,
-        grains: &Particles,
-        blocked: Option<(u32, u32)>,
-        left: f64,
-        warnings: &mut Warnings,
-    ) {
-        if let Some((rays, _)) = blocked {
-            let text = format!(
-                "acoustics.beams.{beam}: rays of a pulse would have started inside a grain; they were dropped"
-            );
-            warnings.add_times(&text, u64::from(rays));
-        }
-        let arrival = self.acoustics.beams[beam as usize].first_hit(&grains.position, &grains.radius);
-        if let Some(text) = warning_of_launch(beam, arrival, self.medium.sound_speed.si(), left) {
-            warnings.add(&text);
-        }
     }
 }
 
@@ -145,17 +99,6 @@ fn schedule(settings: &Settings) -> Vec<Launch> {
     schedule
 }
 
-/// The grains as rays see them.
-fn targets<'a>(grains: &'a Particles, medium: &Medium) -> Targets<'a> {
-    let fastest = grains.velocity.iter().map(|velocity| velocity.norm()).fold(0.0, f64::max);
-    Targets {
-        positions: &grains.position,
-        radii: &grains.radius,
-        material: &grains.material,
-        mach: fastest / medium.sound_speed.si(),
-    }
-}
-
 impl Pulses {
     /// The pulses of a scenario, none started.
     pub fn new(settings: &Settings, grains: &Particles) -> Self {
@@ -169,7 +112,7 @@ impl Pulses {
     pub fn resume(settings: &Settings, state: PulseState) -> Self {
         let schedule = schedule(settings);
         let setup = Setup::new(settings, state.mean_radius);
-        Self { setup, state, schedule, hit_grains: Vec::new() }
+        Self { setup, state, schedule, hit_grains: Vec::new(), on_walls: Vec::new() }
     }
 
     /// What is needed to go on with the same bits.
@@ -225,12 +168,19 @@ impl Pulses {
             let (beam, flight) = (&setup.acoustics.beams[launch.beam as usize], &mut self.state.flight);
             flight.launch(beam, &setup.medium, setup.seed, launch.beam, launch.pulse);
             self.state.launched += 1;
-            let blocked = setup.tracer.drop_blocked(flight, &targets(grains, &setup.medium));
-            if let Some((rays, grain)) = blocked.filter(|_| moment.step <= 1) {
-                let grain = grains.id[grain as usize];
-                return Err(SimError::BeamInGrain { at: moment.clone(), beam: launch.beam, rays, grain });
+            let dropped = setup.drop_rays(flight, grains, now);
+            if moment.step <= 1 {
+                let (at, beam) = (|| moment.clone(), launch.beam);
+                if let Some((rays, grain)) = dropped[0] {
+                    let grain = grains.id[grain as usize];
+                    return Err(SimError::BeamInGrain { at: at(), beam, rays, grain });
+                }
+                if let Some((rays, wall)) = dropped[1] {
+                    let wall = setup.names[wall as usize].clone();
+                    return Err(SimError::BeamInWall { at: at(), beam, rays, wall });
+                }
             }
-            setup.warn_of_launch(launch.beam, grains, blocked, end - now, warnings);
+            setup.warn_of_launch(launch.beam, (grains, flight), dropped, end - now, warnings);
         }
         Ok(())
     }
@@ -259,8 +209,8 @@ impl Pulses {
         once.pulses = acoustics::Pulses { first: Quantity(now), period: None, count: 1 };
         self.state.flight.launch(&once, &setup.medium, setup.seed, beam, pulse);
         self.state.asked += 1;
-        let blocked = setup.tracer.drop_blocked(&mut self.state.flight, &targets(grains, &setup.medium));
-        setup.warn_of_launch(beam, grains, blocked, end - now, warnings);
+        let dropped = setup.drop_rays(&mut self.state.flight, grains, now);
+        setup.warn_of_launch(beam, (grains, &self.state.flight), dropped, end - now, warnings);
         Ok(())
     }
 
@@ -271,6 +221,7 @@ impl Pulses {
             system.ray_loads.torque[grain as usize] = Vec3::ZERO;
         }
         self.hit_grains.clear();
+        self.on_walls.clear();
         system.has_ray_loads = false;
         let impulses = self.are_impulses();
         let Some(setup) = &mut self.setup else { return };
@@ -279,13 +230,25 @@ impl Pulses {
         }
         self.state.ray_time = now + dt;
         system.ray_loads.fit(system.grains.len());
+        setup.tracer.stand_walls([self.state.flew_at, now]);
+        self.state.flew_at = now;
+        self.on_walls.resize(setup.names.len(), Default::default());
         let before = dropped(self.state.flight.pulses());
         let mut absorbed_power = std::mem::take(&mut system.grains.absorbed_power);
         let (grains, loads, hit_grains) = (&system.grains, &mut system.ray_loads, &mut self.hit_grains);
         let (law, medium, impedances) = (&setup.acoustics.force, &setup.medium, &setup.impedances);
+        let (materials, on_walls) = (&setup.wall_materials, &mut self.on_walls);
+        let pressing = |hit: &Hit| {
+            let force = law.force(hit, impedances[materials[hit.wall as usize] as usize], medium);
+            if impulses { force * setup.duration } else { force }
+        };
         let (targets, way) = (targets(grains, medium), medium.sound_speed.si() * dt);
         setup.tracer.advance(&mut self.state.flight, &targets, way, |hits| {
             for hit in hits {
+                if hit.grain == NONE {
+                    press(&mut on_walls[hit.wall as usize], hit, pressing(hit));
+                    continue;
+                }
                 let grain = hit.grain as usize;
                 let force = law.force(hit, impedances[grains.material[grain] as usize], medium);
                 let load = if impulses { force * setup.duration } else { force };
@@ -299,15 +262,35 @@ impl Pulses {
             }
         });
         warn_of_flight(setup, &targets, warnings);
-        warn_of_drops(before, dropped(self.state.flight.pulses()), setup.acoustics.bounces, warnings);
+        warn_of_drops(before, dropped(self.state.flight.pulses()), setup.tracer.ends(), warnings);
         system.grains.absorbed_power = absorbed_power;
         sort_and_dedup(&mut self.hit_grains);
         system.has_ray_loads = !self.hit_grains.is_empty();
     }
 
-    /// Energy, impulse and angular impulse that the rays' loads gave in the step of `dt` [s] that led to where the grains are.
-    pub fn supply(&self, system: &System, dt: f64) -> Supply {
+    /// Keeps what rays give walls in a step; `scale` [s or 1] is the factor from loads to impulses.
+    fn book_walls(&mut self, scale: f64) {
+        if self.on_walls.is_empty() {
+            return;
+        }
+        let duration = self.duration();
+        self.state.given.resize(self.on_walls.len(), WallSound::default());
+        for (given, (load, power)) in self.state.given.iter_mut().zip(&self.on_walls) {
+            given.impulse += *load * scale;
+            given.energy += power * duration;
+        }
+    }
+
+    /// What rays have given a wall so far.
+    pub fn given_to(&self, wall: usize) -> WallSound {
+        self.state.given.get(wall).copied().unwrap_or_default()
+    }
+
+    /// Energy, impulse and angular impulse that the rays' loads gave grains in the step of `dt` [s] that led to where
+    /// these are; what they gave walls is kept.
+    pub fn book(&mut self, system: &System, dt: f64) -> Supply {
         let scale = system.ray_load_scale(dt) * dt;
+        self.book_walls(scale);
         let grains = &system.grains;
         let mut sum = Supply::default();
         for &grain in &self.hit_grains {
@@ -369,57 +352,13 @@ impl Pulses {
     }
 }
 
+/// Adds the load of a hit on a wall.
+fn press(on_wall: &mut (Vec3, f64), hit: &Hit, load: Vec3) {
+    on_wall.0 += load;
+    on_wall.1 += hit.power_in * (1.0 - hit.reflectance);
+}
+
 fn sort_and_dedup(list: &mut Vec<u32>) {
     list.sort_unstable();
     list.dedup();
-}
-
-/// Rays that were dropped so far: at the largest number of bounces, crushed between grains.
-fn dropped(pulses: &[PulseCount]) -> [u64; 2] {
-    let sum = |count: fn(&PulseCount) -> u32| pulses.iter().map(|pulse| u64::from(count(pulse))).sum();
-    [sum(|pulse| pulse.capped), sum(|pulse| pulse.crushed)]
-}
-
-fn warn_of_drops(before: [u64; 2], now: [u64; 2], bounces: u32, warnings: &mut Warnings) {
-    let [capped, crushed] = [0, 1].map(|k| now[k] - before[k]);
-    if capped > 0 {
-        let text = format!(
-            "acoustics.bounces: rays were dropped after {bounces} bounces, their power stands in power_truncated_W"
-        );
-        warnings.add_times(&text, capped);
-    }
-    if crushed > 0 {
-        let text = "acoustics: rays were dropped between grains that closed in on them, their power stands in \
-                    power_truncated_W";
-        warnings.add_times(text, crushed);
-    }
-}
-
-/// Where grains are out of what rays can know of: outside a given region, or nearly as fast as sound.
-fn warn_of_flight(setup: &Setup, targets: &Targets<'_>, warnings: &mut Warnings) {
-    if targets.mach > ALLOWANCE {
-        warnings.add(
-            "acoustics: a grain is faster than a tenth of the speed of sound while rays fly; rays see grains held still in each \
-             step, and one that was given up could have been overtaken",
-        );
-    }
-    let Some(region) = setup.tracer.region() else { return };
-    let mut grains = targets.positions.iter().zip(targets.radii);
-    if grains.any(|(&position, &radius)| !region.contains(position, radius)) {
-        warnings.add(
-            "acoustics.region leaves grains outside, and rays that leave it are lost to them; without the key rays live until \
-             they can hit nothing any more",
-        );
-    }
-}
-
-/// What a launch has to tell: `arrival` is the way [m] to the first grain, `left` the time [s] until the end of the run.
-fn warning_of_launch(beam: u32, arrival: Option<f64>, sound_speed: f64, left: f64) -> Option<String> {
-    match arrival {
-        None => Some(format!("acoustics.beams.{beam}: a pulse passes all grains by")),
-        Some(way) if way > sound_speed * left => Some(format!(
-            "acoustics.beams.{beam}: a pulse would reach the first grain after the end of the run"
-        )),
-        Some(_) => None,
-    }
 }

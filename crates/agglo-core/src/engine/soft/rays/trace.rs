@@ -1,18 +1,18 @@
 //! A pulse traced to its end among spheres held still: what rays do, without anything that moves.
 
-use crate::acoustics::{Flight, Hit, PulseCount, Targets};
+use crate::acoustics::{Flight, Hit, NONE, PulseCount, Targets};
 use crate::engine::SimError;
 use crate::math::Vec3;
 
-use super::pulses::Setup;
+use super::setup::Setup;
 use crate::engine::soft::settings::Settings;
 
 /// What became of a pulse.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Traced {
-    /// All hits, those of one ray in the order of time; [`Hit::grain`] is the index of the sphere.
+    /// All hits, those of one ray in the order of time; [`Hit::grain`] is the index of the sphere, [`Hit::wall`] the number of the wall.
     pub hits: Vec<Hit>,
-    /// What each hit does to its sphere: an impulse [N s], or a force [N] where the law of the scenario gives one; as `hits`.
+    /// What each hit does to its sphere or wall: an impulse [N s], or a force [N] where the law of the scenario gives one; as `hits`.
     pub loads: Vec<Vec3>,
     /// Whether `loads` are impulses.
     pub are_impulses: bool,
@@ -45,11 +45,17 @@ pub fn trace(settings: &Settings, spheres: Spheres<'_>, beam: u32, pulse: u32) -
     let mut flight = Flight::default();
     flight.launch(&setup.acoustics.beams[beam as usize], &setup.medium, setup.seed, beam, pulse);
     setup.tracer.drop_blocked(&mut flight, &targets);
+    setup.tracer.drop_walled(&mut flight);
     let hits = setup.tracer.trace(&mut flight, &targets);
     let law = &setup.acoustics.force;
     let press = if law.is_impulse() { setup.duration } else { 1.0 };
     let load = |hit: &Hit| {
-        law.force(hit, setup.impedances[material[hit.grain as usize] as usize], &setup.medium) * press
+        let material = if hit.grain == NONE {
+            &setup.wall_materials[hit.wall as usize]
+        } else {
+            &material[hit.grain as usize]
+        };
+        law.force(hit, setup.impedances[*material as usize], &setup.medium) * press
     };
     let loads = hits.iter().map(load).collect();
     let count = flight.pulses().first().copied().unwrap_or_default();
