@@ -31,7 +31,7 @@ material = "pigment"
 size.uniform = {{ smallest = "12 um", largest = "24 um" }}
 placement.random.count = {count}
 placement.random.region.box = {{ lower = ["0 m", "0 m", "{low:e} m"], upper = ["{edge:e} m", "{edge:e} m", "{high:e} m"] }}
-velocity_spread.maxwell.deviation = "3 m/s"
+velocity_spread.maxwell.deviation = "1.5 m/s"
 [contact.normal.hertz]
 [[walls]]
 name = "floor"
@@ -41,7 +41,7 @@ shape.plane = {{ point = ["0 m", "0 m", "0 m"], normal = [0.0, 0.0, 1.0] }}
 name = "lid"
 material = "pigment"
 shape.plane = {{ point = ["0 m", "0 m", "{edge:e} m"], normal = [0.0, 0.0, -1.0] }}
-motion.oscillating = {{ amplitude = ["0 m", "0 m", "1 um"], frequency = "1 MHz" }}
+motion.oscillating = {{ amplitude = ["0 m", "0 m", "1 um"], frequency = "0.2 MHz" }}
 [acoustics]
 truncation = 0.05
 [acoustics.force.radiation_pressure]
@@ -51,7 +51,7 @@ start = ["{middle:e} m", "{middle:e} m", "10 um"]
 direction = [0.6, 0.3, 1.0]
 radius = "5 um"
 rays = 600
-strength.pressure = "2 GPa"
+strength.pressure = "20 MPa"
 pulses = {{ first = "0 s", period = "0.4 us", count = 1000 }}
 "#,
         middle = 0.5 * edge

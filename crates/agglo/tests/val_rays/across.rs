@@ -84,11 +84,11 @@ fn val_a_ray_comes_back_to_the_same_sphere() {
     }
     let reflected = (17.0_f64 / 19.0).powi(2);
     assert_eq!(found.len(), 4, "hits until a half is gone");
-    for (number, hit) in found.iter().enumerate() {
+    for (number, hit) in (0_i32..).zip(&found) {
         let side = if number % 2 == 0 { -1.0 } else { 1.0 };
         assert_near_vector!(hit.point, middle + Vec3::AXES[0] * (0.1 * side), 1e-8, "m: hit {number}");
         assert_near_vector!(hit.direction_in, Vec3::AXES[0] * -side, 1e-6, "hit {number}");
-        assert_close!(hit.power_in, power * f64::powi(reflected, number as i32), 1e-9, "W");
+        assert_close!(hit.power_in, power * f64::powi(reflected, number), 1e-9, "W");
     }
     let count = flight.pulses()[0];
     assert_close!(count.power_truncated, power * f64::powi(reflected, 4), 1e-9, "W");
@@ -128,7 +128,7 @@ fn val_power_and_momentum_close_across_faces() {
         for way in [7.0, f64::INFINITY] {
             let mut tracer = tracer(axes, Ends { truncation: 0.05, way, ..FOLLOW_ALL });
             let (count, hits) = shot(&beam_in(700), &mut tracer, &grains);
-            assert_above!(hits.len(), 500, "hits, {axes:?}");
+            assert_above!(hits.len(), if axes == ALL { 2000 } else { 50 }, "hits, {axes:?}");
             let out =
                 count.power_absorbed + count.power_escaped + count.power_truncated + count.power_cut_off;
             assert_close!(out, count.power_in, 1e-12, "W, {axes:?}");
@@ -200,7 +200,7 @@ fn sums_do_not_depend_on_what_else_flies() {
         *flight.pulses().last().unwrap()
     };
     let (alone, beside) = (after(false), after(true));
-    assert_above!(alone.reflections, 2000, "reflections");
+    assert_above!(alone.reflections, 500, "reflections");
     assert_eq!(alone, beside, "books of the same pulse, alone and beside another");
 }
 

@@ -238,11 +238,13 @@ fn put(state: &mut Json) {
     state["truncation"] = json!({ "forces": 0.21, "energy": 0.23 });
     state["warnings"]["counts"] = json!({ "one": 14, "two": 16 });
     state["pulses"]["launched"] = json!(3);
+    let mut number = 0;
     let rays = RAYS.map(|(pulse, origin, direction, traveled, power)| {
+        number += 1;
         json!({
             "origin": vector(Vec3::from(origin)), "direction": vector(Vec3::from(direction)),
             "traveled": traveled, "power": power, "first_power": 20.0, "area": 1e-6,
-            "last_hit": 0, "bounces": 1, "pulse": pulse,
+            "way": 3.5, "last_hit": 0, "bounces": 1, "pulse": pulse, "number": number,
         })
     });
     state["pulses"]["flight"] = json!({ "rays": rays, "pulses": pulses() });
