@@ -84,7 +84,7 @@ use super::shape::{Near, Shape, Triangle};
 use crate::domain::Space;
 use crate::law::Faults;
 use crate::math::{Pace, Vec3};
-use crate::particles::Material;
+use crate::particles::{Material, Particles};
 use crate::units::{Quantity, Temperature, vector};
 
 /// A wall, as a scenario has it.
@@ -146,6 +146,17 @@ pub(super) struct Body {
     pub material: u32,
     /// Its contact stiffness [Pa], softened by heat.
     pub stiffness: f64,
+}
+
+/// How much of a wall without an end is shown, over what is beside grains.
+const SHOWN: f64 = 1.25;
+
+/// Middle of the box about places [m]; the origin without any.
+fn middle(places: &[Vec3]) -> Vec3 {
+    let first = places.first().copied().unwrap_or(Vec3::ZERO);
+    let (low, high) =
+        places.iter().fold((first, first), |(low, high), &place| (low.min(place), high.max(place)));
+    (low + high) * 0.5
 }
 
 /// The walls of a run: what every evaluation reads and none changes.
@@ -231,10 +242,15 @@ impl Walls {
         Near { normal: pose.direction(near.normal), ..near }
     }
 
-    /// Triangles [m] that show a wall at a time [s], as far as it is within a ball about a point [m] of a radius [m].
-    pub fn triangles(&self, wall: usize, time: f64, about: Vec3, within: f64) -> Vec<Triangle> {
-        let pose = self.pose(wall, time);
-        let at_start = self.bodies[wall].shape.triangles(pose.as_at_start(about), within);
+    /// Triangles [m] that show a wall at a time [s]: all of it, or where it has no end what is beside grains and a little more.
+    pub fn triangles(&self, wall: usize, time: f64, grains: &Particles) -> Vec<Triangle> {
+        let (pose, shape) = (self.pose(wall, time), &self.bodies[wall].shape);
+        let middle = pose.as_at_start(middle(&grains.position));
+        let reach = |(place, radius): (&Vec3, &f64)| {
+            shape.endless_part(pose.as_at_start(*place) - middle).map_or(0.0, |part| part + radius)
+        };
+        let farthest = grains.position.iter().zip(&grains.radius).map(reach).fold(0.0, f64::max);
+        let at_start = shape.triangles(middle, SHOWN * farthest);
         at_start.into_iter().map(|corners| corners.map(|corner| pose.point(corner))).collect()
     }
 

@@ -7,7 +7,7 @@ use agglo::contact::Bonds;
 use agglo::folder::names;
 use agglo::record::frames::Collection;
 use agglo::record::{About, Declared, Sheet};
-use agglo::run::{tables, tables_at_the_end};
+use agglo::run::{tables_at_the_end, tables_of};
 
 /// Names of frames in one note at the most.
 const MOST_NAMES: usize = 5;
@@ -17,14 +17,9 @@ pub fn notes(folder: &Folder) -> Vec<String> {
     let mut notes = Vec::new();
     if let Some(scenario) = &folder.scenario {
         let is_hard = scenario.is_hard();
-        for due in tables(is_hard) {
-            let is_asked = match due.file() {
-                names::RAYS => scenario.acoustics().is_some(),
-                names::WALLS => scenario.soft().is_some_and(|soft| !soft.walls.is_empty()),
-                _ => true,
-            };
-            if is_asked {
-                notes.extend(table(folder, *due));
+        for due in tables_of(scenario) {
+            if due.file() != names::RAYS || scenario.acoustics().is_some() {
+                notes.extend(table(folder, due));
             }
         }
         if folder.summary.is_some() {
@@ -168,7 +163,7 @@ mod tests {
         let folder = kept.path().join("out");
         let notes = || Report::of_run(&folder).unwrap().notes;
         assert!(notes().is_empty(), "{:?}", notes());
-        let places = tables(true).iter().chain(tables_at_the_end(true)).map(|table| table.file());
+        let places = agglo::run::tables(true).iter().chain(tables_at_the_end(true)).map(|table| table.file());
         for place in places.chain(["frames/grains_000001.vtp", "frames/grains.pvd"]) {
             let name = Path::new(place).file_name().unwrap().to_str().unwrap();
             let whole = fs::read(folder.join(place)).unwrap();

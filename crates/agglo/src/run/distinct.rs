@@ -34,7 +34,7 @@ pub fn assert_columns(place: &str, names: &[String], row: &[f64], wanted: &[Name
 /// Tables in a folder of their own, with the folders that they lie in.
 pub fn tables(layout: columns::Tables, folder: &Path) -> Tables {
     std::fs::create_dir(folder.join("series")).unwrap();
-    Tables::create(layout, folder).unwrap()
+    Tables::create(layout.to_vec(), folder).unwrap()
 }
 
 /// Names of the columns and the cells of the only row of a table.

@@ -101,7 +101,7 @@ struct Fit<'a, 'r> {
 
 impl Fit<'_, '_> {
     fn accept(&mut self, saved: AnySaved<'static>) -> Result<(AnySaved<'static>, Reopened), String> {
-        let (text, recorder, layout) = saved.parts();
+        let (text, recorder) = saved.parts();
         let keys = match Scenario::from_toml(text) {
             Ok(scenario) => differences(&self.with_its_end(scenario, saved.ends_before()), &self.scenario),
             Err(faults) => return self.other(format!("its scenario cannot be read: {faults}")),
@@ -113,7 +113,7 @@ impl Fit<'_, '_> {
             }
             return Err(reason);
         }
-        let tables = match recorder.check_tables(layout, self.folder) {
+        let tables = match recorder.check_tables(&self.scenario, self.folder) {
             Ok(tables) => tables,
             Err(error) => return self.other(error.to_string()),
         };

@@ -27,7 +27,7 @@ fn saved<J: Job>(scenario: &Scenario, steps: usize) -> Vec<u8> {
     (0..steps).for_each(|_| job.advance(job.time() + 1e-3 * end).unwrap());
     let place = tempfile::tempdir().unwrap();
     let folder = crate::folder::RunFolder::create(&place.path().join("run")).unwrap();
-    let recorder = Recorder::create::<J>(&scenario, &folder, Known::default()).unwrap().state();
+    let recorder = Recorder::create(&scenario, &folder, Known::default()).unwrap().state();
     let rest = Saved {
         scenario: scenario.to_toml().unwrap(),
         state: (),

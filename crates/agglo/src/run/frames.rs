@@ -177,31 +177,16 @@ impl Frames {
         self.lists.rays.add(time, &name, mark, &self.folder.frame_list("rays"))
     }
 
-    /// Writes the walls at `time` [s] as triangles; of those without an end what is about the grains.
+    /// Writes the walls at `time` [s] as triangles; of those without an end what is beside the grains.
     pub fn walls(&mut self, time: f64, grains: &Particles, walls: &Walls) -> Result<(), RecordError> {
         let name = self.lists.walls.next_name("walls");
-        let (about, within) = surroundings(grains);
         let (mut triangles, mut numbers) = (Vec::<Triangle>::new(), Vec::<u32>::new());
         for (wall, number) in (0..walls.len()).zip(0_u32..) {
-            let own = walls.triangles(wall, time, about, within);
+            let own = walls.triangles(wall, time, grains);
             numbers.extend(own.iter().flat_map(|_| [number; 3]));
             triangles.extend(own);
         }
         let mark = write_walls(&self.folder.frames().join(&name), time, &triangles, &numbers)?;
         self.lists.walls.add(time, &name, mark, &self.folder.frame_list("walls"))
     }
-}
-
-/// Radius of the ball about the grains that walls are shown in, over that which holds their centers.
-const SHOWN: f64 = 1.25;
-
-/// Middle [m] of the grains, and radius [m] of the ball about it that walls without an end are shown in.
-fn surroundings(grains: &Particles) -> (Vec3, f64) {
-    let first = grains.position.first().copied().unwrap_or(Vec3::ZERO);
-    let (low, high) =
-        grains.position.iter().fold((first, first), |(low, high), &place| (low.min(place), high.max(place)));
-    let middle = (low + high) * 0.5;
-    let ends = grains.position.iter().zip(&grains.radius);
-    let farthest = ends.map(|(place, radius)| (*place - middle).norm() + radius).fold(0.0, f64::max);
-    (middle, SHOWN * farthest)
 }

@@ -10,9 +10,9 @@ use crate::scenario::Scenario;
 
 use super::frames::Frames;
 use super::guests::Sight;
-use super::hard::{Hard, HardState};
+use super::hard::HardState;
 use super::recorder::RecorderState;
-use super::soft::{Soft, SoftState};
+use super::soft::SoftState;
 use super::summary::Summary;
 use super::tables::Tables;
 use super::timers::Moment;
@@ -74,11 +74,11 @@ impl AnySaved<'_> {
         }
     }
 
-    /// The scenario's text, where the recorder stands, and the tables that it writes.
-    pub fn parts(&self) -> (&str, &RecorderState, columns::Tables) {
+    /// The scenario's text, and where the recorder stands.
+    pub fn parts(&self) -> (&str, &RecorderState) {
         match self {
-            Self::Soft(saved) => (&saved.scenario, &saved.recorder, Soft::TABLES),
-            Self::Hard(saved) => (&saved.scenario, &saved.recorder, Hard::TABLES),
+            Self::Soft(saved) => (&saved.scenario, &saved.recorder),
+            Self::Hard(saved) => (&saved.scenario, &saved.recorder),
         }
     }
 }
@@ -93,7 +93,7 @@ pub trait Job: Sized {
     /// What it drives.
     type Simulation: Simulation;
 
-    /// Its tables.
+    /// All its tables; see [`tables_of`](super::tables_of).
     const TABLES: columns::Tables;
 
     /// Starts; `watch` is told how soft grains come to rest, if they are to.

@@ -42,7 +42,7 @@ pub use soft::{Clusters, EnergyQuantities, PulseQuantities, SoftSummary, WallQua
 pub use summary::Summary;
 
 use crate::engine::Start;
-use crate::folder::RunFolder;
+use crate::folder::{RunFolder, names};
 use crate::packing::{PackingError, PlaceWatch, StartError};
 use crate::record::{RecordError, columns, door};
 use crate::scenario::Scenario;
@@ -63,6 +63,13 @@ use soft::Soft;
 /// ```
 pub fn tables(is_hard: bool) -> columns::Tables {
     if is_hard { Hard::TABLES } else { Soft::TABLES }
+}
+
+/// The tables that grow with the run of a scenario: of walls only where there are some.
+pub fn tables_of(scenario: &Scenario) -> Vec<&'static dyn columns::Declared> {
+    let has_walls = scenario.soft().is_some_and(|soft| !soft.walls.is_empty());
+    let is_due = |table: &&dyn columns::Declared| has_walls || table.file() != names::WALLS;
+    tables(scenario.is_hard()).iter().copied().filter(is_due).collect()
 }
 
 /// The tables that are written when such a run ends.

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::folder::RunFolder;
-use crate::record::{Opened, RecordError, columns};
+use crate::record::{Opened, RecordError};
 use crate::scenario::Scenario;
 
 use super::fit::Reading;
@@ -12,6 +12,7 @@ use super::guests::Known;
 use super::job::Job;
 use super::own::{Own, OwnState};
 use super::tables::{Tables, TablesState};
+use super::tables_of;
 use super::timers::{Moment, ROUND_OFF, Timers};
 
 /// The time of the last row before there is any [s].
@@ -47,8 +48,9 @@ impl RecorderState {
     ///
     /// # Errors
     /// [`RecordError`] where a table is missing, or not what it was.
-    pub fn check_tables(&self, layout: columns::Tables, folder: &RunFolder) -> Result<Reopened, RecordError> {
-        Ok(Reopened { tables: self.tables.check(layout, folder.root())?, own: self.own.check(folder)? })
+    pub fn check_tables(&self, scenario: &Scenario, folder: &RunFolder) -> Result<Reopened, RecordError> {
+        let tables = self.tables.check(&tables_of(scenario), folder.root())?;
+        Ok(Reopened { tables, own: self.own.check(folder)? })
     }
 
     /// What is known of a caller's own measures and rule.
@@ -95,16 +97,12 @@ impl Recorder {
     ///
     /// # Errors
     /// [`RecordError`] where a file cannot be made.
-    pub fn create<J: Job>(
-        scenario: &Scenario,
-        folder: &RunFolder,
-        guests: Known,
-    ) -> Result<Self, RecordError> {
+    pub fn create(scenario: &Scenario, folder: &RunFolder, guests: Known) -> Result<Self, RecordError> {
         Ok(Self {
             timers: Timers::new(&scenario.output),
             last_row: NO_ROW,
             merged: Merged::default(),
-            tables: Tables::create(J::TABLES, folder.root())?,
+            tables: Tables::create(tables_of(scenario), folder.root())?,
             frames: Frames::new(folder, FrameLists::default()),
             own: Own::create(guests, folder)?,
         })
@@ -114,7 +112,8 @@ impl Recorder {
     ///
     /// # Errors
     /// [`RecordError`] where a table cannot be cut.
-    pub fn resume<J: Job>(
+    pub fn resume(
+        scenario: &Scenario,
         folder: &RunFolder,
         state: RecorderState,
         opened: Reopened,
@@ -123,7 +122,7 @@ impl Recorder {
             timers: state.timers,
             last_row: state.last_row,
             merged: state.merged,
-            tables: Tables::resume(J::TABLES, opened.tables)?,
+            tables: Tables::resume(tables_of(scenario), opened.tables)?,
             frames: Frames::new(folder, state.frames),
             own: Own::resume(state.own, opened.own)?,
         })

@@ -178,7 +178,7 @@ impl Record {
         let place =
             tempfile::tempdir().map_err(RecordError::file("make a folder in", &std::env::temp_dir()))?;
         let folder = RunFolder::create(&place.path().join("run"))?;
-        let recorder = Recorder::create::<J>(scenario, &folder, Known::default())?;
+        let recorder = Recorder::create(scenario, &folder, Known::default())?;
         let mut record = Self { scenario: scenario.to_toml()?, place, folder, recorder, frames: [None; 2] };
         record.recorder.record_due(job)?;
         record.weigh_frame(job)?;

@@ -91,7 +91,7 @@ impl<'g, J: Job> Session<'g, J> {
         let first = onlooker.as_deref_mut().map(|onlooker| own::look(onlooker, &known, &job));
         let first = first.transpose().map_err(|reason| RunError::FirstLook { reason })?;
         write_scenario(scenario, &[], &folder)?;
-        let recorder = Recorder::create::<J>(scenario, &folder, known)?;
+        let recorder = Recorder::create(scenario, &folder, known)?;
         let notes = folder.warning().map(str::to_owned).into_iter().collect();
         let mut session = Self {
             scenario: scenario.clone(),
@@ -135,7 +135,7 @@ impl<'g, J: Job> Session<'g, J> {
             return Err(bad(reason.to_owned()));
         }
         folder.sweep()?;
-        let recorder = Recorder::resume::<J>(&folder, saved.recorder, tables)?;
+        let recorder = Recorder::resume(&scenario, &folder, saved.recorder, tables)?;
         let now = Instant::now();
         let unguarded = folder.warning().map(str::to_owned);
         let passed_over = |refused: &Refused| format!("a checkpoint was passed over: {refused}");

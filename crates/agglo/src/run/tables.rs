@@ -5,7 +5,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use crate::folder::Mark;
-use crate::record::columns::{self, Declared, Table};
+use crate::record::columns::{Declared, Table};
 use crate::record::{Opened, RecordError, Series};
 
 /// Lengths and checksums of the tables' files.
@@ -16,7 +16,7 @@ pub struct TablesState {
 
 impl TablesState {
     /// Opens the tables' files of a run that is to go on. None is changed: all are looked at before the first is cut.
-    pub fn check(&self, layout: columns::Tables, folder: &Path) -> Result<Vec<Opened>, RecordError> {
+    pub fn check(&self, layout: &[&dyn Declared], folder: &Path) -> Result<Vec<Opened>, RecordError> {
         if self.marks.len() != layout.len() {
             let reason = "the checkpoint knows other tables".to_owned();
             return Err(RecordError::Foreign { path: folder.to_owned(), reason });
@@ -29,19 +29,20 @@ impl TablesState {
 /// The tables of a run, in the order of their layout.
 #[derive(Debug)]
 pub struct Tables {
-    layout: columns::Tables,
+    layout: Vec<&'static dyn Declared>,
     series: Vec<Series>,
 }
 
 impl Tables {
     /// Makes the tables' files below the run's folder.
-    pub fn create(layout: columns::Tables, folder: &Path) -> Result<Self, RecordError> {
+    pub fn create(layout: Vec<&'static dyn Declared>, folder: &Path) -> Result<Self, RecordError> {
         let make = |table: &&dyn Declared| Series::create(&folder.join(table.file()), &table.names());
-        Ok(Self { layout, series: layout.iter().map(make).collect::<Result<_, _>>()? })
+        let series = layout.iter().map(make).collect::<Result<_, _>>()?;
+        Ok(Self { layout, series })
     }
 
     /// Cuts the tables back to their marks and goes on from there.
-    pub fn resume(layout: columns::Tables, opened: Vec<Opened>) -> Result<Self, RecordError> {
+    pub fn resume(layout: Vec<&'static dyn Declared>, opened: Vec<Opened>) -> Result<Self, RecordError> {
         Ok(Self { layout, series: opened.into_iter().map(Opened::cut).collect::<Result<_, _>>()? })
     }
 
@@ -90,12 +91,14 @@ mod tests {
         columns: &[number("event", "", "", "", |row| *row), word("kind", "", "", |_| "merge")],
     };
 
-    const LAYOUT: columns::Tables = &[&NUMBERS, &WORDS];
+    fn layout() -> Vec<&'static dyn Declared> {
+        vec![&NUMBERS, &WORDS]
+    }
 
     #[test]
     fn quantities_that_are_not_finite_are_not_written() {
         let folder = tempfile::tempdir().unwrap();
-        let mut tables = Tables::create(LAYOUT, folder.path()).unwrap();
+        let mut tables = Tables::create(layout(), folder.path()).unwrap();
         tables.put(&NUMBERS, &[-0.0, 0.0]).unwrap();
         tables.put(&WORDS, &1.0).unwrap();
         for row in [[f64::NAN, 0.0], [f64::INFINITY, 0.0], [0.0, f64::INFINITY], [0.0, f64::NAN]] {

@@ -8,7 +8,7 @@ use crate::engine::{SimError, SpringAtWall};
 use crate::ledger::Supply;
 use crate::math::{Pace, Vec3};
 use crate::particles::{ById, Motion, Particles};
-use crate::walls::{RememberedAtWall, Wall, WallRates, WallSnapshot, Walls};
+use crate::walls::{Passed, RememberedAtWall, Wall, WallRates, WallSnapshot, Walls};
 
 use super::forces::laws::Laws;
 use super::settings::Settings;
@@ -57,6 +57,8 @@ pub struct WallState<'a> {
     pub work: f64,
     /// Contacts with grains.
     pub contacts: u32,
+    /// Grains beyond a plane with an opening; nothing of other walls.
+    pub passed: Option<Passed>,
 }
 
 impl System {
@@ -179,6 +181,7 @@ impl System {
                 torque: -(supply.torque - about.cross(supply.force)),
                 work: flow.power,
                 contacts: *contacts,
+                passed: walls.passed(wall, time, &self.grains),
             }
         })
     }

@@ -127,6 +127,10 @@ impl Surface for Cylinder {
         self.length.is_none() && self.axis().cross(direction).norm() <= ASKEW
     }
 
+    fn endless_part(&self, offset: Vec3) -> Option<f64> {
+        self.length.is_none().then(|| offset.dot(self.axis()).abs())
+    }
+
     fn triangles(&self, about: Vec3, within: f64) -> Vec<Triangle> {
         let axis = self.axis();
         let first = vector(self.point);

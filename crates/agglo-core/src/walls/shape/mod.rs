@@ -108,7 +108,17 @@ impl Shape {
         self.surface().goes_on_along(direction)
     }
 
-    /// Triangles that show it, as far as it is within a ball about a point [m] of a radius [m].
+    /// Whether it has an end in every direction.
+    pub fn is_bounded(&self) -> bool {
+        self.endless_part(Vec3::ZERO).is_none()
+    }
+
+    /// How far an offset [m] reaches in the directions in which it has no end [m]; nothing where it has an end in all.
+    pub(super) fn endless_part(&self, offset: Vec3) -> Option<f64> {
+        self.surface().endless_part(offset)
+    }
+
+    /// Triangles that show it; where it has no end as far as it reaches this length [m] from a point [m].
     pub fn triangles(&self, about: Vec3, within: f64) -> Vec<Triangle> {
         self.surface().triangles(about, within)
     }

@@ -42,6 +42,12 @@ impl Plane {
     fn normal(&self) -> Vec3 {
         Vec3::from(self.normal).normalized()
     }
+
+    /// How far a point [m] is before it, on the side of its normal [m]; below 0 beyond it.
+    #[inline]
+    pub(in crate::walls) fn height(&self, point: Vec3) -> f64 {
+        (point - vector(self.point)).dot(self.normal())
+    }
 }
 
 impl Surface for Plane {
@@ -63,7 +69,7 @@ impl Surface for Plane {
     #[inline]
     fn nearest(&self, _: u32, point: Vec3) -> Near {
         let normal = self.normal();
-        let height = (point - vector(self.point)).dot(normal);
+        let height = self.height(point);
         let Some(opening) = &self.opening else { return Near { normal: -normal, gap: height } };
         let (center, radius) = (vector(opening.center), opening.radius.si());
         let aside = (point - center).rejected_from(normal);
@@ -97,6 +103,10 @@ impl Surface for Plane {
 
     fn goes_on_along(&self, direction: Vec3) -> bool {
         self.opening.is_none() && self.normal().dot(direction).abs() <= ASKEW
+    }
+
+    fn endless_part(&self, offset: Vec3) -> Option<f64> {
+        Some(offset.rejected_from(self.normal()).norm())
     }
 
     fn triangles(&self, about: Vec3, within: f64) -> Vec<Triangle> {

@@ -88,7 +88,12 @@ pub trait Surface {
         false
     }
 
-    /// Triangles that show it, as far as it is within a ball about a point [m] of a radius [m].
+    /// How far an offset [m] reaches in the directions in which it has no end [m]; nothing where it has an end in all.
+    fn endless_part(&self, _offset: Vec3) -> Option<f64> {
+        None
+    }
+
+    /// Triangles that show it; where it has no end as far as it reaches this length [m] from a point [m].
     fn triangles(&self, about: Vec3, within: f64) -> Vec<Triangle>;
 }
 

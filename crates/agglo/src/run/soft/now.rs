@@ -5,6 +5,7 @@ use crate::engine::soft::{Clock, Simulation, WallSound};
 use crate::ledger::{Balance, Momentum};
 use crate::math::Vec3;
 use crate::measure::{ClusterSummary, Moments, mean_nearest_distance, moments};
+use crate::walls::Passed;
 
 use super::summary::Clusters;
 use super::together::{Together, dispersion_since};
@@ -103,6 +104,8 @@ pub struct WallNow {
     pub torque: Vec3,
     /// Work [J] that it has put in since the start.
     pub work: f64,
+    /// Grains beyond a plane with an opening; nothing of other walls.
+    pub passed: Option<Passed>,
     /// What rays have given it since the start.
     pub sound: WallSound,
 }
@@ -117,6 +120,7 @@ pub fn walls(simulation: &Simulation) -> impl Iterator<Item = WallNow> {
         force: wall.force,
         torque: wall.torque,
         work: wall.work,
+        passed: wall.passed,
         sound: simulation.pulses.given_to(number as usize),
     })
 }

@@ -169,6 +169,12 @@ pub struct WallQuantities {
     /// Work [J] that it has put in since the start; negative where grains drove it.
     #[serde(rename = "work_J")]
     pub work: f64,
+    /// Grains beyond a plane with an opening; not there for other walls.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub passed: Option<u64>,
+    /// Their mass [kg]; likewise.
+    #[serde(default, rename = "passed_kg", skip_serializing_if = "Option::is_none")]
+    pub passed_mass: Option<f64>,
     /// Impulse [N s] of the rays that hit it along x, y and z, since the start.
     #[serde(default, rename = "sound_impulse_N_s")]
     pub sound_impulse: [f64; 3],
@@ -188,6 +194,8 @@ impl WallQuantities {
             force: wall.force.to_array(),
             torque: wall.torque.to_array(),
             work: wall.work,
+            passed: wall.passed.map(|passed| passed.grains),
+            passed_mass: wall.passed.map(|passed| passed.mass),
         };
         states.enumerate().map(of).collect()
     }
@@ -196,6 +204,13 @@ impl WallQuantities {
     pub(super) fn told(&self) -> String {
         let force = Vec3::from(self.force).norm();
         let contacts = if self.contacts == 1 { "contact" } else { "contacts" };
+        let passed = match (self.passed, self.passed_mass) {
+            (Some(grains), Some(mass)) => {
+                let word = if grains == 1 { "grain" } else { "grains" };
+                format!(", {grains} {word} beyond it with {}", readable(mass, "kg"))
+            }
+            _ => String::new(),
+        };
         let sound = if self.sound_energy > 0.0 || self.sound_impulse != [0.0; 3] {
             let [impulse, energy] = [Vec3::from(self.sound_impulse).norm(), self.sound_energy];
             format!("; of sound {} and {}", readable(impulse, "N s"), readable(energy, "J"))
@@ -203,7 +218,7 @@ impl WallQuantities {
             String::new()
         };
         format!(
-            "{} {contacts}, {} on it, {} put in{sound}",
+            "{} {contacts}, {} on it, {} put in{passed}{sound}",
             self.contacts,
             readable(force, "N"),
             readable(self.work, "J")

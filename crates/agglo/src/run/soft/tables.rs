@@ -4,7 +4,9 @@ use crate::contact::bond::Break;
 use crate::contact::network::BondEvent;
 use crate::folder::names;
 use crate::ledger::{Entry, entry::soft as told};
-use crate::record::columns::{Column, Table, Tables, count, entry, number, number_or_none, word};
+use crate::record::columns::{
+    Column, Table, Tables, count, count_or_none, entry, number, number_or_none, word,
+};
 
 use super::now::{Now, WallNow};
 use super::panels::{
@@ -145,6 +147,8 @@ pub static WALLS: Table<WallNow> = Table { file: names::WALLS, columns: &[
     number("torque_y_N_m", "N m", "torque on the wall about y", "", |wall: &WallNow| wall.torque.y),
     number("torque_z_N_m", "N m", "torque on the wall about z", "", |wall: &WallNow| wall.torque.z),
     number("work_J", "J", "work of the wall", "that it has put in since the start; negative where grains drive it", |wall: &WallNow| wall.work),
+    count_or_none("passed", "grains that passed", "whose centers are beyond a plane with an opening, on the side that its normal points away from; of other walls there are none", |wall: &WallNow| wall.passed.map(|passed| passed.grains)),
+    number_or_none("passed_kg", "kg", "mass that passed", "the mass of those grains", |wall: &WallNow| wall.passed.map(|passed| passed.mass)),
     number("sound_impulse_x_N_s", "N s", "impulse of sound along x", "of the rays that hit the wall, since the start", |wall: &WallNow| wall.sound.impulse.x),
     number("sound_impulse_y_N_s", "N s", "impulse of sound along y", "", |wall: &WallNow| wall.sound.impulse.y),
     number("sound_impulse_z_N_s", "N s", "impulse of sound along z", "", |wall: &WallNow| wall.sound.impulse.z),

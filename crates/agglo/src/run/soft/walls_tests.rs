@@ -11,7 +11,10 @@ use crate::run::frames::FrameLists;
 
 /// Two grains that press with 0.2 N and 0.1 N on a floor that goes up at 0.5 m/s, and a cylinder that nothing touches.
 fn job() -> Soft {
-    let text = "version = 1\ntime.end = \"1 ms\"\nengine.verlet.step = \"10 ns\"\n[materials.glass]\n\
+    started(TEXT)
+}
+
+const TEXT: &str = "version = 1\ntime.end = \"1 ms\"\nengine.verlet.step = \"10 ns\"\n[materials.glass]\n\
                 density = \"2500 kg/m3\"\n[[grains]]\nmaterial = \"glass\"\nsize.constant.radius = \"1 mm\"\n\
                 placement.list.positions = [[\"4 mm\", \"1 mm\", \"0.98 mm\"], [\"-2 mm\", \"3 mm\", \"0.99 mm\"]]\n\
                 [contact.normal.hooke]\nstiffness = \"10 kN/m\"\n\
@@ -20,6 +23,8 @@ fn job() -> Soft {
                 [[walls]]\nname = \"floor\"\nmaterial = \"glass\"\n\
                 shape.plane = { point = [\"1 mm\", \"2 mm\", \"0 m\"], normal = [0.0, 0.0, 1.0] }\n\
                 motion.constant.velocity = [\"0 m/s\", \"0 m/s\", \"0.5 m/s\"]\n";
+
+fn started(text: &str) -> Soft {
     let scenario = Scenario::from_toml(text).unwrap_or_else(|faults| panic!("{faults}"));
     let grains = crate::packing::place(&scenario, Path::new("")).unwrap();
     Soft::start(&scenario, grains.into(), &mut |_| ControlFlow::Continue(())).unwrap()
@@ -36,21 +41,59 @@ fn walls_stand_under_their_names() {
     tables.flush().unwrap();
     let text = std::fs::read_to_string(folder.path().join("series/walls.csv")).unwrap();
     let mut lines = text.lines();
-    let head = "time_s,wall,contacts,force_x_N,force_y_N,force_z_N,torque_x_N_m,torque_y_N_m,torque_z_N_m,work_J,\
-         sound_impulse_x_N_s,sound_impulse_y_N_s,sound_impulse_z_N_s,sound_energy_J";
+    let head = "time_s,wall,contacts,force_x_N,force_y_N,force_z_N,torque_x_N_m,torque_y_N_m,torque_z_N_m,work_J,passed,\
+         passed_kg,sound_impulse_x_N_s,sound_impulse_y_N_s,sound_impulse_z_N_s,sound_energy_J";
     assert_eq!(lines.next(), Some(head));
     let rows: Vec<Vec<f64>> =
         lines.map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect()).collect();
     let torque = [1e-3 * 0.2 - 1e-3 * 0.1, 3e-3 * 0.2 - 3e-3 * 0.1];
-    let wanted =
-        [[0.0; 14], [0.0, 1.0, 2.0, 0.0, 0.0, -0.3, torque[0], torque[1], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]];
+    let wanted = [[0.0; 10], [0.0, 1.0, 2.0, 0.0, 0.0, -0.3, torque[0], torque[1], 0.0, 0.0]];
     assert_eq!(rows.len(), wanted.len(), "rows: {rows:?}");
     for (row, wanted) in rows.iter().zip(wanted) {
         for ((found, wanted), name) in row.iter().zip(wanted).zip(head.split(',')) {
             // An overlap of 10 um is a difference of places of 1 mm.
             assert_near!(*found, wanted, 1e-13, "series/walls.csv: {name}");
         }
+        assert_true!(row[10].is_nan() && row[11].is_nan(), "neither has an opening");
+        assert_eq!(row[12..], [0.0; 4], "nothing sounds");
     }
+}
+
+/// One grain is above a floor with a hole, the other one below it. Its mass by hand:
+/// 2500 kg/m³ times 4/3 π (1 mm)³.
+#[test]
+fn a_plate_tells_what_is_beyond_it() {
+    let hole =
+        "normal = [0.0, 0.0, 1.0], opening = { center = [\"1 mm\", \"2 mm\", \"0 m\"], radius = \"20 mm\" }";
+    let text = TEXT.replacen("normal = [0.0, 0.0, 1.0]", hole, 1).replace("\"0.99 mm\"", "\"-0.99 mm\"");
+    let mut job = started(&text);
+    let folder = tempfile::tempdir().unwrap();
+    let mut tables = tables(Soft::TABLES, folder.path());
+    job.record_rows(&mut tables).unwrap();
+    tables.flush().unwrap();
+    let rows = std::fs::read_to_string(folder.path().join("series/walls.csv")).unwrap();
+    let cells: Vec<&str> = rows.lines().last().unwrap().split(',').collect();
+    let mass = 2500.0 * 4.0 / 3.0 * std::f64::consts::PI * 1e-9;
+    assert_eq!((cells[1], cells[10]), ("1", "1"), "number of the wall, grains beyond it");
+    assert_close!(cells[11].parse::<f64>().unwrap(), mass, 1e-12, "in kg");
+    let walls = WallQuantities::of_all(&job.simulation);
+    assert_eq!((walls[0].passed, walls[1].passed), (None, Some(1)), "grains beyond walls");
+    assert_contains!(walls[1].told(), ", 1 grain beyond it with 1.047e-5 kg");
+}
+
+/// A run without walls has no table of them.
+#[test]
+fn a_run_without_walls_has_no_table_of_walls() {
+    let (bare, _) = TEXT.split_once("[[walls]]").unwrap();
+    let files = |text: &str| -> Vec<&str> {
+        let scenario = Scenario::from_toml(text).unwrap_or_else(|faults| panic!("{faults}"));
+        crate::run::tables_of(&scenario).iter().map(|table| table.file()).collect()
+    };
+    assert_false!(files(bare).contains(&"series/walls.csv"), "no walls");
+    let mut with = files(TEXT);
+    with.retain(|file| *file != "series/walls.csv");
+    assert_eq!(with, files(bare), "all other tables");
+    assert_eq!(files(TEXT).len(), with.len() + 1, "and that of walls");
 }
 
 /// After a step of 10 ns the floor has put in F v Δt = 0.3 N · 0.5 m/s · 10 ns, but for what the overlaps changed by meanwhile: v Δt over

@@ -62,3 +62,46 @@ fn the_plate_has_two_sides() {
     assert_between!(highest, -1e-3..-0.9e-3, "in m");
     assert_below!(grain(&simulation, 0).velocity.z, 0.3, "in m/s");
 }
+
+/// A plate that goes down at 50 mm/s is passed where 2 mm - g t²/2 = -v t: within a step of 2 us, while 1 % of the time are 300 us.
+#[test]
+fn who_is_beyond_the_plate_has_passed() {
+    for speed in [0.0, 0.05] {
+        let motion =
+            format!("motion.constant.velocity = [\"0 m/s\", \"0 m/s\", \"{:e} m/s\"]\n[contact", -speed);
+        let text = plate([0.5e-3, 0.0, 2e-3], 40e-3).replacen("[contact", &motion, 1);
+        let mut simulation = common::start(&text, |_| {});
+        let (mut first, mut most) = (None, 0.0);
+        common::watch(&mut simulation, |simulation| {
+            let passed = wall(simulation, "plate").passed.unwrap();
+            let mass = passed.grains as f64 * crate::walls::mass();
+            assert_near!(passed.mass, mass, 1e-12 * crate::walls::mass(), "in kg");
+            if passed.grains > 0 {
+                first.get_or_insert(simulation.clock().time);
+            }
+            most = f64::max(most, passed.mass);
+        });
+        let due = (speed + (speed * speed + 2.0 * G * 2e-3).sqrt()) / G;
+        assert_between!(first.unwrap(), due..due + 2.1e-6, "in s");
+        assert_close!(most, crate::walls::mass(), 1e-12, "in kg");
+    }
+}
+
+/// A grain that is thrown up through the hole has been beyond the plate from the start, is before it, and comes back; other walls have
+/// nothing that passes.
+#[test]
+fn who_comes_back_is_taken_off() {
+    let floor = "[[walls]]\nname = \"floor\"\nmaterial = \"glass\"\n\
+                 shape.plane = { point = [\"0 m\", \"0 m\", \"-9 mm\"], normal = [0.0, 0.0, 1.0] }\n[contact";
+    let text = plate([0.0, 0.0, -2e-3], 90e-3).replacen("[contact", floor, 1);
+    let mut simulation = common::start(&text, |grains| grains.velocity[0].z = 0.4);
+    let mut course = vec![];
+    common::watch(&mut simulation, |simulation| {
+        let passed = wall(simulation, "plate").passed.unwrap().grains;
+        if course.last() != Some(&passed) {
+            course.push(passed);
+        }
+        assert_none!(wall(simulation, "floor").passed);
+    });
+    assert_eq!(course, [1, 0, 1], "grains beyond the plate");
+}
