@@ -65,6 +65,9 @@ pub(crate) struct RenderOptions {
     /// Leave the edges of the control volume out
     #[arg(long)]
     no_volume: bool,
+    /// Leave walls out
+    #[arg(long)]
+    no_walls: bool,
     /// Leave legend, scale and time out
     #[arg(long)]
     no_words: bool,
@@ -109,6 +112,7 @@ impl RenderOptions {
             bonds: self.bonds,
             rays: self.rays,
             volume: !self.no_volume,
+            walls: !self.no_walls,
             words: !self.no_words,
         }
     }

@@ -226,7 +226,7 @@ impl Bvh {
 
     /// Whether the ray meets any solid; `hits` tells of the solid in a slot.
     #[inline]
-    pub fn meets(&self, ray: &Ray, hits: impl Fn(usize) -> bool) -> bool {
+    pub fn meets(&self, ray: &Ray, mut hits: impl FnMut(usize) -> bool) -> bool {
         let mut met = false;
         self.walk(
             |bounds| ray.entry(bounds, f64::INFINITY).is_finite(),

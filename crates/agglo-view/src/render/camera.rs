@@ -70,6 +70,11 @@ impl Camera {
         [self.width, self.height]
     }
 
+    /// Where it is [m].
+    pub(super) fn eye(&self) -> Vec3 {
+        self.eye
+    }
+
     /// Unit vectors to the right and up in the picture, and forward into it.
     pub fn axes(&self) -> &[Vec3; 3] {
         &self.axes

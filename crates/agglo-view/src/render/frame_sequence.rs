@@ -3,24 +3,31 @@
 use std::path::{Path, PathBuf};
 
 use super::error::RenderError;
+use super::sheet::Sheet;
 use agglo::domain::{SpaceInTime, Volume};
 use agglo::folder::{CampaignFolder, RunFolder};
 use agglo::math::Vec3;
 use agglo::record::frames::{Collection, FieldValues, Frame};
 use agglo::record::{RecordError, door};
 use agglo::scenario::Scenario;
+use agglo::walls::Shape;
 
 /// The frames of a run.
 #[derive(Clone, Debug)]
 pub struct FrameSequence {
     dir: PathBuf,
-    /// Times [s] and files of grains, and of bonds and rays where there are such.
+    /// Times [s] and files of grains, and of bonds, rays and walls where there are such.
     grains: Vec<(f64, PathBuf)>,
     bonds: Vec<(f64, PathBuf)>,
     rays: Vec<(f64, PathBuf)>,
+    walls: Vec<(f64, PathBuf)>,
     /// The scenario, or why there is none.
     scenario: Result<Scenario, String>,
 }
+
+/// Parts of the longest length of the grains that walls without an end may be seen beside them.
+const ROUND: f64 = 1.0;
+const FLAT: f64 = 0.06;
 
 /// A grain's place and size: center [m] and radius [m].
 pub(super) type Ball = (Vec3, f64);
@@ -43,7 +50,8 @@ impl FrameSequence {
             if list.is_file() { listed(&list).map_err(RenderError::Frame) } else { Ok(Vec::new()) }
         };
         let scenario = scenario(&RunFolder::at(&dir).scenario());
-        Ok(Self { grains, bonds: others("bonds")?, rays: others("rays")?, scenario, dir })
+        let [bonds, rays, walls] = [others("bonds")?, others("rays")?, others("walls")?];
+        Ok(Self { dir, grains, bonds, rays, walls, scenario })
     }
 
     /// The folder of the run.
@@ -123,6 +131,33 @@ impl FrameSequence {
             return Ok(Vec::new());
         };
         Ok(frame.points.iter().zip(directions).map(|(&at, &to)| [at.into(), to.into()]).collect())
+    }
+
+    /// The walls of a frame; triangles that cannot be are left out.
+    pub(super) fn walls(&self, number: usize) -> Result<Vec<Sheet>, RenderError> {
+        let Some(frame) = self.beside(&self.walls, number)? else { return Ok(Vec::new()) };
+        let walls = match frame.field("wall") {
+            Some(FieldValues::Integers(walls)) => walls.as_slice(),
+            _ => &[],
+        };
+        let (triangles, _) = frame.points.as_chunks::<3>();
+        let sheet = |(number, corners): (usize, &[[f64; 3]; 3])| {
+            let is_whole = corners.as_flattened().iter().all(|part| part.is_finite());
+            let wall = walls.get(3 * number).copied().unwrap_or(0);
+            is_whole.then(|| Sheet { corners: corners.map(Vec3::from), wall })
+        };
+        Ok(triangles.iter().enumerate().filter_map(sheet).collect())
+    }
+
+    /// How far beside grains a wall is looked at, over the longest length of these: all of one with ends, a round one without an end as
+    /// far as it is likely to be of interest, and little of a plane.
+    pub(super) fn room_for(&self, wall: u32) -> f64 {
+        let walls = self.scenario().and_then(Scenario::soft).map_or(&[][..], |soft| &soft.walls);
+        match walls.get(wall as usize).map(|wall| &wall.shape) {
+            Some(shape) if shape.is_bounded() => f64::INFINITY,
+            Some(Shape::Cylinder(_)) => ROUND,
+            _ => FLAT,
+        }
     }
 
     /// The frame of the same time in another list: lists may begin later than that of grains.

@@ -17,7 +17,9 @@ mod output;
 mod overlay;
 mod renderer;
 mod scene;
+mod sheet;
 mod solid;
+mod survey;
 mod text;
 
 pub use animation::{Animation, AnimationEnding, AnimationProgress, Shots, animate};

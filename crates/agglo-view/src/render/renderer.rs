@@ -10,7 +10,9 @@ use super::frame_sequence::{Ball, FrameSequence};
 use super::image::{Image, light_of};
 use super::overlay::{Entry, Legend, Overlay};
 use super::scene::{Background, Ground, Scene};
+use super::sheet::{self, Sheet};
 use super::solid::{Light, Line, Sphere};
+use super::survey::{framed, joined, range, seen, survey};
 use crate::plot::{Coloring, Map, NAMED, Quantity, name_color};
 use agglo::math::Vec3;
 
@@ -54,6 +56,8 @@ pub struct Options {
     pub rays: bool,
     /// Whether the edges of the control volume are drawn, where there is one.
     pub volume: bool,
+    /// Whether walls are drawn, where there are such.
+    pub walls: bool,
     /// Whether there are words: legend, scale and time.
     pub words: bool,
 }
@@ -73,20 +77,10 @@ impl Default for Options {
             bonds: false,
             rays: false,
             volume: true,
+            walls: true,
             words: true,
         }
     }
-}
-
-/// What is known of a frame before it is drawn.
-#[derive(Clone, Debug)]
-struct Survey {
-    /// Reaches along right, up and forward [m], without the outermost grains; nothing without grains.
-    reach: Option<[[f64; 2]; 3]>,
-    /// Least and largest value, without outliers.
-    range: [f64; 2],
-    /// Least and largest value of all.
-    all: [f64; 2],
 }
 
 /// A run before the camera.
@@ -105,10 +99,6 @@ pub struct Renderer {
     has_shown_rays: AtomicBool,
 }
 
-/// Part of the grains that may be outside of the picture, on each side.
-const OUTSIDE: f64 = 0.025;
-/// Part of the values that may be above the range, where a quantity has outliers.
-const ABOVE: f64 = 0.01;
 /// Room about what is framed.
 const MARGIN: f64 = 1.12;
 /// Colors of lines.
@@ -117,6 +107,7 @@ const BOND_ON_DARK: u32 = 0xc8_c8c8;
 const RAY: u32 = 0x1c_1c1c;
 const RAY_ON_DARK: u32 = 0x56_b4e9;
 const EDGE: u32 = 0x8c_8c8c;
+const WALL: u32 = 0x6e_7f90;
 
 impl Renderer {
     /// Looks through the frames with these numbers and sets up the camera and the colors. `look` is told how many
@@ -142,17 +133,14 @@ impl Renderer {
             if !look(surveys.len()) {
                 return Ok(None);
             }
-            let found = some.par_iter().map(|&number| survey(&sequence, number, &quantity, options.side));
+            let found = some.par_iter().map(|&number| survey(&sequence, number, &quantity, &options));
             surveys.extend(found.collect::<Result<Vec<_>, _>>()?);
         }
-        let mut reaches = surveys.iter().filter_map(|survey| survey.reach);
-        let reach = if options.view == View::First { reaches.next() } else { reaches.reduce(joined) };
-        let Some(reach) = reach else {
+        let Some(reach) = framed(&surveys, &sequence, options.view) else {
             return Err(RenderError::NoGrains { dir: sequence.dir().to_owned() });
         };
-        let reach = corners(&sequence, &options).fold(reach, |reach, corner| {
-            joined(reach, options.side.axes().map(|axis| [axis.dot(corner); 2]))
-        });
+        let reach = corners(&sequence, &options)
+            .fold(reach, |reach, corner| joined(reach, seen(corner, options.side)));
         let (range, beyond) = range(&surveys, &quantity, options.range);
         let camera = camera(reach, &options);
         let last_time = frames.last().and_then(|&last| sequence.times().nth(last)).unwrap_or(0.0);
@@ -203,11 +191,13 @@ impl Renderer {
         let values = self.values(number, &frame)?;
         let colors = self.colors(&values);
         let balls = self.sequence.balls(number, &frame)?;
+        let sheets = if self.options.walls { self.sequence.walls(number)? } else { Vec::new() };
         let spheres =
             balls.iter().zip(colors).map(|(&(center, radius), color)| Sphere { center, radius, color });
         let scene = Scene {
             spheres: spheres.collect(),
-            lines: self.lines(number, &balls)?,
+            lines: self.lines(number, &balls, &sheets)?,
+            sheets,
             ground: self.ground,
             background: self.options.background,
         };
@@ -277,7 +267,7 @@ impl Renderer {
         }
     }
 
-    fn lines(&self, number: usize, balls: &[Ball]) -> Result<Vec<Line>, RenderError> {
+    fn lines(&self, number: usize, balls: &[Ball], sheets: &[Sheet]) -> Result<Vec<Line>, RenderError> {
         let pixel = self.camera.pixel();
         let mut lines = Vec::new();
         if self.options.bonds {
@@ -296,6 +286,9 @@ impl Renderer {
             let color = light_of(if is_dark { RAY_ON_DARK } else { RAY });
             lines.extend(rays.into_iter().map(streak).map(|ends| Line { ends, radius, color }));
         }
+        let (radius, color) = (0.7 * pixel, light_of(WALL));
+        let of_walls = sheet::edges(sheets, self.camera.eye());
+        lines.extend(of_walls.into_iter().map(|ends| Line { ends, radius, color }));
         if self.options.volume {
             let (radius, color) = (0.9 * pixel, light_of(EDGE));
             let volume = self.sequence.volume_at(number, balls);
@@ -366,72 +359,6 @@ fn quantity(sequence: &FrameSequence, number: usize, word: &str) -> Result<Quant
             known: words.join(", "),
         }
     })
-}
-
-fn survey(
-    sequence: &FrameSequence,
-    number: usize,
-    quantity: &Quantity,
-    side: Side,
-) -> Result<Survey, RenderError> {
-    let frame = sequence.read(number)?;
-    let balls = sequence.balls(number, &frame)?;
-    let missing = || RenderError::Field { path: sequence.path(number).to_owned(), field: quantity.field };
-    let mut values = quantity.of(&frame).ok_or_else(missing)?;
-    values.retain(|value| value.is_finite());
-    let all = values
-        .iter()
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &value| [low.min(value), high.max(value)]);
-    let range = if quantity.has_outliers {
-        [all[0], quantile(&mut values, 1.0 - ABOVE).unwrap_or(all[1])]
-    } else {
-        all
-    };
-    Ok(Survey { reach: reach(&balls, side), range, all })
-}
-
-/// How far grains reach along right, up and forward, without the outermost.
-fn reach(balls: &[Ball], side: Side) -> Option<[[f64; 2]; 3]> {
-    let along = |axis: Vec3| {
-        let mut ends = [-1.0, 1.0].map(|sign| -> Vec<f64> {
-            balls.iter().map(|(center, radius)| center.dot(axis) + sign * radius).collect()
-        });
-        let [lower, upper] = &mut ends;
-        Some([quantile(lower, OUTSIDE)?, quantile(upper, 1.0 - OUTSIDE)?])
-    };
-    let [right, up, forward] = side.axes();
-    Some([along(right)?, along(up)?, along(forward)?])
-}
-
-/// The value below which this part of all is; nothing without values. Few values are never left out.
-fn quantile(values: &mut [f64], part: f64) -> Option<f64> {
-    let last = values.len().checked_sub(1)?;
-    let place = part * last as f64;
-    let at = if part < 0.5 { place.floor() } else { place.ceil() } as usize;
-    Some(*values.select_nth_unstable_by(at, f64::total_cmp).1)
-}
-
-fn joined(a: [[f64; 2]; 3], b: [[f64; 2]; 3]) -> [[f64; 2]; 3] {
-    std::array::from_fn(|axis| [a[axis][0].min(b[axis][0]), a[axis][1].max(b[axis][1])])
-}
-
-/// The range of the color map, and whether values are below or above it.
-fn range(surveys: &[Survey], quantity: &Quantity, wanted: Option<[f64; 2]>) -> ([f64; 2], [bool; 2]) {
-    let over = |of: fn(&Survey) -> [f64; 2]| {
-        surveys.iter().map(of).fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], [least, most]| {
-            [low.min(least), high.max(most)]
-        })
-    };
-    let all = over(|survey| survey.all);
-    let found = wanted.unwrap_or_else(|| over(|survey| survey.range));
-    let range = match found {
-        [low, high] if low < high => [low, high],
-        // All the same: the value is in the middle.
-        [low, _] if low.is_finite() && low != 0.0 => [low - 0.05 * low.abs(), low + 0.05 * low.abs()],
-        _ => [0.0, 1.0],
-    };
-    let is_map = matches!(quantity.coloring, Coloring::Values(_));
-    (range, [is_map && all[0] < range[0], is_map && all[1] > range[1]])
 }
 
 fn camera(reach: [[f64; 2]; 3], options: &Options) -> Camera {

@@ -231,3 +231,44 @@ fn the_volume_is_drawn_as_it_is_by_then() {
         assert_near_vector!(upper - lower, Vec3::new(4.0, 4.0, 4.0) * factor, 1e-14, "m");
     }
 }
+
+/// All of a box is in the picture; of a plane without an end no more than is near what else is seen, however large it is in the frame.
+#[test]
+fn the_view_holds_walls_that_end() {
+    let wall = |name: &str, shape: &str| {
+        format!("[[walls]]\nname = \"{name}\"\nmaterial = \"clay\"\nshape.{shape}\n")
+    };
+    let text = "version = 1\ntime.end = \"1 s\"\nengine.verlet.step = \"1 ms\"\nmaterials.clay.density = \"2000 kg/m3\"\n\
+                [[grains]]\nmaterial = \"clay\"\nsize.constant.radius = \"5 cm\"\n\
+                placement.list.positions = [[\"0 m\", \"0 m\", \"0 m\"]]\n[contact.normal.hooke]\nstiffness = \"1 kN/m\"\n"
+        .to_owned()
+        + &wall("box", "box = { lower = [\"-4 m\", \"-4 m\", \"-4 m\"], upper = [\"4 m\", \"4 m\", \"4 m\"] }")
+        + &wall("floor", "plane = { point = [\"0 m\", \"0 m\", \"-1 m\"], normal = [0.0, 0.0, 1.0] }");
+    let triangle = |size: f64| [[-size, -size, -1.0], [size, -size, -1.0], [0.0, size, -1.0]].map(Vec3::from);
+    let distance = |walls: &[(f64, u32)], options: Options| {
+        let dir = tempfile::tempdir().unwrap();
+        write_frames(dir.path(), &[ball(400, 1.0)]);
+        std::fs::write(dir.path().join("scenario.toml"), &text).unwrap();
+        let triangles: Vec<[Vec3; 3]> = walls.iter().map(|(size, _)| triangle(*size)).collect();
+        let numbers: Vec<u32> = walls.iter().flat_map(|(_, number)| [*number; 3]).collect();
+        let frames = dir.path().join("frames");
+        agglo::record::frames::write_walls(&frames.join("walls_000000.vtp"), 0.0, &triangles, &numbers)
+            .unwrap();
+        let mut list = Collection::default();
+        list.add(0.0, "walls_000000.vtp");
+        list.write(&frames.join("walls.pvd")).unwrap();
+        let renderer = prepared(dir.path(), options).unwrap();
+        let drawn = renderer.picture(0).unwrap();
+        (renderer.camera().clone(), drawn)
+    };
+    let of_grains = Options { walls: false, ..small("speed") };
+    let (alone, bare) = distance(&[(1000.0, 1)], of_grains);
+    let (with_floor, floored) = distance(&[(1000.0, 1)], small("speed"));
+    assert_between!(with_floor.distance() / alone.distance(), 1.0..1.2, "distance beside that without walls");
+    assert_false!(bare == floored, "the floor is not drawn");
+    let (with_box, _) = distance(&[(4.0, 0)], small("speed"));
+    for corner in triangle(4.0) {
+        let ([x, y], _) = with_box.project(corner).unwrap();
+        assert_true!((0.0..64.0).contains(&x) && (0.0..48.0).contains(&y), "{corner:?} is seen at {x}, {y}");
+    }
+}

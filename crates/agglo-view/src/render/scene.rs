@@ -8,6 +8,7 @@ use super::bvh::{Bvh, Ray};
 use super::camera::Camera;
 use super::image::{Image, Ink};
 use super::light::{self, Probes, Sky};
+use super::sheet::Sheet;
 use super::solid::{Light, Line, Sphere};
 use agglo::math::Vec3;
 
@@ -41,6 +42,8 @@ pub struct Scene {
     pub spheres: Vec<Sphere>,
     /// Bonds, rays, edges.
     pub lines: Vec<Line>,
+    /// Walls: what lies behind them is seen through them.
+    pub sheets: Vec<Sheet>,
     /// A level floor at this height [m] about this place.
     pub ground: Option<Ground>,
     /// What is behind everything.
@@ -85,6 +88,11 @@ const SUN: f64 = 0.52;
 const SHINE: f64 = 0.10;
 const GLOSS: i32 = 40;
 
+/// How much a wall covers of what is behind it, its color as light, and how bright it is where no sun comes.
+const SHEET_COVERS: f32 = 0.3;
+const SHEET: Light = [0.36, 0.45, 0.56];
+const IN_THE_SHADE: f64 = 0.45;
+
 /// A scene prepared for rays.
 struct Stage<'a> {
     camera: &'a Camera,
@@ -92,6 +100,8 @@ struct Stage<'a> {
     tree: Bvh,
     lines: Vec<Line>,
     line_tree: Bvh,
+    sheets: Vec<Sheet>,
+    sheet_tree: Bvh,
     ground: Option<Ground>,
     background: Ink,
     probes: Probes,
@@ -118,7 +128,7 @@ impl Scene {
                 let at = y * width + x;
                 let ink = match met[at] {
                     _ if edges[at] => stage.mixed(x, y),
-                    (Met::Nothing, _) => stage.background,
+                    (Met::Nothing, _) if stage.sheets.is_empty() => stage.background,
                     (met, distance) => {
                         stage.shade(&camera.ray(x as f64 + 0.5, y as f64 + 0.5), met, distance)
                     }
@@ -134,6 +144,7 @@ impl<'a> Stage<'a> {
     fn new(scene: &Scene, camera: &'a Camera) -> Self {
         let tree = Bvh::new(&scene.spheres.iter().map(Sphere::bounds).collect::<Vec<_>>());
         let line_tree = Bvh::new(&scene.lines.iter().map(Line::bounds).collect::<Vec<_>>());
+        let sheet_tree = Bvh::new(&scene.sheets.iter().map(Sheet::bounds).collect::<Vec<_>>());
         let spheres: Vec<Sphere> = tree.order().iter().map(|&k| scene.spheres[k as usize]).collect();
         let [right, up, forward] = *camera.axes();
         Self {
@@ -143,6 +154,8 @@ impl<'a> Stage<'a> {
             tree,
             lines: line_tree.order().iter().map(|&k| scene.lines[k as usize]).collect(),
             line_tree,
+            sheets: sheet_tree.order().iter().map(|&k| scene.sheets[k as usize]).collect(),
+            sheet_tree,
             ground: scene.ground,
             background: scene.background.ink(),
             probes: Probes::new(),
@@ -218,12 +231,35 @@ impl<'a> Stage<'a> {
 
     fn shade(&self, ray: &Ray, met: Met, distance: f64) -> Ink {
         let solid = |light: Light| Ink { light, cover: 1.0 };
-        match met {
+        let ink = match met {
             Met::Nothing => self.background,
             Met::Line(slot) => solid(self.lines[slot as usize].color),
             Met::Sphere(slot) => solid(self.on_sphere(ray.at(distance), ray.direction, slot as usize)),
             Met::Ground => self.on_ground(ray.at(distance)),
+        };
+        self.behind_sheets(ray, distance, ink)
+    }
+
+    /// What is left of an ink so far away [m] behind the sheets before it.
+    fn behind_sheets(&self, ray: &Ray, distance: f64, ink: Ink) -> Ink {
+        let (mut through, mut sheets, mut light) = (1.0, 0.0, [0.0; 3]);
+        self.sheet_tree.meets(ray, |slot| {
+            if let Some((at, normal)) = self.sheets[slot].hit(ray).filter(|hit| hit.0 < distance) {
+                let (place, facing) = (ray.at(at), normal.dot(self.to_sun).max(0.0));
+                let sun = light::sun(&self.tree, &self.spheres, (place, None), self.to_sun);
+                let lit = (IN_THE_SHADE + (1.0 - IN_THE_SHADE) * sun * facing) as f32;
+                through *= 1.0 - SHEET_COVERS;
+                sheets += 1.0;
+                light = [0, 1, 2].map(|k| light[k] + SHEET[k] * lit);
+            }
+            false
+        });
+        if sheets == 0.0 {
+            return ink;
         }
+        // One after the other would ask for their order; they are of one color, so that it hardly matters.
+        let sheets = Ink { light: light.map(|part| part / sheets), cover: 1.0 };
+        Ink::mean([(through, ink), (1.0 - through, sheets)])
     }
 
     fn on_sphere(&self, place: Vec3, direction: Vec3, slot: usize) -> Light {

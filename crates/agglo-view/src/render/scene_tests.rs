@@ -128,3 +128,26 @@ fn the_floor_takes_shadows_and_fades() {
     assert!(shadow + 60 < open, "{shadow} {open}");
     assert_eq!(image.pixel(1, 1), [255; 4]);
 }
+
+/// A sheet that turns its front to the eye takes its part of what is behind it; seen from behind, or behind the ball, it takes nothing.
+#[test]
+fn sheets_let_through_what_is_behind_them() {
+    let ball = scene(vec![sphere([0.0; 3], 0.5, [1.0, 0.0, 0.0])]);
+    // Looking along +x, y is to the left: right, top, left is against the clock.
+    let corners = |x: f64| [[x, -3.0, -3.0], [x, 0.0, 4.0], [x, 3.0, -3.0]].map(Vec3::from);
+    let with = |corners| Scene { sheets: vec![Sheet { corners, wall: 0 }], ..ball.clone() }.draw(&camera());
+    let (alone, veiled) = (ball.draw(&camera()), with(corners(-2.0)));
+    let (before, after) = (alone.pixel(120, 120), veiled.pixel(120, 120));
+    assert_eq!((before[3], after[3]), (255, 255), "the ball hides all");
+    assert_below!(after[0], before[0]);
+    assert_above!(after[2], before[2] + 30, "the sheet is gray, the ball is red");
+    let [up, aside] = [veiled.pixel(120, 40), veiled.pixel(10, 10)];
+    assert_eq!(
+        (up[3], aside[3]),
+        ((SHEET_COVERS * 255.0).round() as u8, 0),
+        "beside the ball, and beside the sheet"
+    );
+    let [a, b, c] = corners(-2.0);
+    assert_true!(with([a, c, b]) == alone, "seen from behind");
+    assert_eq!(with(corners(2.0)).pixel(120, 120), before, "behind the ball");
+}
