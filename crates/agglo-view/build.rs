@@ -18,8 +18,8 @@ mod pages {
     use sha2::{Digest, Sha256};
 
     /// The scripts of a page, in the order in which they need each other.
-    const OWN: [&str; 8] =
-        ["colors", "replay_data", "scene", "camera", "pointers", "replay", "charts", "page"];
+    const OWN: [&str; 9] =
+        ["colors", "replay_data", "walls", "scene", "camera", "pointers", "replay", "charts", "page"];
 
     /// Writes the page's script as it stands between its tags, and the library that draws its charts as base64 of
     /// deflated bytes; and the digest of each, by which a page knows its own scripts.

@@ -4,6 +4,7 @@ use super::folder::Folder;
 use super::lines::{Lines, kept};
 use super::pulses;
 use super::table::Table;
+use super::walls;
 use crate::chart::{Axis, Chart, Drawn, Heatmap};
 use agglo::folder::names::SIZES;
 use agglo::impact::heat::Balance;
@@ -26,6 +27,7 @@ pub fn charts(folder: &Folder) -> Vec<Chart> {
     let place = after.map_or(charts.len(), |at| at + 1);
     charts.splice(place..place, of_pulses);
     charts.extend(folder.table("sizes").and_then(sizes));
+    charts.extend(walls::charts(folder));
     charts
 }
 

@@ -94,6 +94,7 @@ impl Report {
         STAGE
             .replace("{{bonds}}", &switch("bonds", has("bonds")))
             .replace("{{rays}}", &switch("rays", has("ray_x")))
+            .replace("{{walls}}", &switch("walls", has("wall_x")))
     }
 
     fn charts(&self) -> String {

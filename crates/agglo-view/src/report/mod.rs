@@ -16,6 +16,7 @@ mod story;
 mod table;
 #[cfg(test)]
 mod testing;
+mod walls;
 
 use std::path::{Path, PathBuf};
 
@@ -182,6 +183,7 @@ fn tables(folder: &Folder) -> Vec<QuantityTable> {
         let pair = |(what, quantity): (String, String)| vec![what, quantity];
         let rows = summary.table().into_iter().map(pair).collect();
         tables.push(QuantityTable { title: "Quantities".to_owned(), rows, ..QuantityTable::default() });
+        tables.extend(walls::table(summary));
         let warnings = summary.warnings();
         let rows: Vec<_> =
             warnings.iter().map(|(warning, count)| vec![warning.clone(), count.to_string()]).collect();

@@ -28,6 +28,11 @@ function stageInk(stage) {
   return stage[1] > 0.5 ? [0.1, 0.1, 0.1] : [0.95, 0.95, 0.95];
 }
 
+// Walls stand back on a stage of that color.
+function wallColor(stage) {
+  return stage[1] > 0.5 ? [0.45, 0.53, 0.62] : [0.6, 0.68, 0.77];
+}
+
 // The heaviest cluster has the first color for itself.
 function clusterColor(cluster) {
   return NAMED[cluster === 0 ? 0 : 1 + ((cluster - 1) % (NAMED.length - 1))];

@@ -28,7 +28,8 @@ class Replay {
       for (let k = 0; k < 3; k += 1) spheres[4 * grain + k] = centers[3 * grain + k];
       spheres[4 * grain + 3] = radii[grain];
     }
-    if (this.isOn("follow")) this.camera.fit(ballOf(this.grains));
+    this.showWalls();
+    if (this.isOn("follow")) this.camera.fit(this.scene.shownWalls.within(ballOf(this.grains)));
     this.scene.setSpheres(spheres, this.sphereColors());
     this.showLines();
     this.part("scrub").value = frame;
@@ -77,6 +78,11 @@ class Replay {
     this.scene.setLines(ends, colors);
   }
 
+  showWalls() {
+    const corners = this.isOn("walls") ? this.frames.walls(this.frame) : new Float32Array(0);
+    this.scene.setWalls(new Walls(corners), wallColor(this.stageColor()));
+  }
+
   isOn(name) {
     return this.part(name)?.checked ?? false;
   }
@@ -91,7 +97,7 @@ class Replay {
     requestAnimationFrame(() => {
       this.waiting = false;
       const aspect = this.canvas.clientWidth / Math.max(this.canvas.clientHeight, 1);
-      this.scene.draw(this.camera.view(), this.camera.projection(aspect), this.stageColor());
+      this.scene.draw(this.camera.view(), this.camera.projection(aspect), this.stageColor(), this.camera.eye());
     });
   }
 
@@ -173,11 +179,16 @@ class Replay {
 
   showLegend() {
     this.showColors();
-    if (!this.isOn("rays")) return;
-    const [entry, stroke] = [element("s", ""), element("i", "")];
-    const ink = css(stageInk(this.stageColor()));
-    stroke.style.background = `linear-gradient(to bottom, transparent 40%, ${ink} 40% 60%, transparent 60%)`;
-    entry.append(stroke, "rays");
+    const stage = this.stageColor();
+    const ink = css(stageInk(stage));
+    if (this.isOn("rays")) this.addMark(`linear-gradient(to bottom, transparent 40%, ${ink} 40% 60%, transparent 60%)`, "rays");
+    if (this.isOn("walls")) this.addMark(css(wallColor(stage)), "walls");
+  }
+
+  addMark(background, text) {
+    const [entry, mark] = [element("s", ""), element("i", "")];
+    mark.style.background = background;
+    entry.append(mark, text);
     this.part("legend").append(entry);
   }
 
@@ -234,10 +245,12 @@ class Replay {
       this.showLegend();
       this.repaint();
     });
+    this.part("walls")?.addEventListener("change", () => { this.show(this.frame); this.showLegend(); });
     this.showLegend();
     new ResizeObserver(() => this.draw()).observe(this.canvas);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
       this.showLines();
+      this.showWalls();
       this.showLegend();
       this.draw();
     });

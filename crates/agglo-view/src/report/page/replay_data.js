@@ -8,7 +8,7 @@ async function unpack(id) {
   return new Response(stream).arrayBuffer();
 }
 
-// Frames of grains, bonds and rays. `plan` says where each array lies in `bytes`.
+// Frames of grains, bonds, rays and walls. `plan` says where each array lies in `bytes`.
 class Frames {
   constructor(plan, bytes) {
     this.plan = plan;
@@ -75,6 +75,12 @@ class Frames {
       }
     }
     return { ends, powers: this.values(frame, "ray_power") };
+  }
+
+  // Corners of the triangles of walls [9 n].
+  walls(frame) {
+    const axes = ["wall_x", "wall_y", "wall_z"].map((name) => this.values(frame, name));
+    return axes[0] ? interleave(axes) : new Float32Array(0);
   }
 }
 

@@ -53,6 +53,23 @@ precision highp float;
 in vec3 tint; out vec4 shown;
 void main() { shown = vec4(tint, 1.0); }`;
 
+const WALL_VERTEX = `#version 300 es
+uniform mat4 view, projection;
+in vec3 corner;
+out vec3 at;
+void main() { at = (view * vec4(corner, 1.0)).xyz; gl_Position = projection * vec4(at, 1.0); }`;
+
+// A wall lets what is behind it through; the light is that of the spheres.
+const WALL_PIXEL = `#version 300 es
+precision highp float;
+uniform vec3 tint;
+in vec3 at; out vec4 shown;
+void main() {
+  vec3 normal = normalize(cross(dFdx(at), dFdy(at)));
+  float key = max(dot(normal, normalize(vec3(-0.4, 0.7, 0.6))), 0.0);
+  shown = vec4(tint * (0.7 + 0.5 * key), 0.3);
+}`;
+
 class Scene {
   constructor(canvas) {
     const gl = canvas.getContext("webgl2", { antialias: true, preserveDrawingBuffer: true });
@@ -60,12 +77,15 @@ class Scene {
     Object.assign(this, { canvas, gl });
     this.spheres = program(gl, SPHERE_VERTEX, SPHERE_PIXEL);
     this.lines = program(gl, LINE_VERTEX, LINE_PIXEL);
+    this.walls = program(gl, WALL_VERTEX, WALL_PIXEL);
     this.buffers = Object.fromEntries(
-      ["corner", "sphere", "color", "end", "lineColor"].map((name) => [name, gl.createBuffer()]));
+      ["corner", "sphere", "color", "end", "lineColor", "wall", "edge", "edgeColor"].map((name) => [name, gl.createBuffer()]));
     fill(gl, this.buffers.corner, new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]));
     this.sphereCount = 0;
     this.lineEnds = 0;
+    this.setWalls(new Walls(new Float32Array(0)), [0, 0, 0]);
     gl.enable(gl.DEPTH_TEST);
+    gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
   }
 
   // Spheres [4 n]: center and radius, with colors [3 n].
@@ -86,12 +106,38 @@ class Scene {
     this.lineEnds = ends.length / 3;
   }
 
+  // Walls and their color.
+  setWalls(walls, tint) {
+    Object.assign(this, { shownWalls: walls, wallTint: tint });
+    fill(this.gl, this.buffers.wall, walls.corners);
+  }
+
+  // Walls after all else, since it shows through them; those that turn their backs are not drawn, so one looks into a vessel.
+  drawWalls(view, projection, eye) {
+    const { gl, shownWalls, wallTint } = this;
+    if (shownWalls.corners.length === 0) return;
+    const edges = shownWalls.edges(eye);
+    fill(gl, this.buffers.edge, edges);
+    fill(gl, this.buffers.edgeColor, Float32Array.from(edges, (_, at) => 0.8 * wallTint[at % 3]));
+    this.pass(this.lines, view, projection, [["end", 3, 0, "edge"], ["color", 3, 0, "edgeColor"]]);
+    gl.drawArrays(gl.LINES, 0, edges.length / 3);
+    gl.enable(gl.BLEND);
+    gl.enable(gl.CULL_FACE);
+    gl.depthMask(false);
+    this.pass(this.walls, view, projection, [["corner", 3, 0, "wall"]]);
+    gl.uniform3fv(gl.getUniformLocation(this.walls, "tint"), wallTint);
+    gl.drawArrays(gl.TRIANGLES, 0, shownWalls.corners.length / 3);
+    gl.depthMask(true);
+    gl.disable(gl.CULL_FACE);
+    gl.disable(gl.BLEND);
+  }
+
   // The radius of the smallest dot over its distance.
   least() {
     return (3 * Math.tan(Camera.FIELD / 2)) / Math.min(this.canvas.clientWidth, this.canvas.clientHeight);
   }
 
-  draw(view, projection, background) {
+  draw(view, projection, background, eye) {
     const { gl, canvas } = this;
     const density = Math.min(window.devicePixelRatio || 1, 2);
     const [width, height] = [canvas.clientWidth * density, canvas.clientHeight * density].map(Math.round);
@@ -103,6 +149,7 @@ class Scene {
     if (this.sphereCount > 0) gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, this.sphereCount);
     this.pass(this.lines, view, projection, [["end", 3, 0], ["color", 3, 0, "lineColor"]]);
     if (this.lineEnds > 0) gl.drawArrays(gl.LINES, 0, this.lineEnds);
+    this.drawWalls(view, projection, eye);
   }
 
   pass(program, view, projection, inputs) {

@@ -42,6 +42,8 @@ pub struct Array {
 pub struct Block {
     /// The bytes so far.
     pub bytes: Vec<u8>,
+    /// Corners of the walls that were packed last, and where they are.
+    walls: (Vec<[f64; 3]>, BTreeMap<&'static str, Array>),
 }
 
 impl Block {
@@ -71,7 +73,20 @@ impl Block {
         if let Some(rays) = &scene.rays {
             self.rays(rays, &mut arrays);
         }
+        if let Some(walls) = scene.walls.as_ref().filter(|walls| !walls.points.is_empty()) {
+            self.walls(walls, &mut arrays);
+        }
         FramePlan { time: grains.time, arrays }
+    }
+
+    /// Walls that stand still are packed once.
+    fn walls(&mut self, walls: &Frame, arrays: &mut BTreeMap<&'static str, Array>) {
+        if self.walls.0 != walls.points {
+            let mut own = BTreeMap::new();
+            self.places(walls, ["wall_x", "wall_y", "wall_z"], &mut own);
+            self.walls = (walls.points.clone(), own);
+        }
+        arrays.extend(&self.walls.1);
     }
 
     fn places(

@@ -20,6 +20,8 @@ pub struct Scene {
     pub bonds: Vec<[u32; 2]>,
     /// The rays in flight.
     pub rays: Option<Frame>,
+    /// The walls: three by three the corners of triangles.
+    pub walls: Option<Frame>,
 }
 
 /// The file of another kind that belongs to a frame of grains: `rays_000012.vtp` to `grains_000012.vtp`.
@@ -29,7 +31,7 @@ pub fn beside(grains: &Path, kind: &str) -> PathBuf {
 }
 
 impl Scene {
-    /// Reads a frame; bonds and rays that cannot be used are noted.
+    /// Reads a frame; bonds, rays and walls that cannot be used are noted.
     ///
     /// # Errors
     /// [`RecordError`] where the grains cannot be read, or cannot be.
@@ -39,7 +41,7 @@ impl Scene {
             let read = path.is_file().then(|| valid(&path))?;
             read.map_err(|error| notes.push(format!("{kind} of a frame are left out: {error}"))).ok()
         };
-        let (bonds, rays) = (over("bonds"), over("rays"));
+        let [bonds, rays, walls] = ["bonds", "rays", "walls"].map(&mut over);
         let grains = valid(path)?;
         // Those that end at an image, behind the grains, go out through a face: they would be drawn all through the volume.
         let inside = |bonds: &Frame| bonds.lines.iter().filter(|line| is_inside(&grains, **line)).count();
@@ -52,7 +54,7 @@ impl Scene {
                 lines - bonds.len()
             ));
         }
-        Ok(Self { grains, bonds, rays })
+        Ok(Self { grains, bonds, rays, walls })
     }
 
     /// Keeps one of `share` grains and rays, and the bonds between the grains that are kept.

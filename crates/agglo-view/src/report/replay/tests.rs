@@ -5,7 +5,7 @@ use super::*;
 use agglo::domain::Space;
 use agglo::math::Vec3;
 use agglo::particles::{Particles, Row};
-use agglo::record::frames::{write_bonds, write_grains, write_rays};
+use agglo::record::frames::{write_bonds, write_grains, write_rays, write_walls};
 
 fn grains(count: u32, frame: usize) -> Particles {
     let mut grains = Particles::default();
@@ -192,4 +192,35 @@ fn grains_that_grow_are_colored_by_size_first() {
     grown.radius[2] = 0.5;
     write_grains(&folder.path().join("grains_000001.vtp"), 0.5, &grown, &[]).unwrap();
     assert_eq!(replay(&paths).unwrap().plan.color_by, "size");
+}
+
+/// Corners come back as grains' places do; walls that stand still are in the page once.
+#[test]
+fn walls_are_packed_and_those_at_rest_once() {
+    let (folder, paths) = folder(3, 5);
+    for (frame, height) in [1.0, 1.0, 3.0].into_iter().enumerate() {
+        let triangle = [[0.0, 0.0, height], [2.0, 0.0, height], [0.0, 4.0, height]].map(Vec3::from);
+        let path = folder.path().join(format!("walls_{frame:06}.vtp"));
+        write_walls(&path, 0.5 * frame as f64, &[triangle], &[0; 3]).unwrap();
+    }
+    let replay = replay(&paths).unwrap();
+    assert_empty!(replay.notes);
+    for (frame, height) in [1.0, 1.0, 3.0].into_iter().enumerate() {
+        for (name, wanted) in
+            [("wall_x", [0.0, 2.0, 0.0]), ("wall_y", [0.0, 0.0, 4.0]), ("wall_z", [height; 3])]
+        {
+            let found = unpacked(&replay, frame, name);
+            assert_eq!(found.len(), 3, "corners");
+            found
+                .iter()
+                .zip(wanted)
+                .for_each(|(at, due)| assert_near!(*at, due, 1e-12, "{name} of frame {frame}, in m"));
+        }
+    }
+    let place = |frame: usize| replay.plan.frames[frame].arrays["wall_x"].offset;
+    assert_true!(place(0) == place(1) && place(1) != place(2), "places in the block");
+    std::fs::write(folder.path().join("walls_000001.vtp"), "nothing").unwrap();
+    let damaged = super::replay(&paths).unwrap();
+    assert_eq!(damaged.plan.frames.len(), 3, "frames");
+    assert_contains!(damaged.notes[0], "walls_000001.vtp");
 }

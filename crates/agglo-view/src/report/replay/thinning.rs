@@ -92,8 +92,8 @@ impl Choice {
 fn things(path: &Path) -> f64 {
     let [grains, _] = counts(path);
     let [_, bonds] = counts(&beside(path, "bonds"));
-    let [rays, _] = counts(&beside(path, "rays"));
-    24.0 * grains + 8.0 * bonds + 14.0 * rays
+    let [rays, walls] = ["rays", "walls"].map(|kind| counts(&beside(path, kind))[0]);
+    24.0 * grains + 8.0 * bonds + 14.0 * rays + 6.0 * walls
 }
 
 /// How many points and lines the head of a frame announces; none where it does not.
