@@ -52,6 +52,41 @@ def test_charts_show_the_tables(soft, hard, tmp_path):  # noqa: F811
         soft.plot("growth")
 
 
+WALLS = {
+    "version": 1,
+    "time": {"end": "20 ms"},
+    "output": {"series": "1 ms"},
+    "engine": {"verlet": {}},
+    "materials": {"glass": {"density": "2500 kg/m3", "youngs_modulus": "1 MPa", "poisson_ratio": 0.3}},
+    "grains": [{"material": "glass", "size": {"constant": {"radius": "1 mm"}},
+                "placement": {"list": {"positions": [["0 m", "0 m", "0.1 mm"], ["5 mm", "0 m", "0.99 mm"]]}}}],
+    "walls": [
+        {"name": "plate", "material": "glass", "shape": {"plane": {
+            "point": ["0 m"] * 3, "normal": [0, 0, 1], "opening": {"center": ["0 m"] * 3, "radius": "2 mm"}}}},
+        {"name": "lid", "material": "glass", "shape": {"plane": {"point": ["0 m", "0 m", "9 mm"], "normal": [0, 0, -1]}}},
+    ],
+    "contact": {"normal": {"hertz": {}}, "damping": {"restitution": {"restitution": 0.3}}},
+    "fields": {"gravity": {"acceleration": ["0 m/s2", "0 m/s2", "-9.81 m/s2"]}},
+}  # fmt: skip
+
+
+def test_walls_have_a_line_each(soft, tmp_path):  # noqa: F811
+    run = agglo.run(agglo.Scenario.from_dict(WALLS), tmp_path / "run")
+    force, passed = run.plot(["walls", "passed"]).axes
+    table = run.table("walls")
+    plate = table["wall"] == 0
+    # Nothing touches the lid; a grain falls through the hole of the plate, and one lies on it.
+    assert list(lines(force)) == ["plate"] and list(lines(passed)) == ["plate"]
+    pressed = np.linalg.norm([table[f"force_{axis}_N"][plate] for axis in "xyz"], axis=0)
+    assert np.array_equal(lines(force)["plate"].get_ydata(), pressed) and pressed.max() > 0
+    assert lines(passed)["plate"].get_xdata() == pytest.approx(1e3 * table["time_s"][plate])
+    mass = 2500 * 4 / 3 * np.pi * 1e-9
+    assert lines(passed)["plate"].get_ydata()[[0, -1]] == pytest.approx([0, mass]), "in kg"
+    assert len(run.plot().axes) == 7, "five charts of every run, forces, and what has passed"
+    with pytest.raises(agglo.InputError, match="no chart 'walls': the run has no walls"):
+        soft.plot("walls")
+
+
 QUICK = {
     "settings": ["time.end=1 ms", "grains.0.size.length_ratio.count=30", "grains.0.placement.fill.count=30"],
     "ensemble.until": {"fixed": {"replicates": 2}},

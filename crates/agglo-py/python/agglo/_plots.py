@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -125,6 +125,9 @@ _SOFT = {
     "power": Chart("Power of the pulses", "power (W)", "rays", _POWER),
     "speed": Chart("Speed", "speed (m/s)", "moments", {"mean_speed_m_s": "mean", "largest_speed_m_s": "largest"}),
     "step": Chart("Step size", "step (s)", "steps", {"step_size_s": "step"}),
+    "walls": Chart("Force on walls", "force (N)", "walls", {f"force_{axis}_N": axis for axis in "xyz"}),
+    "wall_work": Chart("Work of walls", "work (J)", "walls", {"work_J": "work"}),
+    "passed": Chart("Out through openings", "mass (kg)", "walls", {"passed_kg": "mass"}),
 }  # fmt: skip
 _HARD = {
     "growth": Chart("Growth", "over the mean radius at the start", "grains", {"radius_ratio": "mean radius"}),
@@ -165,14 +168,22 @@ def run(found: Run, names: Sequence[str] | None = None) -> Any:
         names = _MOST_OF_HARD if is_hard else _MOST_OF_SOFT
         if "rays" in names and not np.any(found.table("rays")["pulses"] > 0):
             names = [name for name in names if name != "rays"]
+        if "walls" in found.tables:
+            has_opening = np.any(np.isfinite(found.table("walls")["passed_kg"]))
+            names = [*names, "walls", *(["passed"] if has_opening else [])]
     names = [names] if isinstance(names, str) else list(names)
     for name in names:
         if name not in known:
             raise InputError(f"there is no chart {name!r}; there are {', '.join(known)}")
+        if known[name].table == "walls" and "walls" not in found.tables:
+            raise InputError(f"there is no chart {name!r}: the run has no walls")
     figure, panels = figure_of(len(names))
     for axes, name in zip(panels, names):
         chart, table = known[name], found.table(known[name].table)
-        (_sizes if name == "sizes" else _lines)(figure, axes, chart, table)
+        if chart.table == "walls":
+            _walls(axes, chart, table, [wall["name"] for wall in found.scenario.to_dict()["walls"]])
+        else:
+            (_sizes if name == "sizes" else _lines)(figure, axes, chart, table)
     figure.suptitle(found.scenario.title, x=0.01, ha="left")
     return figure
 
@@ -201,17 +212,28 @@ def time_of(seconds: Floats) -> tuple[Floats, str]:
 
 
 def _lines(figure: Any, axes: Any, chart: Chart, table: Table) -> None:
-    time, unit = time_of(table["time_s"])
-    shown = {
-        name: words
-        for name, words in chart.lines.items()
-        if name in table and np.any(np.nan_to_num(table[name]) != 0.0)
-    }
+    shown = {words: (table["time_s"], table[name]) for name, words in chart.lines.items() if name in table}
+    _curves(axes, chart, shown)
+
+
+def _walls(axes: Any, chart: Chart, table: Table, names: Sequence[str]) -> None:
+    """A line for each wall; of a vector its length."""
+    rows = [table["wall"] == number for number in range(len(names))]
+    parts = [table[column] for column in chart.lines]
+    values = parts[0] if len(parts) == 1 else np.sqrt(np.sum(np.square(parts), axis=0))
+    _curves(axes, chart, {name: (table["time_s"][own], values[own]) for name, own in zip(names, rows)})
+
+
+def _curves(axes: Any, chart: Chart, lines: Mapping[str, tuple[Floats, Floats]]) -> None:
+    """Curves by their names: times and values; what was nothing all along is left out."""
+    shown = {words: line for words, line in lines.items() if np.any(np.nan_to_num(line[1]) != 0.0)}
+    _, unit = time_of(np.concatenate([time for time, _ in lines.values()] or [np.zeros(0)]))
+    factor = {"s": 1.0, "ms": 1e-3, "µs": 1e-6, "ns": 1e-9}[unit]
     with need("matplotlib", "plots").rc_context(LOOK):
-        for (name, words), (color, dashes) in zip(shown.items(), LINES * 2):
+        for (words, (time, values)), (color, dashes) in zip(shown.items(), LINES * 2):
             # The seventh line and those after it have the colors of the first ones, and are thin.
             width = 1.6 if len(axes.lines) < len(LINES) else 0.8
-            axes.plot(time, table[name], color=color, linestyle=dashes, linewidth=width, label=words)
+            axes.plot(time / factor, values, color=color, linestyle=dashes, linewidth=width, label=words)
         axes.set(title=chart.title, xlabel=f"time ({unit})", ylabel=chart.label)
         axes.ticklabel_format(axis="y", style="sci", scilimits=(-3, 5))
         if len(shown) > 1:
