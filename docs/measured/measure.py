@@ -61,6 +61,13 @@ def study(command):
     return {"rows": rows(done.stdout)}
 
 
+def silo():
+    """Rates of the holes, and what the second table says of the line through them."""
+    found = study(SILO)["rows"]
+    density, zero, constant, scatter = found[-1]
+    return {"rows": [row for row in found if isinstance(row[0], float)][:-1], "density": density, "k": zero, "C": constant, "scatter": scatter}
+
+
 def rows(printed):
     lines = [line for line in printed.splitlines() if line.startswith("|")][2:]
     return [[cell_value(cell.strip()) for cell in line.strip("|").split(" | ")] for line in lines]
@@ -223,6 +230,7 @@ SIX_SETS = "cargo test -q --release -p agglo --test val_hard val_zohdi_2004_grow
 MEDIANS = "cargo run -q --release -p agglo --example test_functions -- 20"
 REACTING = "python3 docs/studies/reacting.py"
 HALVING = "python3 docs/studies/halving.py 5"
+SILO = "python3 docs/studies/silo.py"
 
 MEASUREMENTS = {
     "acoustic-dispersal-published": of_run("agglo run scenarios/acoustic-dispersal-published.toml", acoustic_dispersal_published),
@@ -243,6 +251,7 @@ MEASUREMENTS = {
     "breakage": (f"{REACTING} breakage 12", lambda: study(f"{REACTING} breakage 12")),
     "steps": (f"{REACTING} steps 12", lambda: study(f"{REACTING} steps 12")),
     "halving": (HALVING, lambda: study(HALVING)),
+    "silo": (SILO, silo),
     "tests": (TESTS, lambda: from_tests(TESTS)),
     "six-sets": (SIX_SETS, lambda: from_tests(SIX_SETS)),
     "medians": (MEDIANS, lambda: medians(printed_by(MEDIANS))),

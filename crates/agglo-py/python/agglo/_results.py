@@ -120,8 +120,8 @@ class Run(Recorded):
 
         Args:
             charts: Which ones, in their order: of soft spheres "dispersion", "clusters", "stores", "flows", "rays", "beam",
-                "flying", "power", "speed", "step", and with walls "walls", "wall_work" and "passed"; of hard spheres "growth", "grains", "sizes", "largest", "impacts",
-                "energy", "heat", "temperature", "speed", "step". If none are named, those that tell most.
+                "flying", "power", "speed", "step", and with walls "walls", "wall_work", "passed"; of hard spheres "growth",
+                "grains", "sizes", "largest", "impacts", "energy", "heat", "temperature", "speed", "step". If none are named, those that tell most.
 
         Raises:
             PackageError: matplotlib is not installed.

@@ -64,6 +64,24 @@ pub const TEMPLATES: &[Template] = &[
         is_campaign: false,
     },
     Template {
+        name: "silo",
+        title: "beads that run out of a silo through a hole in its bottom",
+        text: include_str!("../../scenarios/silo.toml"),
+        is_campaign: false,
+    },
+    Template {
+        name: "drum",
+        title: "beads in a rotating drum, which keeps a slope up",
+        text: include_str!("../../scenarios/drum.toml"),
+        is_campaign: false,
+    },
+    Template {
+        name: "bed",
+        title: "beads that settle to a bed",
+        text: include_str!("../../scenarios/bed.toml"),
+        is_campaign: false,
+    },
+    Template {
         name: "search",
         title: "a search for the grains that grow most: ten parameters, the paper's genetic algorithm",
         text: include_str!("../../scenarios/search-agglomeration.toml"),
