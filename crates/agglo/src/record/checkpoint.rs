@@ -176,6 +176,15 @@ impl<S> Summed<S> {
         self.count += bytes.len() as u64;
     }
 
+    /// Keeps a failure, and passes on one of its kind.
+    fn told<T>(&mut self, outcome: io::Result<T>) -> io::Result<T> {
+        outcome.map_err(|error| {
+            let told = io::Error::from(error.kind());
+            self.failed = Some(error);
+            told
+        })
+    }
+
     /// The failure that has come through postcard as `error`.
     fn failure(&mut self, error: &postcard::Error) -> io::Error {
         self.failed.take().unwrap_or_else(|| io::Error::new(io::ErrorKind::InvalidData, error.to_string()))
@@ -184,22 +193,15 @@ impl<S> Summed<S> {
 
 impl<W: Write> Write for Summed<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        match self.inner.write(bytes) {
-            Ok(written) => {
-                self.note(&bytes[..written]);
-                Ok(written)
-            }
-            Err(error) => {
-                // Whoever asks again is told so again by the file.
-                let told = io::Error::from(error.kind());
-                self.failed = Some(error);
-                Err(told)
-            }
-        }
+        let written = self.inner.write(bytes);
+        let written = self.told(written)?;
+        self.note(&bytes[..written]);
+        Ok(written)
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.inner.flush()
+        let flushed = self.inner.flush();
+        self.told(flushed)
     }
 }
 
@@ -373,6 +375,35 @@ mod tests {
             // The run goes on from step 1; the damaged one of the course given up must not push out whole ones.
             save(dir.path(), 2, &state(2)).unwrap();
             assert_eq!(load_newest(dir.path(), Ok::<State, _>).unwrap().2, []);
+        }
+    }
+
+    /// Full after so many bytes, which it tells as they come or when they are flushed.
+    struct Full(usize, bool);
+
+    impl Write for Full {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            let is_full = bytes.len() > self.0;
+            self.0 = self.0.saturating_sub(bytes.len());
+            if is_full && !self.1 { Err(io::ErrorKind::StorageFull.into()) } else { Ok(bytes.len()) }
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            if self.0 == 0 { Err(io::ErrorKind::StorageFull.into()) } else { Ok(()) }
+        }
+    }
+
+    #[test]
+    fn what_the_file_says_comes_through() {
+        let whole = bytes_of(7, &state(7)).len();
+        for is_told_late in [false, true] {
+            for room in 0..whole + 2 {
+                let found = encode(Full(room, is_told_late), 7, &state(7)).map_err(|error| error.kind());
+                // What comes after the payload is flushed by whoever opened the file.
+                let fits = if is_told_late { room > whole - TRAILER as usize } else { room >= whole };
+                let wanted = if fits { Ok(()) } else { Err(io::ErrorKind::StorageFull) };
+                assert_eq!(found, wanted, "room for {room} of {whole} bytes");
+            }
         }
     }
 

@@ -85,7 +85,7 @@ fn assert_busy(simulation: &Simulation) {
 }
 
 #[test]
-fn same_bits_on_1_2_and_5_threads() {
+fn same_bits_on_1_and_5_threads() {
     for engine in [crowd::VERLET, crowd::ADAPTIVE] {
         let after = |threads: usize| {
             let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
@@ -96,11 +96,7 @@ fn same_bits_on_1_2_and_5_threads() {
                 common::bytes(&simulation)
             })
         };
-        let alone = after(1);
-        for threads in [2, 5] {
-            let when = format!("{threads} threads and one, {engine}");
-            common::assert_same_state(&after(threads), &alone, &when);
-        }
+        common::assert_same_state(&after(5), &after(1), &format!("5 threads and one, {engine}"));
     }
 }
 
@@ -110,8 +106,8 @@ fn a_run_goes_on_with_the_same_bits() {
         let text = text(engine, 80);
         let scenario = common::scenario(&text);
         let mut whole = common::start(&text, to_the_faces);
-        for stop in 0..12 {
-            common::steps(&mut whole, 37);
+        for stop in 0..5 {
+            common::steps(&mut whole, 80);
             let mut resumed = Simulation::resume(&scenario, common::written_and_read(&whole)).unwrap();
             common::steps(&mut whole, 5);
             common::steps(&mut resumed, 5);
