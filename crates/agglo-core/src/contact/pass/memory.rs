@@ -25,7 +25,11 @@ impl Memory {
     /// Makes room for pairs, of which none touches.
     pub fn resize(&mut self, pairs: usize, with_springs: bool) {
         refill(&mut self.states, pairs, 0);
-        refill(&mut self.springs, if with_springs { pairs } else { 0 }, [0.0; 4]);
+        if with_springs {
+            refill(&mut self.springs, pairs, [0.0; 4]);
+        } else {
+            self.springs = Vec::new();
+        }
     }
 
     /// Leaves nothing but the room.
@@ -35,11 +39,9 @@ impl Memory {
     }
 
     /// Adds a touching pair at the end.
-    pub fn push(&mut self, spring: &TangentialSpring, with_springs: bool) {
+    pub fn push(&mut self, spring: &TangentialSpring) {
         self.states.push(state_of(spring));
-        if with_springs {
-            self.springs.push(row_of(spring));
-        }
+        self.springs.push(row_of(spring));
     }
 
     /// Puts a touching pair in its place.

@@ -66,12 +66,11 @@ impl Contacts {
     /// of those that are tried, whose loads must be worked out again.
     pub fn set_aside(&mut self, list: &PairList, place: impl Fn(u32) -> u32) {
         let Self { committed, trial, parted, aside, .. } = self;
-        let with_springs = !committed.springs.is_empty();
         trial.clear();
         aside.clear();
         for (a, b, spring) in committed.touching(list).chain(parted.drain(..)) {
             aside.push([place(a), place(b)]);
-            trial.push(&spring, with_springs);
+            trial.push(&spring);
         }
     }
 
@@ -81,7 +80,7 @@ impl Contacts {
         self.trial.clear();
         self.aside = remembered.iter().map(|(a, b, _)| [*a, *b]).collect();
         for (.., spring) in remembered {
-            self.trial.push(spring, true);
+            self.trial.push(spring);
         }
     }
 

@@ -224,6 +224,31 @@ fn loads_are_those_of_all_pairs() {
     }
 }
 
+/// A try may part the only contact that there is, so that the new list has none; a shorter one brings it back, with its spring.
+#[test]
+fn a_spring_outlives_a_list_without_pairs() {
+    let (laws, _) = choices().into_iter().find(|(laws, _)| laws.has_memory()).unwrap();
+    let list_at = |apart: f64| {
+        let places = [Vec3::ZERO, Vec3::AXES[0] * apart];
+        let mut list = PairList::default();
+        list.build(&Space::OPEN, &(&places[..], &[1e-6; 2][..]), 0.0, 1e-7);
+        list
+    };
+    let (near, far) = (list_at(1.9e-6), list_at(9e-6));
+    let spring = TangentialSpring { force: Vec3::AXES[1] * 2e-9, stiffness: 10.0, sliding: true };
+    let mut contacts = Contacts::default();
+    contacts.set_aside_these(&[(0, 1, spring)]);
+    contacts.relist(&near, 2, Some(&laws));
+    let mut list = &near;
+    for next in [&far, &far, &near] {
+        contacts.set_aside(list, |grain| grain);
+        contacts.relist(next, 2, Some(&laws));
+        list = next;
+        assert_eq!(contacts.remembered(list).collect::<Vec<_>>(), [(0, 1, spring)], "{} pairs", list.len());
+    }
+    assert_eq!(contacts.spring_energy(), spring.energy());
+}
+
 /// By hand: a spring is loaded by the stiffness times the mean slip over the step, (v + v')/2 dt, and where both grains spin about
 /// the normal at w it turns with them by w dt.
 #[test]
