@@ -1,6 +1,6 @@
 //! Lengths and checksums that tell whether a file is still what it was.
 
-use std::fs::{File, OpenOptions};
+use std::fs::OpenOptions;
 use std::io::{self, Read, Write};
 use std::path::Path;
 
@@ -48,11 +48,11 @@ pub struct Marking {
 }
 
 impl Marking {
-    /// Of the first `bytes` of a file, or of all where it has fewer.
+    /// Of the next `bytes` of a file, or of all where it has fewer.
     ///
     /// # Errors
     /// Where the file cannot be read.
-    pub fn of(file: &File, bytes: u64) -> io::Result<Self> {
+    pub fn of(file: impl Read, bytes: u64) -> io::Result<Self> {
         let mut marking = Self::default();
         let mut rest = file.take(bytes);
         let mut chunk = vec![0; CHUNK.min(bytes as usize)];
@@ -99,6 +99,11 @@ impl<W> Marked<W> {
         &self.inner
     }
 
+    /// What was written into.
+    pub fn into_inner(self) -> W {
+        self.inner
+    }
+
     /// The mark of what went through.
     pub fn mark(&self) -> Mark {
         self.marking.mark()
@@ -119,6 +124,8 @@ impl<W: Write> Write for Marked<W> {
 
 #[cfg(test)]
 mod tests {
+    use std::fs::File;
+
     use super::*;
 
     #[test]

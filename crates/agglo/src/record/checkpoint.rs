@@ -28,12 +28,14 @@ use serde::de::DeserializeOwned;
 
 use super::atomic::{self, Durability};
 use super::{RecordError, door};
-use crate::folder::{files, names};
+use crate::folder::{Marked, Marking, files, names};
 use crate::text::cell;
 
 const MAGIC: &[u8; 8] = b"AGGLO\r\n\x8a";
 const FORMAT: u32 = 6;
 const VERSION: &str = env!("CARGO_PKG_VERSION");
+/// Bytes before the payload: magic, format, the version with its length, step.
+const HEADING: u64 = (MAGIC.len() + 4 + 1 + VERSION.len() + 8) as u64;
 /// Bytes after the payload: its length and the checksum.
 const TRAILER: u64 = 12;
 /// The longest text in a state: that of its scenario, with every default written out.
@@ -157,25 +159,13 @@ fn list(dir: &Path) -> Result<Vec<(u64, PathBuf)>, RecordError> {
     Ok(found)
 }
 
-/// What passes by, counted and summed up.
-struct Summed<S> {
-    inner: S,
-    sum: crc32fast::Hasher,
-    count: u64,
-    /// What went wrong below a layer that does not tell.
+/// A writer that keeps why it failed, below a layer that does not tell.
+struct Telling<W> {
+    inner: W,
     failed: Option<io::Error>,
 }
 
-impl<S> Summed<S> {
-    fn new(inner: S) -> Self {
-        Self { inner, sum: crc32fast::Hasher::new(), count: 0, failed: None }
-    }
-
-    fn note(&mut self, bytes: &[u8]) {
-        self.sum.update(bytes);
-        self.count += bytes.len() as u64;
-    }
-
+impl<W> Telling<W> {
     /// Keeps a failure, and passes on one of its kind.
     fn told<T>(&mut self, outcome: io::Result<T>) -> io::Result<T> {
         outcome.map_err(|error| {
@@ -184,19 +174,12 @@ impl<S> Summed<S> {
             told
         })
     }
-
-    /// The failure that has come through postcard as `error`.
-    fn failure(&mut self, error: &postcard::Error) -> io::Error {
-        self.failed.take().unwrap_or_else(|| io::Error::new(io::ErrorKind::InvalidData, error.to_string()))
-    }
 }
 
-impl<W: Write> Write for Summed<W> {
+impl<W: Write> Write for Telling<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let written = self.inner.write(bytes);
-        let written = self.told(written)?;
-        self.note(&bytes[..written]);
-        Ok(written)
+        self.told(written)
     }
 
     fn flush(&mut self) -> io::Result<()> {
@@ -205,37 +188,22 @@ impl<W: Write> Write for Summed<W> {
     }
 }
 
-impl<R: Read> Read for Summed<R> {
-    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
-        let count = self.inner.read(bytes)?;
-        self.note(&bytes[..count]);
-        Ok(count)
-    }
-}
-
 /// Writes a checkpoint piece by piece; [`io::ErrorKind::InvalidData`] where the state cannot be put into bytes.
 fn encode<T: Serialize>(out: impl Write, step: u64, state: &T) -> io::Result<()> {
-    let mut out = Summed::new(out);
+    let mut out = Marked::over(Telling { inner: out, failed: None });
     out.write_all(MAGIC)?;
     out.write_all(&FORMAT.to_le_bytes())?;
     out.write_all(&[VERSION.len() as u8])?;
     out.write_all(VERSION.as_bytes())?;
     out.write_all(&step.to_le_bytes())?;
-    let before = out.count;
     if let Err(error) = postcard::to_io(state, &mut out) {
-        return Err(out.failure(&error));
+        let of_the_state = || io::Error::new(io::ErrorKind::InvalidData, error.to_string());
+        return Err(out.into_inner().failed.unwrap_or_else(of_the_state));
     }
-    let length = out.count - before;
+    let length = out.mark().bytes - HEADING;
     out.write_all(&length.to_le_bytes())?;
-    let sum = out.sum.clone().finalize();
+    let sum = out.mark().checksum;
     out.write_all(&sum.to_le_bytes())
-}
-
-/// What stands before the payload.
-struct Heading {
-    step: u64,
-    /// Bytes of it.
-    length: u64,
 }
 
 /// Reads a checkpoint of so many bytes: once to see that it is whole, and once to understand it.
@@ -243,16 +211,16 @@ fn decode<T: DeserializeOwned>(mut file: impl Read + Seek, length: u64) -> Resul
     let words = |error: io::Error| error.to_string();
     check_sum(&mut file, length)?;
     file.seek(SeekFrom::Start(0)).map_err(words)?;
-    let heading = read_heading(&mut file)?;
-    let payload = length.checked_sub(heading.length + TRAILER).ok_or(CUT)?;
+    let step = read_heading(&mut file)?;
+    let payload = length.checked_sub(HEADING + TRAILER).ok_or(CUT)?;
     file.seek(SeekFrom::Start(length - TRAILER)).map_err(words)?;
     if u64::from_le_bytes(take(&mut file)?) != payload {
         return Err("the payload has another length than it should".to_owned());
     }
-    file.seek(SeekFrom::Start(heading.length)).map_err(words)?;
+    file.seek(SeekFrom::Start(HEADING)).map_err(words)?;
     let mut text = vec![0; payload.min(LONGEST_TEXT) as usize];
     match postcard::from_io((file.take(payload), &mut text[..])) {
-        Ok((state, (rest, _))) if rest.limit() == 0 => Ok((state, heading.step)),
+        Ok((state, (rest, _))) if rest.limit() == 0 => Ok((state, step)),
         Ok(_) => Err("the payload holds more than a state".to_owned()),
         Err(error) => Err(format!("the payload cannot be read: {error}")),
     }
@@ -261,37 +229,36 @@ fn decode<T: DeserializeOwned>(mut file: impl Read + Seek, length: u64) -> Resul
 const CUT: &str = "the file is cut short";
 
 /// Holds a file to the checksum at its end.
-fn check_sum(file: &mut impl Read, length: u64) -> Result<(), String> {
+fn check_sum(file: &mut (impl Read + Seek), length: u64) -> Result<(), String> {
     const DAMAGED: &str = "the checksum does not match: the file is damaged or cut short";
+    let words = |error: io::Error| error.to_string();
     if length == 0 {
         return Err("the file is empty".to_owned());
     }
-    let mut body = Summed::new(file.take(length.saturating_sub(4)));
-    let mut magic = [0; MAGIC.len()];
-    if body.read_exact(&mut magic).is_err() || magic != *MAGIC {
+    if take(file) != Ok(*MAGIC) {
         return Err("not a checkpoint, or its first bytes are damaged".to_owned());
     }
-    io::copy(&mut body, &mut io::sink()).map_err(|error| error.to_string())?;
-    let sum = body.sum.finalize();
-    if u32::from_le_bytes(take(body.inner.into_inner())?) == sum { Ok(()) } else { Err(DAMAGED.to_owned()) }
+    file.seek(SeekFrom::Start(0)).map_err(words)?;
+    let marking = Marking::of(&mut *file, length.saturating_sub(4)).map_err(words)?;
+    let is_whole = u32::from_le_bytes(take(file)?) == marking.mark().checksum;
+    if is_whole { Ok(()) } else { Err(DAMAGED.to_owned()) }
 }
 
-fn read_heading(file: &mut impl Read) -> Result<Heading, String> {
-    let mut file = Summed::new(file);
-    let _: [u8; MAGIC.len()] = take(&mut file)?;
-    let format = u32::from_le_bytes(take(&mut file)?);
+/// The step, if what stands before the payload is as this program writes it.
+fn read_heading(file: &mut impl Read) -> Result<u64, String> {
+    let _: [u8; MAGIC.len()] = take(file)?;
+    let format = u32::from_le_bytes(take(file)?);
     if format != FORMAT {
         return Err(format!("its format is version {format}, this program reads version {FORMAT}"));
     }
-    let [length] = take(&mut file)?;
+    let [length] = take(file)?;
     let mut version = vec![0; usize::from(length)];
     file.read_exact(&mut version).map_err(|_| CUT)?;
     if version != VERSION.as_bytes() {
         let version = cell(&String::from_utf8_lossy(&version));
         return Err(format!("written by agglo {version}; resume it with that version, this is {VERSION}"));
     }
-    let step = u64::from_le_bytes(take(&mut file)?);
-    Ok(Heading { step, length: file.count })
+    take(file).map(u64::from_le_bytes)
 }
 
 /// The next bytes.
