@@ -74,24 +74,19 @@ impl Followed {
     /// The ball about grains at `positions` [n, 3] [m] with `radii` [n] [m]; `mach` is the speed of the fastest over that of
     /// sound.
     pub fn of(positions: &[Vec3], radii: &[f64], mach: f64) -> Self {
-        let (lower, upper) = extent(positions, radii).unwrap_or_default();
-        let center = (lower + upper) * 0.5;
-        let reach = |(&position, &radius): (&Vec3, &f64)| (position - center).norm() + radius;
-        let radius = positions.iter().zip(radii).map(reach).fold(0.0, f64::max);
-        Self { center, radius: radius * WIDER, slope: ALLOWANCE + mach, open: None }
+        Self::across(&Space::OPEN, positions, radii, mach)
     }
 
     /// The same in space that may repeat itself: of places and ways only what lies along the open axes counts.
     pub fn across(space: &Space, positions: &[Vec3], radii: &[f64], mach: f64) -> Self {
-        if !space.repeats() {
-            return Self::of(positions, radii, mach);
-        }
-        let open = Vec3::from([0, 1, 2].map(|axis| f64::from(u8::from(!space.repeats_along(axis)))));
+        let axes = || Vec3::from([0, 1, 2].map(|axis| f64::from(u8::from(!space.repeats_along(axis)))));
+        let open = space.repeats().then(axes);
+        let seen = |place: Vec3| open.map_or(place, |open| along(place, open));
         let (lower, upper) = extent(positions, radii).unwrap_or_default();
-        let center = along((lower + upper) * 0.5, open);
-        let reach = |(&position, &radius): (&Vec3, &f64)| (along(position, open) - center).norm() + radius;
+        let center = seen((lower + upper) * 0.5);
+        let reach = |(&position, &radius): (&Vec3, &f64)| (seen(position) - center).norm() + radius;
         let radius = positions.iter().zip(radii).map(reach).fold(0.0, f64::max);
-        Self { center, radius: radius * WIDER, slope: ALLOWANCE + mach, open: Some(open) }
+        Self { center, radius: radius * WIDER, slope: ALLOWANCE + mach, open }
     }
 
     /// Way [m] from `origin` along the unit vector `direction` from which on no grain can reach the ray; below 0 where that

@@ -38,6 +38,14 @@ pub struct Hit {
     pub ray_area: f64,
 }
 
+impl Hit {
+    /// Power that what is hit takes [W].
+    #[inline]
+    pub fn power_taken(&self) -> f64 {
+        self.power_in * (1.0 - self.reflectance)
+    }
+}
+
 /// How rays end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ends {

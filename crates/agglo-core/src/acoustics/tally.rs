@@ -60,7 +60,7 @@ impl Tally {
     /// A bounce.
     #[inline]
     pub fn count(&mut self, ray: &Ray, hit: &Hit) {
-        let taken = hit.power_in * (1.0 - hit.reflectance);
+        let taken = hit.power_taken();
         self.reflections += 1;
         self.longest_chain = self.longest_chain.max(ray.bounces);
         if hit.wall == NONE {

@@ -12,7 +12,7 @@ mod volume;
 
 pub use deformation::{Deformation, volume_of_spheres};
 pub use disc::Disc;
-pub use extent::extent;
+pub use extent::{extent, extent_of_places};
 pub use region::{Ball, Block, Cylinder, Region};
 pub use space::{Image, Space};
 pub use space_in_time::{SpaceInTime, Stretch};

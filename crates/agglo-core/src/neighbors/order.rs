@@ -1,5 +1,6 @@
 //! The order of grains along a space-filling curve, so that neighbors in space are neighbors in memory.
 
+use crate::domain::extent_of_places;
 use crate::math::Vec3;
 
 /// Bits per axis of the curve's grid.
@@ -7,11 +8,7 @@ const BITS: u32 = 21;
 
 /// The order of points along Morton's curve; equal places keep their order.
 pub fn morton_order(positions: &[Vec3]) -> Vec<u32> {
-    let (mut lower, mut upper) = (Vec3::ZERO, Vec3::ZERO);
-    if let Some(first) = positions.first() {
-        (lower, upper) =
-            positions.iter().fold((*first, *first), |(low, high), at| (low.min(*at), high.max(*at)));
-    }
+    let (lower, upper) = extent_of_places(positions.iter().copied()).unwrap_or_default();
     let extent = (upper - lower).to_array().into_iter().fold(f64::MIN_POSITIVE, f64::max);
     let scale = f64::from(1_u32 << BITS) * (1.0 - 1e-9) / extent;
     let key = |at: Vec3| morton_code(((at - lower) * scale).to_array().map(|along| along as u64));

@@ -82,6 +82,7 @@ use super::course::{Course, Pose};
 use super::motion::Motion;
 use super::shape::{Near, Shape, Triangle};
 use crate::domain::Space;
+use crate::domain::extent_of_places;
 use crate::law::Faults;
 use crate::math::{Pace, Vec3};
 use crate::particles::{Material, Particles};
@@ -150,14 +151,6 @@ pub(super) struct Body {
 
 /// How much of a wall without an end is shown, over what is beside grains.
 const SHOWN: f64 = 1.25;
-
-/// Middle of the box about places [m]; the origin without any.
-fn middle(places: &[Vec3]) -> Vec3 {
-    let first = places.first().copied().unwrap_or(Vec3::ZERO);
-    let (low, high) =
-        places.iter().fold((first, first), |(low, high), &place| (low.min(place), high.max(place)));
-    (low + high) * 0.5
-}
 
 /// The walls of a run: what every evaluation reads and none changes.
 #[derive(Clone, Debug, Default)]
@@ -245,7 +238,8 @@ impl Walls {
     /// Triangles [m] that show a wall at a time [s]: all of it, or where it has no end what is beside grains and a little more.
     pub fn triangles(&self, wall: usize, time: f64, grains: &Particles) -> Vec<Triangle> {
         let (pose, shape) = (self.pose(wall, time), &self.bodies[wall].shape);
-        let middle = pose.as_at_start(middle(&grains.position));
+        let (lower, upper) = extent_of_places(grains.position.iter().copied()).unwrap_or_default();
+        let middle = pose.as_at_start((lower + upper) * 0.5);
         let reach = |(place, radius): (&Vec3, &f64)| {
             shape.endless_part(pose.as_at_start(*place) - middle).map_or(0.0, |part| part + radius)
         };

@@ -40,17 +40,20 @@ impl Sheet {
     /// (1997)).
     #[inline]
     pub(super) fn hit(&self, ray: &Ray) -> Option<(f64, Vec3)> {
-        let normal = self.normal().filter(|normal| normal.dot(ray.direction) < 0.0)?;
         let [a, b, c] = self.corners;
         let (along_b, along_c) = (b - a, c - a);
         let across = ray.direction.cross(along_c);
         let size = along_b.dot(across);
+        // Positive where the ray comes from the side of the grains.
+        if size.is_nan() || size <= 0.0 {
+            return None;
+        }
         let from_a = ray.origin - a;
         let over = from_a.cross(along_b);
         let (part_b, part_c) = (from_a.dot(across) / size, ray.direction.dot(over) / size);
         let distance = along_c.dot(over) / size;
         let is_met = part_b >= 0.0 && part_c >= 0.0 && part_b + part_c <= 1.0 && distance > 0.0;
-        is_met.then_some((distance, normal))
+        if is_met { Some((distance, self.normal()?)) } else { None }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::index::{CellIndex, Level, octave};
 use super::lattice::{Cell, Lattice, Span};
+use crate::domain::extent_of_places;
 use crate::math::Vec3;
 
 /// Spheres that can be sorted, by index.
@@ -161,7 +162,6 @@ impl CellIndex<Sorted> {
 
 /// Corners of the block around the centers of spheres [m].
 fn corners_around(spheres: &impl Places, indices: &[u32]) -> [Vec3; 2] {
-    let first = indices.first().map_or(Vec3::ZERO, |&at| spheres.position(at));
-    let positions = indices.iter().map(|&at| spheres.position(at));
-    positions.fold([first, first], |[low, high], at| [low.min(at), high.max(at)])
+    let (lower, upper) = extent_of_places(indices.iter().map(|&at| spheres.position(at))).unwrap_or_default();
+    [lower, upper]
 }

@@ -77,7 +77,7 @@ impl Shape {
         self.surface().faces()
     }
 
-    /// Where a line first comes upon a face; see [`Surface::struck`].
+    /// Where a line first comes upon one of its faces, counted by the distance along the line.
     #[inline]
     pub fn struck(&self, face: u32, line: &Line) -> Option<Struck> {
         self.surface().struck(face, line)

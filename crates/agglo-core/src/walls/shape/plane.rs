@@ -83,8 +83,7 @@ impl Surface for Plane {
 
     #[inline]
     fn struck(&self, _: u32, line: &Line) -> Option<Struck> {
-        let normal = self.normal();
-        let height = (line.origin - vector(self.point)).dot(normal);
+        let (normal, height) = (self.normal(), self.height(line.origin));
         let Some(opening) = &self.opening else { return upon_plane(line, height, normal) };
         let speed = line.direction.dot(normal);
         let at = -height / speed;
@@ -94,7 +93,7 @@ impl Surface for Plane {
     }
 
     fn side(&self, point: Vec3) -> Option<f64> {
-        self.opening.as_ref().map(|_| (point - vector(self.point)).dot(self.normal()))
+        self.opening.as_ref().map(|_| self.height(point))
     }
 
     fn middle(&self) -> Vec3 {

@@ -186,16 +186,19 @@ pub struct WallQuantities {
 impl WallQuantities {
     pub(super) fn of_all(simulation: &Simulation) -> Vec<Self> {
         let states = simulation.system.wall_states(simulation.clock().time);
-        let of = |(number, wall): (usize, WallState<'_>)| Self {
-            sound_impulse: simulation.pulses.given_to(number).impulse.to_array(),
-            sound_energy: simulation.pulses.given_to(number).energy,
-            name: wall.name.to_owned(),
-            contacts: u64::from(wall.contacts),
-            force: wall.force.to_array(),
-            torque: wall.torque.to_array(),
-            work: wall.work,
-            passed: wall.passed.map(|passed| passed.grains),
-            passed_mass: wall.passed.map(|passed| passed.mass),
+        let of = |(number, wall): (usize, WallState<'_>)| {
+            let sound = simulation.pulses.given_to(number);
+            Self {
+                name: wall.name.to_owned(),
+                contacts: u64::from(wall.contacts),
+                force: wall.force.to_array(),
+                torque: wall.torque.to_array(),
+                work: wall.work,
+                passed: wall.passed.map(|passed| passed.grains),
+                passed_mass: wall.passed.map(|passed| passed.mass),
+                sound_impulse: sound.impulse.to_array(),
+                sound_energy: sound.energy,
+            }
         };
         states.enumerate().map(of).collect()
     }

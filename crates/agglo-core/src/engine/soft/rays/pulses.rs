@@ -238,23 +238,25 @@ impl Pulses {
         let (grains, loads, hit_grains) = (&system.grains, &mut system.ray_loads, &mut self.hit_grains);
         let (law, medium, impedances) = (&setup.acoustics.force, &setup.medium, &setup.impedances);
         let (materials, on_walls) = (&setup.wall_materials, &mut self.on_walls);
-        let pressing = |hit: &Hit| {
-            let force = law.force(hit, impedances[materials[hit.wall as usize] as usize], medium);
-            if impulses { force * setup.duration } else { force }
+        let duration = setup.duration;
+        let load = |hit: &Hit, material: u32| {
+            let force = law.force(hit, impedances[material as usize], medium);
+            if impulses { force * duration } else { force }
         };
         let (targets, way) = (targets(grains, medium), medium.sound_speed.si() * dt);
         setup.tracer.advance(&mut self.state.flight, &targets, way, |hits| {
             for hit in hits {
                 if hit.grain == NONE {
-                    press(&mut on_walls[hit.wall as usize], hit, pressing(hit));
+                    let wall = hit.wall as usize;
+                    on_walls[wall].0 += load(hit, materials[wall]);
+                    on_walls[wall].1 += hit.power_taken();
                     continue;
                 }
                 let grain = hit.grain as usize;
-                let force = law.force(hit, impedances[grains.material[grain] as usize], medium);
-                let load = if impulses { force * setup.duration } else { force };
+                let load = load(hit, grains.material[grain]);
                 loads.force[grain] += load;
                 loads.torque[grain] += (hit.point - grains.position[grain]).cross(load);
-                absorbed_power[grain] += hit.power_in * (1.0 - hit.reflectance);
+                absorbed_power[grain] += hit.power_taken();
                 hit_grains.push(hit.grain);
             }
             if hit_grains.len() >= MANY_HITS {
@@ -350,12 +352,6 @@ impl Pulses {
     pub fn standing_warnings(&self) -> &'static [&'static str] {
         self.setup.as_ref().map_or(&[], |setup| setup.acoustics.force.chosen().warnings())
     }
-}
-
-/// Adds the load of a hit on a wall.
-fn press(on_wall: &mut (Vec3, f64), hit: &Hit, load: Vec3) {
-    on_wall.0 += load;
-    on_wall.1 += hit.power_in * (1.0 - hit.reflectance);
 }
 
 fn sort_and_dedup(list: &mut Vec<u32>) {
