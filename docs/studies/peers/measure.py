@@ -51,22 +51,27 @@ checkpoints = "1 s"
 """
 
 
-def lattice():
+def lattice(edge=EDGE):
     """Places and velocities: a simple cubic lattice of grains that overlap by a hundredth, each with a speed of 0.1 m/s."""
     source = random.Random(1)
-    for at in range(EDGE**3):
-        place = [SPACING * (at // EDGE**power % EDGE) for power in range(3)]
+    for at in range(edge**3):
+        place = [SPACING * (at // edge**power % edge) for power in range(3)]
         way = [source.gauss(0.0, 1.0) for _ in range(3)]
         length = sum(part * part for part in way) ** 0.5
         yield place, [SPEED * part / length for part in way]
 
 
-def write(folder):
-    """The start, as a table for agglo and as data for LAMMPS."""
-    grains = list(lattice())
+def write_table(folder, grains):
+    """The start as a table for agglo."""
     with open(folder / "lattice.csv", "w") as file:
         file.write("x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s\n")
         file.writelines(",".join(f"{value:.17e}" for value in place + velocity) + "\n" for place, velocity in grains)
+
+
+def write(folder):
+    """The start, as a table for agglo and as data for LAMMPS."""
+    grains = list(lattice())
+    write_table(folder, grains)
     with open(folder / "lattice.data", "w") as file:
         low, high = -1e-5, SPACING * EDGE + 1e-5
         file.write(f"shaken lattice\n\n{len(grains)} atoms\n1 atom types\n")
