@@ -261,11 +261,7 @@ impl RayGrid {
         }
         let direction = Vec3::AXES[0];
         let span = RaySpan { origin: point, direction, from: 0.0, to: 0.0, skip: NO_SPHERE };
-        let holds = |number: usize| {
-            let sphere = self.spheres[number];
-            let radius = sphere.radius * (1.0 - 1e-9);
-            ((point - sphere.center).norm_squared() < radius * radius).then_some(0.0)
-        };
+        let holds = |number: usize| self.spheres[number].holds(point).then_some(0.0);
         self.first(&span, holds).map(|hit| hit.sphere)
     }
 
@@ -409,9 +405,7 @@ impl RayGrid {
         self.each_entry(&span, |entry| {
             let (sphere, image) = around.image_of(entry, [0; 3]);
             let shift = around.space().shift_to(image);
-            let Sphere { center, radius } = self.spheres[sphere as usize];
-            let radius = radius * (1.0 - 1e-9);
-            if (span.origin - shift - center).norm_squared() < radius * radius {
+            if self.spheres[sphere as usize].holds(span.origin - shift) {
                 found = Some(found.map_or(sphere, |found: u32| found.min(sphere)));
             }
             0.0

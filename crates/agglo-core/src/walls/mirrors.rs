@@ -92,40 +92,34 @@ impl Mirrors {
     }
 
     fn struck(&self, [wall, face]: [u32; 2], ray: &RayAtWalls) -> Option<Struck> {
+        let struck = self.upon([wall, face], &ray.line);
+        if struck.is_none() && ray.was_here { self.swept([wall, face], ray) } else { struck }
+    }
+
+    /// Where a line first comes upon a face where that is now.
+    fn upon(&self, [wall, face]: [u32; 2], line: &Line) -> Option<Struck> {
         let (shape, pose) = (&self.walls.bodies[wall as usize].shape, &self.poses[wall as usize]);
-        let seen = |line: &Line| Line {
+        let seen = Line {
             origin: pose.as_at_start(line.origin),
             direction: pose.direction_as_at_start(line.direction),
             from: line.from,
         };
-        let turned = |struck: Struck| Struck { normal: pose.direction(struck.normal), ..struck };
-        let struck = shape.struck(face, &seen(&ray.line)).map(turned);
-        let here = ray.line.at(ray.line.from);
-        let before = shape.side(self.before[wall as usize].as_at_start(here));
-        match before {
-            Some(before) if ray.was_here => struck.or_else(|| self.swept([wall, face], ray, before)),
-            _ => struck,
-        }
+        let struck = shape.struck(face, &seen)?;
+        Some(Struck { normal: pose.direction(struck.normal), ..struck })
     }
 
-    /// Where a plate has passed over a ray that flies toward where it came from: there the ray is thrown back now. `before` is on which
-    /// side of it the ray was.
-    fn swept(&self, [wall, face]: [u32; 2], ray: &RayAtWalls, before: f64) -> Option<Struck> {
-        let (shape, pose) = (&self.walls.bodies[wall as usize].shape, &self.poses[wall as usize]);
+    /// Where a plate has passed over a ray that flies toward where it came from: there the ray is thrown back now.
+    fn swept(&self, [wall, face]: [u32; 2], ray: &RayAtWalls) -> Option<Struck> {
+        let shape = &self.walls.bodies[wall as usize].shape;
         let here = ray.line.at(ray.line.from);
-        let side = shape.side(pose.as_at_start(here))?;
-        if side * before >= 0.0 {
+        let side = |poses: &[Pose]| shape.side(poses[wall as usize].as_at_start(here));
+        if side(&self.poses)? * side(&self.before)? >= 0.0 {
             return None;
         }
         // Its line comes upon the plate behind it, and so it should have been thrown back there.
-        let earlier = Line {
-            origin: pose.as_at_start(here),
-            direction: pose.direction_as_at_start(ray.line.direction),
-            from: f64::NEG_INFINITY,
-        };
-        let struck = shape.struck(face, &earlier)?;
-        let normal = pose.direction(struck.normal);
-        (struck.at <= 0.0).then_some(Struck { at: ray.line.from, normal })
+        let earlier = Line { origin: here, direction: ray.line.direction, from: f64::NEG_INFINITY };
+        let struck = self.upon([wall, face], &earlier)?;
+        (struck.at <= 0.0).then_some(Struck { at: ray.line.from, ..struck })
     }
 
     /// The wall that a point [m] lies in, that with the lowest number if there are several; a point on a face, to twelve digits, is

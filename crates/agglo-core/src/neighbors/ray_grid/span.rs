@@ -36,6 +36,15 @@ pub(super) struct Sphere {
     pub(super) radius: f64,
 }
 
+impl Sphere {
+    /// Whether a point lies inside; one on the surface, to nine digits, is outside.
+    #[inline]
+    pub(super) fn holds(&self, point: Vec3) -> bool {
+        let radius = self.radius * (1.0 - 1e-9);
+        (point - self.center).norm_squared() < radius * radius
+    }
+}
+
 impl RaySpan {
     /// Where the ray first meets a sphere: now, if its point lies inside and heads inward; never, if outward.
     #[inline]

@@ -1,6 +1,6 @@
 //! Each hard sphere's nearest neighbor, by the distance of the centers.
 
-use crate::domain::{Boundary, Volume};
+use crate::domain::{Boundary, Volume, extent_of_places};
 use crate::engine::hard::spheres::Spheres;
 use crate::math::Vec3;
 
@@ -102,10 +102,8 @@ fn farthest(spheres: &Spheres, volume: &Volume) -> f64 {
     if volume.boundary == Boundary::Periodic {
         return edges.norm();
     }
-    let mut positions = spheres.living().map(|at| spheres.motion[at as usize].position);
-    let first = positions.next().unwrap_or(Vec3::ZERO);
-    let (lower, upper) = positions.fold((first, first), |(low, high), at| (low.min(at), high.max(at)));
-    (upper - lower).norm()
+    let positions = spheres.living().map(|at| spheres.motion[at as usize].position);
+    extent_of_places(positions).map_or(0.0, |(lower, upper)| (upper - lower).norm())
 }
 
 #[cfg(test)]

@@ -55,9 +55,7 @@ impl Setup {
             medium,
         })
     }
-}
 
-impl Setup {
     /// Drops the rays of the latest pulse that start in grains, and those that start in walls, at a time [s]: how many, and in which first.
     pub(super) fn drop_rays(
         &mut self,
