@@ -226,6 +226,15 @@ def meetings(grown):
     return np.trapezoid(rates, times)
 
 
+def pushed(seed, folder):
+    """The momentum that sound gives what has grown from another start."""
+    example = module("form_disperse")
+    formed = example.run(agglo.Scenario.template("form", {**example.SHORT_FORM, "seed": seed}), folder / "formed")
+    disperse = agglo.Scenario.template("disperse", example.SHORT_DISPERSE)
+    soft, _ = example.hand_over(formed, folder / "agglomerates.toml", disperse)
+    return pieces(example.run(soft, folder / "dispersed").grains(-1)[1])[2].sum(axis=0)
+
+
 def test_agglomerates_form_are_dispersed_and_form_again(tmp_path):
     said = short("form_disperse", tmp_path)
     formed, dispersed, again = (agglo.read(tmp_path / name) for name in ("formed", "dispersed", "again"))
@@ -242,13 +251,15 @@ def test_agglomerates_form_are_dispersed_and_form_again(tmp_path):
     # Packings begin with their bonds at rest and without overlaps; what moves is what moved before.
     energy = dispersed.table("energy")
     assert energy["bonds_J"][0] == 0.0 and energy["elastic_J"][0] < 1e-12 * energy["kinetic_J"][0]
-    # Sound breaks bonds, each of which is an event, and pushes along x. What scatters sideways cancels but for chance.
+    # Sound breaks bonds, each of which is an event.
     clusters, kinds = dispersed.table("clusters"), dispersed.events()["event"]
     assert clusters["bonds"][0] - clusters["bonds"][-1] == sum(kind.startswith("broken") for kind in kinds.tolist()) > 0
     assert clusters["dispersion_degree"][-1] > clusters["dispersion_degree"][0]
     assert clusters["clusters"][-1] > 2 * clusters["clusters"][0] == 2 * formed.summary["grains_end"]
     push = pieces(dispersed.grains(-1)[1])[2].sum(axis=0)
-    assert push[0] > 5 * np.hypot(*push[1:])
+    # It pushes along x. What scatters sideways cancels but for chance, of which the mean of four starts has half as much as one.
+    mean = np.mean([push, *(pushed(seed, tmp_path / f"start-{seed}") for seed in (2, 3, 4))], axis=0)
+    assert push[0] > 3 * np.hypot(*push[1:]) and mean[0] > 5 * np.hypot(*mean[1:])
     # Of the energy the motion of centers is left, P²/2M at least; shaking and spin are dropped.
     kept = float(re.search(r"(\d+)% of the energy of motion and spin left", said)[1]) / 100
     grains = again.grains(0)[1]

@@ -206,3 +206,29 @@ def test_functions_may_use_the_package_themselves(tmp_path):
     finally:
         agglo.set_threads()
     assert run.table("own")["inner_s"].tolist() == [20e-6, 20e-6]
+
+
+def test_domains_change_no_file_and_are_for_soft_spheres_alone(tmp_path):
+    # Long enough to be told of more than once on its way.
+    lasting = soft().replace({"grains.0.placement.random.count": 300, "time.end": "16 ms", "output.frames": "4 ms"})
+    whole, cut = agglo.run(lasting, tmp_path / "whole"), tmp_path / "cut"
+
+    def stops(progress):
+        if progress["time_s"] > 0.0:
+            raise StopIteration
+
+    with pytest.raises(StopIteration):
+        agglo.run(lasting, cut, domains=3, progress=stops)
+    assert agglo.read(cut).summary is None
+    agglo.resume(cut, domains=2)
+    assert files(cut) == files(whole.folder)
+    for number, told in [(0, "from 1 to 256"), (257, "from 1 to 256")]:
+        with pytest.raises(agglo.InputError, match=told):
+            agglo.run(soft(), tmp_path / "other", domains=number)
+    with pytest.raises(agglo.InputError, match="events of hard spheres come one after the other; run it with one domain"):
+        agglo.run(hard(), tmp_path / "other", domains=2)
+    with pytest.raises(agglo.InputError, match="do not know of forces of the caller's own"):
+        agglo.run(soft(), tmp_path / "other", domains=2, force=FORCE)
+    with pytest.raises(agglo.InputError, match="write a folder"):
+        agglo.run(soft(), domains=2)
+    assert not (tmp_path / "other").exists()

@@ -1,7 +1,9 @@
 //! What can be typed.
 
+use std::num::NonZeroU32;
 use std::path::PathBuf;
 
+use agglo::run::Guests;
 use clap::{Args, Parser, Subcommand};
 
 /// Simulates how particulate agglomerates grow, break up and disperse, and searches for the best conditions.
@@ -134,7 +136,30 @@ pub(crate) struct ResumeOptions {
     #[arg(long, value_name = "TIME")]
     pub until: Option<String>,
     #[command(flatten)]
+    pub spread: SpreadOptions,
+    #[command(flatten)]
     pub session: SessionOptions,
+}
+
+/// Over what a run is spread.
+#[derive(Args, Debug)]
+pub(crate) struct SpreadOptions {
+    /// Number of domains that the soft spheres of a run are spread over, each with threads of its own; the results are the same to the
+    /// last bit
+    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(1..=256))]
+    domains: Option<u32>,
+}
+
+impl SpreadOptions {
+    /// Whether there is one.
+    pub(crate) fn is_given(&self) -> bool {
+        self.domains.is_some()
+    }
+
+    /// What takes part in the run.
+    pub(crate) fn guests(&self) -> Guests<'static> {
+        Guests { domains: self.domains.and_then(NonZeroU32::new), ..Guests::default() }
+    }
 }
 
 /// How a run, search or study is carried on.
@@ -159,6 +184,8 @@ pub(crate) struct SessionOptions {
 pub(crate) struct RunOptions {
     #[command(flatten)]
     pub common: CommonOptions,
+    #[command(flatten)]
+    pub spread: SpreadOptions,
     /// Start from the last state of the run in this folder, or from one of its checkpoints
     #[arg(long, value_name = "FOLDER")]
     pub from: Option<PathBuf>,

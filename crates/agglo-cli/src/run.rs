@@ -25,7 +25,8 @@ pub(crate) fn run(run_options: &RunOptions) -> Result<(), Failure> {
     refuse_occupied(&folder)?;
     let beside = |stop| companion(run_options, &folder, stop);
     let session = Session::open("run", &folder, wall, &options.session)?;
-    go(session, beside, |observer| agglo::run::run(&scenario, &source.base, &folder, observer))
+    let guests = run_options.spread.guests();
+    go(session, beside, |observer| agglo::run::run_with(&scenario, &source.base, &folder, guests, observer))
 }
 
 /// The dashboard, where it is wanted and there is a terminal for it.
@@ -60,10 +61,7 @@ pub(crate) fn resume(options: &ResumeOptions) -> Result<(), Failure> {
     go(
         session,
         |_| None,
-        |observer| match until {
-            Some(until) => agglo::run::resume_until(folder, until, observer),
-            None => agglo::run::resume(folder, observer),
-        },
+        |observer| agglo::run::resume_with(folder, until, options.spread.guests(), observer),
     )
 }
 

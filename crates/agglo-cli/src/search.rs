@@ -62,10 +62,18 @@ pub(crate) fn join(options: &JoinOptions) -> Result<(), Failure> {
 pub(crate) fn resume(options: &ResumeOptions) -> Result<(), Failure> {
     let folder = options.folder.as_path();
     let wall = WallTime::of(options.session.wall_time.as_deref())?;
-    if options.until.is_some() {
+    let help = format!("a budget of time, and how many candidates there are, stand in its {CAMPAIGN}");
+    let for_runs = [
+        (options.until.is_some(), "--until", help.as_str()),
+        (
+            options.spread.is_given(),
+            "--domains",
+            "--threads says how many candidates are worked out at a time",
+        ),
+    ];
+    if let Some((_, option, help)) = for_runs.into_iter().find(|(is_given, ..)| *is_given) {
         let shown = folder.display();
-        let help = format!("a budget of time, and how many candidates there are, stand in its {CAMPAIGN}");
-        let message = format!("error: {shown} holds a search or study; --until is for runs\nhelp: {help}");
+        let message = format!("error: {shown} holds a search or study; {option} is for runs\nhelp: {help}");
         return Err(Failure::bad_input(message));
     }
     if let Some(summary) = campaign::finished(folder) {

@@ -18,6 +18,7 @@ pub mod math;
 pub mod particles;
 
 pub mod domain;
+pub mod link;
 pub mod neighbors;
 pub mod packing;
 

@@ -65,7 +65,7 @@ impl Invited {
         interruptible_apart(py, |stop| {
             let forces = self.force.into_iter().map(|force| Box::new(force) as Box<dyn Hook>).collect();
             let onlooker = self.looker.as_mut().map(|looker| looker as &mut dyn Onlooker);
-            run(Guests { forces, onlooker }, stop)
+            run(Guests { forces, onlooker, domains: None }, stop)
         })
     }
 }

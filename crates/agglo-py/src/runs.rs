@@ -1,6 +1,7 @@
 //! The verbs that the terminal has too: run, resume, check, report.
 
 use std::ffi::OsString;
+use std::num::NonZeroU32;
 use std::path::PathBuf;
 
 use agglo::Error;
@@ -8,7 +9,7 @@ use agglo::folder::{CampaignFolder, RunFolder, tables_in};
 use agglo::forecast::Plan;
 use agglo::record::Sheet;
 use agglo::record::frames::{Collection, FieldValues, Frame};
-use agglo::run::{Ending, Progress, RunError};
+use agglo::run::{Ending, Guests, Progress, RunError};
 use agglo::search::campaign;
 use agglo::units::{Quantity, Time, parse_quantity};
 use agglo_view::report::ReportError;
@@ -32,17 +33,19 @@ pub(crate) fn act_on(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
 /// Runs a scenario into a folder, with functions that take part; gives its summary as JSON. `progress` is called about ten times a
 /// second.
 #[pyfunction]
-#[pyo3(signature = (scenario, folder, progress=None, functions=None))]
+#[pyo3(signature = (scenario, folder, progress=None, functions=None, domains=None))]
 pub(crate) fn run(
     py: Python<'_>,
     scenario: &Scenario,
     folder: PathBuf,
     progress: Option<Py<PyAny>>,
     functions: Option<Functions>,
+    domains: Option<NonZeroU32>,
 ) -> PyResult<String> {
     let watcher = Watcher::new(progress);
     let outcome = invited(py, functions, &watcher)?.take_part(py, |guests, stop| {
         let mut observer = |now: &Progress| watcher.see(of_run, now, stop);
+        let guests = Guests { domains, ..guests };
         agglo::run::run_with(&scenario.read, &scenario.base, &folder, guests, &mut observer)
     })?;
     watcher.raise(py)?;
@@ -56,19 +59,21 @@ fn invited(py: Python<'_>, functions: Option<Functions>, watcher: &Watcher) -> P
 /// Goes on with the run in a folder and the functions that take part in it, to another end where one is given ("40 s"); gives its
 /// summary as JSON.
 #[pyfunction]
-#[pyo3(signature = (folder, until=None, progress=None, functions=None))]
+#[pyo3(signature = (folder, until=None, progress=None, functions=None, domains=None))]
 pub(crate) fn resume(
     py: Python<'_>,
     folder: PathBuf,
     until: Option<&str>,
     progress: Option<Py<PyAny>>,
     functions: Option<Functions>,
+    domains: Option<NonZeroU32>,
 ) -> PyResult<String> {
     let watcher = Watcher::new(progress);
     let end = until.map(|until| parse_quantity(until, Time::DIMENSION)).transpose();
     let end = end.map_err(|error| InputError::new_err(format!("until: {error}")))?;
     let outcome = invited(py, functions, &watcher)?.take_part(py, |guests, stop| {
         let mut observer = |now: &Progress| watcher.see(of_run, now, stop);
+        let guests = Guests { domains, ..guests };
         agglo::run::resume_with(&folder, end.map(Quantity), guests, &mut observer)
     })?;
     watcher.raise(py)?;

@@ -76,7 +76,7 @@ extern crate agglo_testing;
 
 #[doc(inline)]
 pub use agglo_core::{
-    acoustics, catalog, constants, contact, domain, engine, fields, impact, law, ledger, math, measure,
+    acoustics, catalog, constants, contact, domain, engine, fields, impact, law, ledger, link, math, measure,
     neighbors, particles, text, units, walls,
 };
 

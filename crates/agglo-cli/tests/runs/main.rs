@@ -11,6 +11,7 @@ mod common;
 mod company;
 mod damage;
 mod disk;
+mod domains;
 mod end;
 mod folders;
 mod foreign;

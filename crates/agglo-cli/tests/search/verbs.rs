@@ -152,6 +152,8 @@ fn a_search_over_a_table_goes_on_wherever_it_is_moved() {
     crate::bench::assert_same(&again("search", "search.toml", "again"), &whole.out());
     crate::bench::assert_same(&again("run", "best/scenario.toml", "best-again"), &out.join("best"));
     // What runs can do and searches cannot is told.
-    let text = complained(&ended(agglo(&["resume", out.to_str().unwrap(), "--until", "1 s"]), 2));
-    assert!(text.contains("--until is for runs"), "{text}");
+    for (option, value) in [("--until", "1 s"), ("--domains", "2")] {
+        let text = complained(&ended(agglo(&["resume", out.to_str().unwrap(), option, value]), 2));
+        assert!(text.contains(&format!("{option} is for runs")), "{text}");
+    }
 }

@@ -1,5 +1,7 @@
 //! The bonds of all grains: their memory, their loads, and which of them break.
 
+use std::ops::Add;
+
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -7,12 +9,13 @@ use super::bond::{Beam, BeamLoad, BeamPair, BeamState, Break};
 use super::closeness::are_close;
 use super::lever_arms;
 use crate::domain::Space;
+use crate::link::row_of_fields;
 use crate::math::{Groups, Pace, Vec3, parallel};
 use crate::neighbors::PairList;
 use crate::particles::{ById, Motion, Particles};
 
-/// Bonds per leaf of the parallel loop.
-const LEAF: usize = 1024;
+/// Fewest bonds that one thread works out at a time.
+const FEWEST: usize = 256;
 
 /// A bond between two grains.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -53,12 +56,30 @@ pub struct BondRates {
     pub strained: f64,
 }
 
+row_of_fields!(BondRates { damping: f64, strained: f64 });
+
+impl Add for BondRates {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self { damping: self.damping + other.damping, strained: self.strained + other.strained }
+    }
+}
+
+/// A bond at the motion that is tried.
+#[derive(Clone, Copy, Debug)]
+struct Tried {
+    state: BeamState,
+    load: BeamLoad,
+    /// Power [W] that space puts in.
+    strained: f64,
+}
+
 /// All bonds, sorted by the grains' names.
 #[derive(Clone, Debug, Default)]
 pub struct Network {
     law: Option<Beam>,
     bonds: Vec<Bond>,
-    trial: Vec<(BeamState, BeamLoad)>,
+    trial: Vec<Tried>,
     /// Bonds by their grains, as 2 * bond + side.
     entries: Groups,
     made_at_start: usize,
@@ -135,7 +156,8 @@ impl Network {
     /// Sorts the bonds and works out which belong to each grain.
     fn settle(&mut self, grains: usize) {
         self.bonds.sort_unstable_by_key(|bond| bond.ids);
-        self.trial = self.bonds.iter().map(|bond| (bond.state, BeamLoad::default())).collect();
+        let at_rest = |bond: &Bond| Tried { state: bond.state, load: BeamLoad::default(), strained: 0.0 };
+        self.trial = self.bonds.iter().map(at_rest).collect();
         let ends = self.bonds.iter().zip((0..).step_by(2)).flat_map(|(bond, entry)| {
             let [i, j] = bond.grains;
             [(i, entry), (j, entry + 1)]
@@ -144,45 +166,30 @@ impl Network {
     }
 
     /// Computes all bonds' loads at the end of a step of `dt` [s], from the motions at both its ends and space as it was there.
-    pub fn compute(
-        &mut self,
-        grains: &Particles,
-        spaces: [&Space; 2],
-        motions: [&Motion<'_>; 2],
-        dt: f64,
-    ) -> BondRates {
-        let Some(law) = &self.law else { return BondRates::default() };
-        let bonds = &self.bonds;
-        parallel::over(
-            0..bonds.len(),
-            LEAF,
-            &mut self.trial[..],
-            &|range, trial: &mut [(BeamState, BeamLoad)]| {
-                let mut rates = BondRates::default();
-                for (bond, place) in bonds[range].iter().zip(trial) {
-                    let (pair, flow) = pair_of(bond, grains, spaces, motions, dt);
-                    let (load, state) = law.advance(&bond.state, &pair);
-                    rates.damping += load.damping_power;
-                    rates.strained += load.force.dot(flow);
-                    *place = (state, load);
-                }
-                rates
-            },
-            &|a, b| BondRates { damping: a.damping + b.damping, strained: a.strained + b.strained },
-        )
+    pub fn compute(&mut self, grains: &Particles, spaces: [&Space; 2], motions: [&Motion<'_>; 2], dt: f64) {
+        let Some(law) = &self.law else { return };
+        let tried = self.trial.par_iter_mut().zip(&self.bonds).with_min_len(FEWEST);
+        tried.for_each(|(tried, bond)| {
+            let (pair, flow) = pair_of(bond, grains, spaces, motions, dt);
+            let (load, state) = law.advance(&bond.state, &pair);
+            *tried = Tried { state, load, strained: load.force.dot(flow) };
+        });
     }
 
-    /// Adds the bonds' loads on one grain.
+    /// Adds the bonds' loads on one grain, and what the bonds do that are its own: those that name it first. So sums go by grains, not
+    /// by bonds.
     #[inline(always)]
-    pub fn gather(&self, grain: usize, force: &mut Vec3, torque: &mut Vec3) {
+    pub fn gather(&self, grain: usize, force: &mut Vec3, torque: &mut Vec3, rates: &mut BondRates) {
         if self.bonds.is_empty() {
             return;
         }
         for &entry in self.entries.of(grain) {
-            let load = &self.trial[entry as usize / 2].1;
+            let Tried { load, strained, .. } = &self.trial[entry as usize / 2];
             if entry % 2 == 0 {
                 *force += load.force;
                 *torque += load.torque_i;
+                rates.damping += load.damping_power;
+                rates.strained += strained;
             } else {
                 *force -= load.force;
                 *torque += load.torque_j;
@@ -192,8 +199,8 @@ impl Network {
 
     /// Keeps the memory of the last computation.
     pub fn commit(&mut self) {
-        for (bond, (state, _)) in self.bonds.iter_mut().zip(&self.trial) {
-            bond.state = *state;
+        for (bond, tried) in self.bonds.iter_mut().zip(&self.trial) {
+            bond.state = tried.state;
         }
     }
 
@@ -206,12 +213,12 @@ impl Network {
         mut loads: impl FnMut([u32; 2], &BeamLoad),
     ) -> Vec<BondEvent> {
         let Some(law) = &self.law else { return Vec::new() };
-        if self.trial.iter().all(|(_, load)| load.breaks().is_none()) {
+        if self.trial.iter().all(|tried| tried.load.breaks().is_none()) {
             return Vec::new();
         }
         let mut events = Vec::new();
         let mut kept = Vec::with_capacity(self.bonds.len());
-        for (bond, (_, load)) in self.bonds.iter().zip(&self.trial) {
+        for (bond, Tried { load, .. }) in self.bonds.iter().zip(&self.trial) {
             let broke = load.breaks();
             if broke.is_some() {
                 let energy = law.energy(&bond.state, distance_of(bond, grains, space));
@@ -224,7 +231,7 @@ impl Network {
         let held: Vec<BeamLoad> = kept.iter().map(|(_, load)| *load).collect();
         self.bonds = kept.into_iter().map(|(bond, _)| bond).collect();
         self.settle(grains.len());
-        self.trial.iter_mut().zip(held).for_each(|(place, load)| place.1 = load);
+        self.trial.iter_mut().zip(held).for_each(|(tried, load)| tried.load = load);
         events
     }
 
@@ -278,12 +285,12 @@ impl Network {
     /// Energy [J] stored in all bonds.
     pub fn energy(&self, grains: &Particles, space: &Space) -> f64 {
         let Some(law) = &self.law else { return 0.0 };
-        let energies: Vec<f64> = self
-            .bonds
-            .par_iter()
-            .map(|bond| law.energy(&bond.state, distance_of(bond, grains, space)))
-            .collect();
-        energies.iter().sum()
+        let own = |grain: usize| self.entries.of(grain).iter().filter(|entry| *entry % 2 == 0);
+        let energy = |entry: &u32| {
+            let bond = &self.bonds[*entry as usize / 2];
+            law.energy(&bond.state, distance_of(bond, grains, space))
+        };
+        parallel::sum(grains.len(), |grain| own(grain).map(energy).fold(0.0, |a, b| a + b))
     }
 
     /// The grains came to new places.

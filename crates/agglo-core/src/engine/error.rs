@@ -34,6 +34,20 @@ pub enum SimError {
         /// The laws that act on it.
         laws: String,
     },
+    /// A run cannot be spread over several domains.
+    #[error("the run cannot be spread over several domains: {reason}; leave --domains out")]
+    Alone {
+        /// Why.
+        reason: String,
+    },
+    /// The domains of a run are no longer in the same state.
+    #[error(
+        "{at}: the state was changed from outside, which the other domains of the run do not know of; run it with one domain"
+    )]
+    Apart {
+        /// When.
+        at: Moment,
+    },
     /// A hook could not give its forces.
     #[error("{at}: {name} gave no forces: {reason}")]
     Hook {

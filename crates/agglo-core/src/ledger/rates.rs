@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::network::BondRates;
 use crate::contact::pass::ContactRates;
+use crate::link::row_of_fields;
 use crate::math::Vec3;
 
 /// What an outer agent does to all grains together, per second.
@@ -18,6 +19,8 @@ pub struct Supply {
     /// Torque about the origin [N m].
     pub torque: Vec3,
 }
+
+row_of_fields!(Supply { power: f64, force: Vec3, torque: Vec3 });
 
 impl Supply {
     /// A force at a point of a grain with this position and velocity.
@@ -61,6 +64,15 @@ pub struct Supplies {
     pub strained: f64,
 }
 
+row_of_fields!(Supplies {
+    drag: Supply,
+    gravity: Supply,
+    field: Supply,
+    hook: Supply,
+    walls: Supply,
+    strained: f64,
+});
+
 impl Supplies {
     /// The same with what walls do.
     #[must_use]
@@ -101,6 +113,8 @@ pub struct Correction {
     /// Change of drag over that of velocity, both within the step [W]: -ΔF · Δv - ΔM · Δw.
     pub bend: f64,
 }
+
+row_of_fields!(Correction { supplies: Supplies, bend: f64 });
 
 impl Add for Correction {
     type Output = Self;

@@ -2,8 +2,13 @@
 //!
 //! A range is halved until its parts are small; where it is cut depends on its length alone, so sums are
 //! taken over the same tree whatever thread computes which leaf. Nothing is allocated.
+//!
+//! Sums over grains have leaves of one [`BLOCK`]: the tree is one of blocks, whoever has which of them.
 
 use std::ops::Range;
+
+/// Grains per block, by their places in memory: what one leaf of a sum over grains takes.
+pub const BLOCK: usize = 1024;
 
 /// Mutable views that belong to a range of items and can be cut where the range is cut.
 pub trait Split: Sized + Send {
@@ -43,7 +48,8 @@ impl<A: Split, B: Split, C: Split> Split for (A, B, C) {
     }
 }
 
-/// Works through `range` in leaves of at most `leaf` items and joins their results pairwise.
+/// Works through `range` in leaves of `leaf` items, which is above zero, the last one of what is left, and joins their results
+/// pairwise.
 pub fn over<S: Split, R: Send>(
     range: Range<usize>,
     leaf: usize,
@@ -55,13 +61,29 @@ pub fn over<S: Split, R: Send>(
     if length <= leaf {
         return work(range, views);
     }
-    let middle = range.start + (length / 2).next_multiple_of(leaf.min(length / 2).max(1));
+    let middle = range.start + middle(length, leaf);
     let (left, right) = views.split(&range, middle);
     let (a, b) = rayon::join(
         || over(range.start..middle, leaf, left, work, join),
         || over(middle..range.end, leaf, right, work, join),
     );
     join(a, b)
+}
+
+/// Where a range of so many items, more than a leaf, is cut.
+pub fn middle(length: usize, leaf: usize) -> usize {
+    (length / 2).next_multiple_of(leaf)
+}
+
+/// Sum over all grains of what `of` gives for the grain at a place, block by block.
+pub fn sum(grains: usize, of: impl Fn(usize) -> f64 + Sync) -> f64 {
+    let leaf = |range: Range<usize>, ()| range.map(&of).fold(0.0, |a, b| a + b);
+    over(0..grains, BLOCK, (), &leaf, &|a, b| a + b)
+}
+
+/// Mean of a column of grains; 0 without grains.
+pub fn mean(column: &[f64]) -> f64 {
+    sum(column.len(), |at| column[at]) / column.len().max(1) as f64
 }
 
 #[cfg(test)]
@@ -84,6 +106,19 @@ mod tests {
             )
         });
         (sum, squares)
+    }
+
+    #[test]
+    fn leaves_are_blocks() {
+        for n in [1, 15, 16, 17, 31, 33, 47, 1000] {
+            let list = |range: Range<usize>, ()| vec![range];
+            let leaves = over(0..n, 16, (), &list, &|mut a: Vec<Range<usize>>, b| {
+                a.extend(b);
+                a
+            });
+            let blocks = (0..n.div_ceil(16)).map(|block| 16 * block..(16 * (block + 1)).min(n));
+            assert_eq!(leaves, blocks.collect::<Vec<_>>(), "{n} items");
+        }
     }
 
     #[test]

@@ -99,11 +99,15 @@ fn a_periodic_fill_is_sequential_addition_by_brute_force() {
     let mut stream = Stream::new(scenario(vec![]).seed, Purpose::Placement, 0);
     let middle = (volume.lower() + volume.upper()) * 0.5;
     let mut places: Vec<Vec3> = Vec::new();
+    let mut attempt = 0;
     while places.len() < grains.len() {
+        stream.jump_to((places.len() as u64) << 32 | attempt << 8);
+        attempt += 1;
         let [x, y, z] = volume.edges().to_array().map(|edge| (2.0 * stream.uniform() - 1.0) * (0.5 * edge));
         let place = middle + Vec3::new(x, y, z);
         if places.iter().all(|&other| volume.shortest(place - other).norm() >= 2.0 * radius) {
             places.push(place);
+            attempt = 0;
         }
     }
     assert_eq!(grains.position, places);

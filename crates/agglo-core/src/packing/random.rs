@@ -218,6 +218,15 @@ impl Asked<'_, '_> {
     }
 }
 
+/// The gaps take the numbers of a grain that there is never, so that places do not depend on how many grains are wanted.
+const BEYOND_ALL: usize = u32::MAX as usize;
+
+/// Where the random numbers of an attempt to place a grain begin: each attempt has its own, whatever came of those before it and
+/// whoever makes it.
+fn first_number(grain: usize, attempt: u64) -> u64 {
+    (grain as u64) << 32 | attempt << 8
+}
+
 /// The request in one place.
 struct Search<'a> {
     room: &'a Room,
@@ -248,8 +257,9 @@ impl Search<'_> {
         let (mut draws, most_draws) = (0, LONGEST_SEARCH + DRAWS_PER_GRAIN * self.radii.len() as u64);
         for &radius in self.radii {
             let patience = if equal { PATIENCE } else { LONGEST_SEARCH.min(most_draws - draws) };
-            let found = (0..patience).find_map(|_| {
+            let found = (0..patience).find_map(|attempt| {
                 draws += 1;
+                stream.jump_to(first_number(placed.len(), attempt));
                 let place = self.room.sample(radius, &mut stream);
                 place.filter(|&place| asked.is_over() || occupied.is_free(place, radius))
             });
@@ -259,6 +269,7 @@ impl Search<'_> {
             placed.push((place, radius));
         }
         if equal && placed.len() < self.radii.len() {
+            stream.jump_to(first_number(BEYOND_ALL, 0));
             self.fill_gaps(&mut occupied, &mut stream, &mut placed, &mut asked)?;
         }
         Ok(placed)

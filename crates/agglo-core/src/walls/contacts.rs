@@ -1,6 +1,6 @@
 //! The pass over grains near walls, and what their contacts remember.
 //!
-//! Each contact is worked out by itself; then they are added up one after the other, by rising grain and face, leaving out those that do
+//! Each contact is worked out by itself; then they are added up by rising grain and face, block by block, leaving out those that do
 //! not touch. So sums depend neither on threads nor on when the list was made, and a resumed run has the same bits. Memory is
 //! committed when a step is accepted, as that of contacts between grains.
 
@@ -18,7 +18,8 @@ use crate::contact::friction::TangentialSpring;
 use crate::contact::pass::{ContactRates, Record};
 use crate::contact::{ContactLaws, PairTable};
 use crate::ledger::Supply;
-use crate::math::{Vec3, parallel};
+use crate::math::Vec3;
+use crate::math::parallel::{self, BLOCK};
 use crate::particles::Particles;
 
 /// Contacts that one thread works out at a time.
@@ -67,6 +68,10 @@ impl<'a> WallStep<'a> {
     }
 }
 
+fn block_of(candidate: &Candidate) -> usize {
+    candidate.grain as usize / BLOCK
+}
+
 /// What a wall does to all grains together.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct WallRates {
@@ -74,6 +79,14 @@ pub struct WallRates {
     pub supply: Supply,
     /// Contacts.
     pub contacts: u32,
+}
+
+impl WallRates {
+    fn add(&mut self, met: &Met) {
+        let supply = Supply { power: met.power, force: met.force, torque: met.place.cross(met.force) };
+        self.supply = self.supply + supply;
+        self.contacts += u32::from(met.spring.is_some());
+    }
 }
 
 /// Grains near walls, their contacts and what comes of them.
@@ -93,6 +106,8 @@ pub struct WallContacts {
     loaded: Vec<u32>,
     /// What walls do at the motion that is tried, at the committed one, and have done since the start.
     trial: Vec<WallRates>,
+    /// What they do to the grains of one block.
+    in_block: Vec<WallRates>,
     rates: Vec<WallRates>,
     flows: Vec<Supply>,
     /// The deepest contact of the motion that is tried: overlap over radius, grain, wall.
@@ -196,28 +211,37 @@ impl WallContacts {
         parallel::over(0..candidates.len(), LEAF, &mut met[..], &leaf, &|(), ()| ());
     }
 
+    /// Adds up within blocks of grains, then block by block, so that sums do not depend on who has which of them.
     fn add_up(&mut self, contact: &mut ContactRates) {
-        for &grain in &self.loaded {
-            self.loads[grain as usize] = (Vec3::ZERO, Vec3::ZERO);
+        let Self { listed, met, loads, loaded, trial, in_block, deepest, .. } = self;
+        for &grain in &*loaded {
+            loads[grain as usize] = (Vec3::ZERO, Vec3::ZERO);
         }
-        self.loaded.clear();
-        self.trial.fill(WallRates::default());
-        self.deepest = None;
-        for (candidate, met) in self.listed.candidates.iter().zip(&self.met).filter(|(_, met)| met.acts) {
-            let load = &mut self.loads[candidate.grain as usize];
-            load.0 += met.force;
-            load.1 += met.torque;
-            self.loaded.push(candidate.grain);
-            let wall = &mut self.trial[candidate.face[0] as usize];
-            let supply = Supply { power: met.power, force: met.force, torque: met.place.cross(met.force) };
-            wall.supply = wall.supply + supply;
-            wall.contacts += u32::from(met.spring.is_some());
-            contact.damping += met.damping;
-            contact.driven += met.driven;
-            contact.tangential += met.tangential;
-            contact.worst_strain = contact.worst_strain.max(met.strain);
-            if met.strain > self.deepest.map_or(0.0, |(strain, ..)| strain) {
-                self.deepest = Some((met.strain, candidate.grain, candidate.face[0]));
+        loaded.clear();
+        trial.fill(WallRates::default());
+        *deepest = None;
+        let mut met = &met[..];
+        for candidates in listed.candidates.chunk_by(|a, b| block_of(a) == block_of(b)) {
+            let (here, others) = met.split_at(candidates.len());
+            met = others;
+            let mut sums = ContactRates::default();
+            in_block.clear();
+            in_block.resize(trial.len(), WallRates::default());
+            for (candidate, met) in candidates.iter().zip(here).filter(|(_, met)| met.acts) {
+                let load = &mut loads[candidate.grain as usize];
+                load.0 += met.force;
+                load.1 += met.torque;
+                loaded.push(candidate.grain);
+                in_block[candidate.face[0] as usize].add(met);
+                sums = sums.join(met.rates());
+                if met.strain > deepest.map_or(0.0, |(strain, ..)| strain) {
+                    *deepest = Some((met.strain, candidate.grain, candidate.face[0]));
+                }
+            }
+            *contact = contact.join(sums);
+            for (wall, part) in trial.iter_mut().zip(&*in_block) {
+                wall.supply = wall.supply + part.supply;
+                wall.contacts += part.contacts;
             }
         }
     }
@@ -280,9 +304,16 @@ impl WallContacts {
 
     /// Energy [J] of the committed tangential springs.
     pub fn spring_energy(&self) -> f64 {
-        let springs = self.committed.iter().flatten().map(TangentialSpring::energy);
+        let (mut sum, mut in_block, mut block) = (0.0, 0.0, 0);
+        for (candidate, spring) in self.listed.candidates.iter().zip(&self.committed) {
+            if block_of(candidate) != block {
+                sum += std::mem::take(&mut in_block);
+                block = block_of(candidate);
+            }
+            in_block += spring.as_ref().map_or(0.0, TangentialSpring::energy);
+        }
         let parted = self.parted.iter().map(|(.., spring)| spring.energy());
-        springs.chain(parted).fold(0.0, |a, b| a + b)
+        parted.fold(sum + in_block, |a, b| a + b)
     }
 
     /// What each wall does at the committed motion.

@@ -4,7 +4,7 @@ use super::course::Pose;
 use super::shape::Near;
 use crate::contact::bond::StrainBond;
 use crate::contact::friction::{Sliding, TangentialSpring};
-use crate::contact::pass::Record;
+use crate::contact::pass::{ContactRates, Record};
 use crate::contact::{ContactGeometry, ContactLaws, PairConstants};
 use crate::math::Vec3;
 
@@ -55,6 +55,14 @@ pub(super) struct Met {
     pub acts: bool,
     /// What the contact remembers; nothing where grain and wall do not touch.
     pub spring: Option<TangentialSpring>,
+}
+
+impl Met {
+    /// What it feeds or drains.
+    pub fn rates(&self) -> ContactRates {
+        let Self { damping, driven, tangential, strain, .. } = *self;
+        ContactRates { damping, driven, tangential, strained: 0.0, worst_strain: strain }
+    }
 }
 
 /// Velocity of the wall's surface relative to the grain's [m/s], from the wall's at the point of contact and the grain's.

@@ -193,12 +193,14 @@ def resume(
     until: str | None = None,
     progress: Callable[[Progress], object] | None = None,
     functions: Mapping[str, Any] | None = None,
+    domains: int | None = None,
 ) -> str: ...
 def run(
     scenario: Scenario,
     folder: Folder,
     progress: Callable[[Progress], object] | None = None,
     functions: Mapping[str, Any] | None = None,
+    domains: int | None = None,
 ) -> str: ...
 def run_quietly(scenario: Scenario) -> str: ...
 def schema() -> str: ...

@@ -54,6 +54,11 @@ def check(scenario: Scenario) -> Plan:
     return Plan(**found)
 
 
+def _refuse_none(domains: int) -> None:
+    if not 1 <= domains <= 256:
+        raise InputError(f"domains is {domains}; a number from 1 to 256 is wanted")
+
+
 def run(
     scenario: Scenario,
     folder: Folder | None = None,
@@ -62,6 +67,7 @@ def run(
     measures: Mapping[str, Measure] | None = None,
     stop: Stop | None = None,
     progress: Callable[[Progress], object] | None = None,
+    domains: int = 1,
 ) -> Run | dict[str, Any]:
     """Runs a scenario into a folder, and gives what stands there. Without a folder nothing is written, and only the summary given.
 
@@ -76,6 +82,8 @@ def run(
             "own", not a number for None.
         stop: A function of the same that says whether the run is to end at this row, as if its end were there.
         progress: Called about ten times a second with the time, the steps and the warnings that are new.
+        domains: Over how many domains soft spheres are spread, each with threads of its own; the results are the same to the last
+            bit.
 
     What any of these functions raises stops the run and comes to the caller. The run has a checkpoint then, and `resume` goes on
     with the same functions; where it had not begun there is no folder.
@@ -86,11 +94,12 @@ def run(
         KeyboardInterrupt: At Ctrl-C; `resume` goes on from there.
     """
     functions = functions_of(force, measures, stop)
+    _refuse_none(domains)
     if folder is None:
-        if functions is not None:
-            raise InputError("force, measures and stop take part in runs that write a folder; name one")
+        if functions is not None or domains != 1:
+            raise InputError("force, measures, stop and domains take part in runs that write a folder; name one")
         return dict(json.loads(_agglo.run_quietly(scenario)))
-    _agglo.run(scenario, Path(folder), progress, functions)
+    _agglo.run(scenario, Path(folder), progress, functions, domains)
     return Run(Path(folder))
 
 
@@ -106,12 +115,13 @@ def resume(
     method: Method | None = None,
     function: Function | None = None,
     progress: Callable[[Progress], object] | None = None,
+    domains: int = 1,
 ) -> Run | Search:
     """Goes on with what is in a folder, wherever it was begun.
 
     A run goes on from its newest whole checkpoint, to another end such as "40 s" where `until` is given. Where it began with a
-    force, measures or a rule to stop, it goes on with the same, which are given again. A search or study goes on
-    with all simulations that ended; `executor`, `at_once`, `method` and `function` are those of `agglo.search`.
+    force, measures or a rule to stop, it goes on with the same, which are given again; the number of `domains` may be another. A
+    search or study goes on with all simulations that ended; `executor`, `at_once`, `method` and `function` are those of `agglo.search`.
 
     Raises:
         InputError: There is nothing to go on with, it has come to that time already, or what takes part in it is not given.
@@ -119,14 +129,15 @@ def resume(
     """
     place = Path(folder)
     functions = functions_of(force, measures, stop)
+    _refuse_none(domains)
     found = _agglo.what_is_in(place)
     if found is not None and found[0] == "campaign":
-        if until is not None or functions is not None:
-            raise InputError(f"{place} holds a search or study; until, force, measures and stop are for runs")
+        if until is not None or functions is not None or domains != 1:
+            raise InputError(f"{place} holds a search or study; until, force, measures, stop and domains are for runs")
         return go_on(place, executor, at_once, method, function, progress)
     if executor is not None or at_once is not None or method is not None or function is not None:
         raise InputError(f"{place} holds no search or study; executor, at_once, method and function are for these")
-    _agglo.resume(place, until, progress, functions)
+    _agglo.resume(place, until, progress, functions, domains)
     return Run(place)
 
 

@@ -1,4 +1,5 @@
-//! Guests of a run that writes a folder: forces of the caller's own, measures that get a table, and a rule that ends the run.
+//! Guests of a run that writes a folder: forces of the caller's own, measures that get a table, a rule that ends the run, and other
+//! domains that help.
 //!
 //! # Example
 //! How far the farthest grain is from the origin, in `series/own.csv`, until that is more than a meter:
@@ -38,6 +39,7 @@
 //! ```
 
 use std::fmt;
+use std::num::NonZeroU32;
 
 use serde::{Deserialize, Serialize};
 
@@ -94,6 +96,9 @@ pub struct Guests<'a> {
     pub forces: Vec<Box<dyn Hook>>,
     /// Who takes measures, or ends the run.
     pub onlooker: Option<&'a mut dyn Onlooker>,
+    /// Over how many domains soft spheres are spread; see [`link`](crate::link). Results do not depend on it: whoever goes on may take
+    /// another number. One if left out.
+    pub domains: Option<NonZeroU32>,
 }
 
 impl fmt::Debug for Guests<'_> {
@@ -110,6 +115,31 @@ impl Guests<'_> {
             .as_ref()
             .map(|onlooker| Looks { measures: onlooker.measures(), has_rule: onlooker.has_rule() });
         Known { forces: self.forces.iter().map(|force| force.name().to_owned()).collect(), looks }
+    }
+
+    /// Over how many domains the run is spread.
+    pub(super) fn domains(&self) -> usize {
+        self.domains.map_or(1, NonZeroU32::get) as usize
+    }
+
+    /// Refuses what cannot take part in such a run.
+    ///
+    /// # Errors
+    /// [`RunError::Guests`].
+    pub(super) fn check(&self, is_hard: bool) -> Result<Known, RunError> {
+        let domains = self.domains();
+        let why = if is_hard {
+            "events of hard spheres come one after the other"
+        } else if !self.forces.is_empty() {
+            "the other domains do not know of forces of the caller's own"
+        } else {
+            return self.known().check(is_hard);
+        };
+        if domains > 1 {
+            let reason = format!("{domains} domains: {why}; run it with one domain");
+            return Err(RunError::Guests { reason });
+        }
+        self.known().check(is_hard)
     }
 
     /// The forces as one, if there are some.

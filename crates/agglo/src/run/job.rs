@@ -102,6 +102,10 @@ pub trait Job: Sized {
     fn resume(scenario: &Scenario, state: Self::State<'_>) -> Result<Self, SimError>;
     /// Lets forces of the caller's own act from now on, those of before its state was saved.
     fn attach(&mut self, forces: Box<dyn Hook>) -> Result<(), SimError>;
+    /// Spreads it over so many domains from now on; a run that cannot be has one.
+    fn spread(&mut self, _scenario: &Scenario, _domains: usize) -> Result<(), SimError> {
+        Ok(())
+    }
     /// What another run can start from.
     fn into_start(self) -> Start;
     /// Adds its state to the rest of a checkpoint.

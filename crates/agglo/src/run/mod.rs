@@ -138,7 +138,7 @@ pub fn run_with(
 ) -> Result<Ending, RunError> {
     let began = Instant::now();
     let mut scenario = scenario.resolved();
-    guests.known().check(scenario.is_hard())?;
+    guests.check(scenario.is_hard())?;
     crate::forecast::refuse_run(&scenario, base, dir)?;
     let Origin { start, earlier, .. } = placed(&scenario, base, observer)?;
     if let Some(earlier) = earlier {
@@ -271,6 +271,7 @@ fn go_on(
     let mut reading = |words: &str| before_the_start(words, 0.0, observer);
     let mut found = fit::load(folder, until.is_some() && has_finished, &mut reading)?;
     same_guests(folder, found.saved.parts().1.own().known(), &guests)?;
+    guests.check(matches!(found.saved, AnySaved::Hard(_)))?;
     if let Some(until) = until {
         until::change(folder, &mut found.saved, until)?;
     }

@@ -83,9 +83,10 @@ impl<'g, J: Job> Session<'g, J> {
             told = Instant::now();
             observer(&coming_to_rest(resting, end))
         };
-        let known = guests.known();
+        let (known, domains) = (guests.known(), guests.domains());
         let mut job = J::start(scenario, start, &mut watch).map_err(RunError::Start)?;
         guests.take_forces().map_or(Ok(()), |forces| job.attach(forces)).map_err(RunError::Start)?;
+        job.spread(scenario, domains).map_err(RunError::Start)?;
         let mut onlooker = guests.onlooker;
         // A first look that fails leaves nothing behind, and the folder can be taken again.
         let first = onlooker.as_deref_mut().map(|onlooker| own::look(onlooker, &known, &job));
@@ -126,6 +127,7 @@ impl<'g, J: Job> Session<'g, J> {
         let scenario = Scenario::from_toml(&saved.scenario).map_err(|faults| bad(faults.to_string()))?;
         let mut job = J::resume(&scenario, saved.state).map_err(|error| bad(error.to_string()))?;
         let attached = guests.take_forces().map_or(Ok(()), |forces| job.attach(forces));
+        let attached = attached.and_then(|()| job.spread(&scenario, guests.domains()));
         attached.map_err(|error| RunError::Step { error, checkpoints: folder.checkpoints() })?;
         let onlooker = guests.onlooker;
         let sums_can_be = saved.wall_s >= 0.0 && saved.ends_before.iter().all(|end| *end > 0.0);

@@ -91,7 +91,7 @@ impl Onlooker for Eye {
 
 fn guests(eye: &mut Eye, with_force: bool) -> Guests<'_> {
     let forces = if with_force { Trap::boxed(f64::INFINITY) } else { Vec::new() };
-    Guests { forces, onlooker: Some(eye) }
+    Guests { forces, onlooker: Some(eye), ..Guests::default() }
 }
 
 /// Rows every hundredth of a run, frames every tenth, checkpoints every quarter of it.
@@ -184,7 +184,11 @@ fn same_files_after_stops_of_all_kinds() {
             assert_eq!(error.exit_code(), 1);
         }
         if !is_hard {
-            let worn = Guests { forces: Trap::boxed(1.1e-3), onlooker: Some(&mut Eye::default()) };
+            let worn = Guests {
+                forces: Trap::boxed(1.1e-3),
+                onlooker: Some(&mut Eye::default()),
+                ..Guests::default()
+            };
             let error = on(&cut, None, worn).unwrap_err().to_string();
             assert!(error.contains("trap gave no forces: the trap is worn out"), "{error}");
         }
@@ -236,7 +240,8 @@ fn forces_add_up_and_are_those_of_newton() {
     let dir = place.path().join("run");
     let mut far = Far;
     let forces = vec![push(3.0), push(-1.0)];
-    go(&common::scenario(text), &dir, Guests { forces, onlooker: Some(&mut far) }).unwrap();
+    go(&common::scenario(text), &dir, Guests { forces, onlooker: Some(&mut far), ..Guests::default() })
+        .unwrap();
     let table = std::fs::read_to_string(dir.join("series/own.csv")).unwrap();
     let last: Vec<f64> = table.lines().last().unwrap().split(',').map(|word| word.parse().unwrap()).collect();
     assert_close!(last[1], 0.5 * 2.0 * last[0] * last[0], 1e-12, "m");
@@ -330,7 +335,7 @@ fn what_cannot_be_is_refused_and_leaves_nothing() {
     let error = go(&hard(), &dir, guests(&mut Eye::default(), true)).unwrap_err();
     assert!(error.to_string().contains("forces act on soft spheres"), "{error}");
     assert_eq!((error.exit_code(), dir.exists()), (2, false), "{error}");
-    let worn = Guests { forces: Trap::boxed(-1.0), onlooker: None };
+    let worn = Guests { forces: Trap::boxed(-1.0), ..Guests::default() };
     let error = go(&soft(), &dir, worn).unwrap_err();
     assert!(error.to_string().contains("worn out"), "{error}");
     assert!(!dir.exists(), "the folder was left");
@@ -357,7 +362,7 @@ fn a_run_goes_on_with_its_own_guests_alone() {
     refused(resume(&dir, &mut |_| ControlFlow::Continue(())), &[began, nothing, "agglo::run::resume_with"]);
     refused(on(&dir, Some(9.0), Guests::default()), &[began, nothing]);
     refused(on(&dir, None, guests(&mut Eye::default(), false)), &["to go on with the measure farthest_m"]);
-    let force = Guests { forces: Trap::boxed(f64::INFINITY), onlooker: None };
+    let force = Guests { forces: Trap::boxed(f64::INFINITY), ..Guests::default() };
     refused(on(&dir, None, force), &["to go on with the force \"trap\"\n"]);
     on(&dir, None, guests(&mut Eye::default(), true)).unwrap();
 

@@ -11,6 +11,7 @@ mod common;
 mod across_faces;
 mod crowd;
 mod custom;
+mod domains;
 mod from;
 mod guests;
 mod halving;

@@ -59,11 +59,13 @@ pulses = {{ first = "0 s", period = "0.4 us", count = 1000 }}
     )
 }
 
-/// Grains are placed wholly inside; moved by as much as the smallest are wide, some lie across a face and go out soon.
+/// Grains are placed wholly inside; moved until the foremost is about to go out of a face, which it does soon.
 fn to_the_faces(grains: &mut Particles) {
-    for place in &mut grains.position {
-        place.x -= 14e-6;
-    }
+    let nearer = |a: &usize, b: &usize| grains.position[*a].x.total_cmp(&grains.position[*b].x);
+    let foremost = (0..grains.len()).min_by(nearer).unwrap();
+    let way = grains.position[foremost].x - 1e-8;
+    grains.position.iter_mut().for_each(|place| place.x -= way);
+    grains.velocity[foremost].x = -2.0;
 }
 
 fn assert_busy(simulation: &Simulation) {

@@ -41,7 +41,7 @@ fn compare(restitution: f64, starts: u64) {
 
 #[test]
 fn val_haff_1983_cooling() {
-    compare(0.95, 3);
+    compare(0.95, 8);
 }
 
 #[test]

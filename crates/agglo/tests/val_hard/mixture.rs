@@ -87,7 +87,7 @@ fn kernel(a: usize, b: usize, energy: f64) -> f64 {
 }
 
 fn compare(blocks: usize, impacts: u64, tolerance: f64) {
-    let mut simulation = start(3);
+    let mut simulation = start(4);
     let mean_energy = support::kinetic(&simulation) / f64::from(COUNTS[0] + COUNTS[1] - 1);
     let mut large = Vec::new();
     for _ in 0..blocks {

@@ -10,11 +10,10 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
+use crate::link::row_of_fields;
+use crate::math::parallel::BLOCK;
 use crate::math::{Groups, Vec3, refill};
 use crate::neighbors::PairList;
-
-/// Grains per block.
-pub(super) const BLOCK: usize = 1024;
 
 /// Force [N] and torque about the center [N m], each with a number unused.
 #[derive(Clone, Copy, Debug, Default)]
@@ -23,6 +22,8 @@ pub(super) struct Slot {
     pub force: [f64; 4],
     pub torque: [f64; 4],
 }
+
+row_of_fields!(Slot { force: [f64; 4], torque: [f64; 4] });
 
 /// The slots of all blocks.
 #[derive(Debug, Default)]

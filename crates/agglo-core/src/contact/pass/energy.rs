@@ -2,11 +2,11 @@
 
 use std::ops::Range;
 
-use super::blocks::BLOCK;
 use super::touch::Touch;
 use super::world::Snapshot;
 use crate::contact::{ContactLaws, PairConstants};
-use crate::math::{Pace, Vec3, parallel};
+use crate::math::parallel::{self, BLOCK};
+use crate::math::{Pace, Vec3};
 
 /// Energies of all touching pairs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -23,7 +23,9 @@ use std::ops::Range;
 
 use super::ContactLaws;
 use super::friction::TangentialSpring;
+use crate::link::Domain;
 use crate::math::lanes::{Work, widest};
+use crate::math::parallel::BLOCK;
 use crate::math::{Vec3, parallel, refill};
 use crate::neighbors::PairList;
 use batch::{BlockOfContacts, Written};
@@ -51,11 +53,16 @@ struct Room<'a> {
     blocks: &'a Blocks,
 }
 
+/// The pairs whose owners lie in some blocks; those of a grain begin at its place in `starts`.
+fn pairs_of(blocks: Range<usize>, starts: &[u32]) -> Range<usize> {
+    let first = |block: usize| starts[(block * BLOCK).min(starts.len() - 1)] as usize;
+    first(blocks.start)..first(blocks.end)
+}
+
 impl parallel::Split for Room<'_> {
     fn split(self, range: &Range<usize>, at: usize) -> (Self, Self) {
         let Self { written, starts, blocks } = self;
-        let first_pair = |block: usize| starts[grains_of(block, starts.len() - 1).start] as usize;
-        let pairs = first_pair(at) - first_pair(range.start);
+        let pairs = pairs_of(range.start..at, starts).len();
         let (before, after) = written.split_at(blocks.slots_of(range.start..at).len(), pairs);
         (Self { written: before, starts, blocks }, Self { written: after, starts, blocks })
     }
@@ -131,20 +138,31 @@ impl Contacts {
     }
 
     /// Energy [J] of the committed tangential springs.
-    pub fn spring_energy(&self) -> f64 {
-        let pairs = 0..self.committed.springs.len();
-        pairs.filter_map(|pair| self.committed.of(pair)).map(|spring| spring.energy()).fold(0.0, |a, b| a + b)
+    pub fn spring_energy(&self, list: &PairList) -> f64 {
+        if self.committed.springs.is_empty() {
+            return 0.0;
+        }
+        parallel::sum(list.starts().len() - 1, |owner| {
+            let springs = list.owned(owner).filter_map(|pair| self.committed.of(pair));
+            springs.map(|spring| spring.energy()).fold(0.0, |a, b| a + b)
+        })
     }
 
     /// Computes the loads of all touching pairs.
-    pub fn compute(&mut self, world: &ContactWorld<'_>, passage: &Passage<'_>) -> ContactRates {
+    pub fn compute(
+        &mut self,
+        domain: &Domain,
+        world: &ContactWorld<'_>,
+        passage: &Passage<'_>,
+    ) -> ContactRates {
         // A formula has no lanes.
         let is_one_by_one = world.laws.is_some_and(|laws| laws.custom.is_some());
-        self.compute_as(world, passage, is_one_by_one)
+        self.compute_as(domain, world, passage, is_one_by_one)
     }
 
     fn compute_as(
         &mut self,
+        domain: &Domain,
         world: &ContactWorld<'_>,
         passage: &Passage<'_>,
         is_one_by_one: bool,
@@ -159,7 +177,7 @@ impl Contacts {
         let room = Room { written: Written { slots, states, springs }, starts, blocks };
         let leaf = |one: Range<usize>, room: Room<'_>| {
             let grains = grains_of(one.start, n);
-            let pairs = starts[grains.start] as usize..starts[grains.end] as usize;
+            let pairs = pairs_of(one, starts);
             let (first, targets) = ([grains.start, pairs.start], &blocks.targets()[pairs.clone()]);
             let given = Given { world, passage, committed, targets, first };
             let mut written = room.written;
@@ -167,7 +185,13 @@ impl Contacts {
             let contacts = BlockOfContacts { given, pairs, written: &mut written };
             if is_one_by_one { contacts.with::<f64>() } else { widest(contacts) }
         };
-        parallel::over(0..blocks.count(), 1, room, &leaf, &ContactRates::join)
+        let rates = domain.over(0..blocks.count(), 1, room, &leaf, &ContactRates::join);
+        let (count, has_springs) = (blocks.count(), !trial.springs.is_empty());
+        domain.share(slots, count, |own| blocks.slots_of(own));
+        domain.share(&mut trial.states, count, |own| pairs_of(own, starts));
+        let springs_of = |own| if has_springs { pairs_of(own, starts) } else { 0..0 };
+        domain.share(&mut trial.springs, count, springs_of);
+        rates
     }
 }
 

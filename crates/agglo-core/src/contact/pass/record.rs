@@ -1,5 +1,6 @@
 //! What a step needs of a grain, side by side in memory: it is fetched whole, not from a column each.
 
+use crate::link::row_of_fields;
 use crate::math::Vec3;
 use crate::neighbors::Places;
 use crate::particles::Particles;
@@ -21,6 +22,15 @@ pub struct Record {
     /// Center at the start of the step [m], and the inverse of the mass that resists acceleration [1/kg].
     start: [f64; 4],
 }
+
+row_of_fields!(Record {
+    place: [f64; 4],
+    motion: [f64; 4],
+    spin: [f64; 4],
+    kick: [f64; 4],
+    twist: [f64; 4],
+    start: [f64; 4],
+});
 
 /// A vector into the first three numbers of a row.
 #[inline(always)]

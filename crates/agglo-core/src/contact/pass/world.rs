@@ -4,6 +4,7 @@ use super::record::Record;
 use crate::contact::bond::{Bonds, StrainBond};
 use crate::contact::{ContactLaws, PairTable};
 use crate::domain::Space;
+use crate::link::row_of_fields;
 use crate::neighbors::PairList;
 use crate::particles::{Motion, Particles};
 
@@ -71,14 +72,18 @@ pub struct ContactRates {
     pub worst_strain: f64,
 }
 
+row_of_fields!(ContactRates { damping: f64, driven: f64, tangential: f64, strained: f64, worst_strain: f64 });
+
 impl ContactRates {
-    pub(super) fn join(a: Self, b: Self) -> Self {
+    /// Those of both.
+    #[must_use]
+    pub fn join(self, other: Self) -> Self {
         Self {
-            damping: a.damping + b.damping,
-            driven: a.driven + b.driven,
-            tangential: a.tangential + b.tangential,
-            strained: a.strained + b.strained,
-            worst_strain: a.worst_strain.max(b.worst_strain),
+            damping: self.damping + other.damping,
+            driven: self.driven + other.driven,
+            tangential: self.tangential + other.tangential,
+            strained: self.strained + other.strained,
+            worst_strain: self.worst_strain.max(other.worst_strain),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Soft spheres: forces, and the schemes that integrate them.
 
+mod crew;
 #[cfg(test)]
 mod flying_tests;
 mod forces;
@@ -18,6 +19,7 @@ mod saved_contacts;
 mod settings;
 mod simulation;
 mod skin;
+mod spread;
 mod step;
 mod stored;
 mod system;

@@ -28,6 +28,7 @@ fn started(more: &str) -> Result<Simulation, SimError> {
     let text = format!(
         r#"
 version = 1
+seed = 3
 time.end = "1 s"
 [materials.pigment]
 density = "4000 kg/m3"

@@ -332,7 +332,7 @@ fn assert_agree(found: &Simulation, wanted: &Simulation, tolerance: f64, what: &
 
 /// Rounding, 1e-16 of each sum, as collisions and bounces of rays amplify it over some thirty steps. A wrong sign or place
 /// shows in the fourth digit or before.
-const ROUND_OFF: f64 = 1e-7;
+const ROUND_OFF: f64 = 1e-6;
 /// Steps that are compared; ten of them amplify a difference some tenfold.
 const STEPS: u32 = 30;
 

@@ -12,6 +12,7 @@ use crate::engine::{SimError, Warnings};
 use crate::ledger::{Ledger, Rates};
 use crate::particles::{ById, Particles};
 
+use super::crew::Crew;
 use super::forces::laws::Laws;
 use super::forces::loads::Loads;
 use super::forces::truncation::Truncation;
@@ -66,7 +67,7 @@ impl Simulation {
         Self::restored(&settings.try_into()?, state)
     }
 
-    fn restored(settings: &Settings, state: SimulationState<'_>) -> Result<Self, SimError> {
+    pub(super) fn restored(settings: &Settings, state: SimulationState<'_>) -> Result<Self, SimError> {
         let places = ById::of(&state.grains.id);
         state.validate(settings, &places).map_err(|reason| SimError::Forged { reason })?;
         let n = state.grains.len();
@@ -98,6 +99,7 @@ impl Simulation {
             sort_every: SORT_EVERY,
             end: settings.end,
             is_hooked: state.is_hooked,
+            crew: Crew::default(),
         })
     }
 

@@ -8,6 +8,7 @@ use crate::engine::{Moment, SimError, Start, Warnings};
 use crate::ledger::{Ledger, Opening};
 use crate::math::rounding_of_sum;
 
+use super::crew::Crew;
 use super::forces::laws::Laws;
 use super::forces::truncation::Truncation;
 use super::rays::Pulses;
@@ -81,6 +82,8 @@ pub struct Simulation {
     pub(super) end: f64,
     /// Whether the loads have those of a hook in them.
     pub(super) is_hooked: bool,
+    /// The other domains, if the run is spread over several.
+    pub(super) crew: Crew,
 }
 
 impl Simulation {
@@ -137,6 +140,7 @@ impl Simulation {
             sort_every: SORT_EVERY,
             end: settings.end,
             is_hooked: false,
+            crew: Crew::default(),
         }
     }
 
@@ -182,6 +186,7 @@ impl Simulation {
     /// # Errors
     /// As [`Simulation::step`].
     pub fn advance(&mut self, until: f64) -> Result<(), SimError> {
+        self.set_out(until)?;
         let mut left = MOST_GRAIN_STEPS / self.system.grains.len().max(1);
         loop {
             left = left.saturating_sub(1);

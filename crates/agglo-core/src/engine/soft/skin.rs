@@ -3,6 +3,8 @@
 //! A thick skin lasts longer but lists more pairs that do not touch. That of contacts adapts to how long the last lists
 //! lasted; that of the near field is a part of its cut-off. Results do not depend on them.
 
+use crate::math::parallel;
+
 /// Evaluations that a list should serve.
 const WANTED_AGE: u32 = 20;
 /// Listed pairs per grain beyond which the skin is not thickened.
@@ -23,7 +25,7 @@ pub struct Skin {
 impl Skin {
     /// A first guess for grains of these radii [m].
     pub fn new(radii: &[f64]) -> Self {
-        let mean = radii.iter().sum::<f64>() / radii.len().max(1) as f64;
+        let mean = parallel::mean(radii);
         Self {
             thickness: 0.2 * mean,
             thinnest: 0.1 * mean,

@@ -4,11 +4,11 @@ use std::ops::Range;
 
 use crate::contact::pass::contact_energy;
 use crate::ledger::{Balance, Momentum, Stored};
-use crate::math::{Vec3, parallel};
+use crate::math::Vec3;
+use crate::math::parallel::{self, BLOCK};
 
 use super::forces::laws::{Laws, source};
 use super::simulation::Simulation;
-use super::system::LEAF;
 
 impl Simulation {
     /// Energy that the grains hold.
@@ -123,6 +123,6 @@ impl Simulation {
         nothing: T,
     ) -> T {
         let leaf = |range: Range<usize>, ()| range.map(&of_grain).fold(nothing, &join);
-        parallel::over(0..self.system.grains.len(), LEAF, (), &leaf, &join)
+        parallel::over(0..self.system.grains.len(), BLOCK, (), &leaf, &join)
     }
 }

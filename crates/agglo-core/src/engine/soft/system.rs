@@ -3,27 +3,26 @@
 use std::ops::Range;
 
 use crate::contact::ContactLaws;
-use crate::contact::network::{BondEvent, BondRates, Network};
+use crate::contact::network::{BondEvent, Network};
 use crate::contact::pass::{
     Centers, ContactRates, ContactWorld, Contacts, Passage, Record, Remembered, Snapshot,
 };
 use crate::domain::{Image, Space, SpaceInTime, Stretch};
-use crate::ledger::{Rates, Supplies};
-use crate::math::{Pace, Vec3, parallel};
+use crate::ledger::Rates;
+use crate::link::Domain;
+use crate::math::parallel::{self, BLOCK};
+use crate::math::{Pace, Vec3};
 use crate::neighbors::{PairList, morton_order};
 use crate::particles::{Motion, Particles};
 use crate::walls::WallContacts;
 
-use super::forces::gather::Gather;
+use super::forces::gather::{Gather, Gathered};
 use super::forces::laws::Laws;
 use super::forces::loads::{LoadViews, Loads};
 use super::hook::{Attached, Hook, Scene};
 use super::saved_contacts::SavedContacts;
 use super::skin::Skin;
 use super::step::change::Afloat;
-
-/// Grains per leaf of the parallel loops.
-pub(super) const LEAF: usize = 1024;
 
 /// A motion that is tried before it is committed.
 #[derive(Clone, Debug, Default)]
@@ -37,8 +36,6 @@ pub struct Trial {
     is_looked_at: bool,
     /// Loads at this motion.
     pub loads: Loads,
-    /// What bonds do at this motion.
-    pub bonds: BondRates,
     /// Rates at this motion.
     pub rates: Rates,
     /// Contacts at this motion.
@@ -83,6 +80,8 @@ pub struct System {
     pub(super) hook: Option<Attached>,
     pub(super) contacts: Contacts,
     pub(super) walls: WallContacts,
+    /// Which blocks are worked out here.
+    pub(super) domain: Domain,
     list: PairList,
     pub(super) near: PairList,
     pub(super) skin: Skin,
@@ -123,6 +122,7 @@ impl System {
             hook: None,
             contacts: Contacts::default(),
             walls: WallContacts::new(laws.walls.len()),
+            domain: Domain::default(),
             list: PairList::default(),
             near: PairList::default(),
             laws,
@@ -176,7 +176,7 @@ impl System {
     ) -> [Pace; N] {
         let faster = |a: [Pace; N], b: [Pace; N]| std::array::from_fn(|each| a[each].max(b[each]));
         let leaf = |range: Range<usize>, ()| range.map(&paces).fold([Pace::NONE; N], faster);
-        parallel::over(0..self.grains.len(), LEAF, (), &leaf, &faster)
+        parallel::over(0..self.grains.len(), BLOCK, (), &leaf, &faster)
     }
 
     /// Evaluates all loads and rates at the trial motion, at the end of a step of `dt` [s] that ends at `time` [s].
@@ -204,6 +204,7 @@ impl System {
             records,
             space,
             space_before,
+            domain,
             ..
         } = self;
         let world = ContactWorld {
@@ -213,10 +214,9 @@ impl System {
             pairs: &laws.pairs,
             list,
         };
-        trial.contact = contacts.compute(&world, &Passage { records, elapsed, dt });
+        trial.contact = contacts.compute(domain, &world, &Passage { records, elapsed, dt });
         walls.compute(&laws.wall_step(grains, records, [time, elapsed, dt]), &mut trial.contact);
-        trial.bonds =
-            network.compute(grains, [space_before, space], [&grains.motion(), &trial.motion()], elapsed);
+        network.compute(grains, [space_before, space], [&grains.motion(), &trial.motion()], elapsed);
         if let Some(hook) = hook {
             hook.look(&Scene { time, grains, motion: trial.motion() });
         }
@@ -224,21 +224,26 @@ impl System {
 
     /// Gathers the loads at the trial motion, at a time [s].
     fn gather(&mut self, time: f64) {
-        let Self { grains, laws, network, contacts, walls, near, trial, hook, records, space, .. } = self;
+        let Self {
+            grains, laws, network, contacts, walls, near, trial, hook, records, space, domain, ..
+        } = self;
         let hook = hook.as_ref().map(|hook| &hook.loads);
         let positions = &trial.position[..];
         let gather = Gather { grains, laws, network, contacts, walls, near, positions, space, time, hook };
         let leaf = |range: Range<usize>, loads: LoadViews<'_>| {
-            let mut supplies = Supplies::default();
+            let mut sums = Gathered::default();
             for (slot, grain) in range.enumerate() {
                 let now = records[grain].now();
-                (loads.force[slot], loads.torque[slot]) = gather.on(grain, now, &mut supplies);
+                (loads.force[slot], loads.torque[slot]) = gather.on(grain, now, &mut sums);
             }
-            supplies
+            sums
         };
         trial.loads.fit(grains.len());
-        let supplies = parallel::over(0..grains.len(), LEAF, trial.loads.views(), &leaf, &|a, b| a + b);
-        trial.rates = Rates::new(&trial.contact, trial.bonds, supplies.with_walls(walls.supply()));
+        let n = grains.len();
+        let sums = domain.over(0..n, BLOCK, trial.loads.views(), &leaf, &|a, b| a + b);
+        domain.share_grains(&mut trial.loads.force);
+        domain.share_grains(&mut trial.loads.torque);
+        trial.rates = Rates::new(&trial.contact, sums.bonds, sums.supplies.with_walls(walls.supply()));
     }
 
     /// Fills the columns of the trial motion, if they are not.
@@ -389,7 +394,7 @@ impl System {
 
     /// Energy [J] of the tangential springs of contacts.
     pub fn spring_energy(&self) -> f64 {
-        self.contacts.spring_energy() + self.walls.spring_energy()
+        self.contacts.spring_energy(&self.list) + self.walls.spring_energy()
     }
 
     /// The contacts' memory, by the grains' places.
@@ -479,5 +484,5 @@ fn show_now(records: &[Record], (position, velocity, spin): (&mut [Vec3], &mut [
             (r[slot], v[slot], w[slot]) = records[grain].now();
         }
     };
-    parallel::over(0..records.len(), LEAF, (position, velocity, spin), &leaf, &|(), ()| ());
+    parallel::over(0..records.len(), BLOCK, (position, velocity, spin), &leaf, &|(), ()| ());
 }

@@ -93,6 +93,10 @@ impl Job for Soft {
         self.simulation.hook_fault().map_or(Ok(()), Err)
     }
 
+    fn spread(&mut self, scenario: &Scenario, domains: usize) -> Result<(), SimError> {
+        if domains > 1 { self.simulation.spread(scenario, domains) } else { Ok(()) }
+    }
+
     fn into_start(self) -> Start {
         self.simulation.into_start()
     }

@@ -1,9 +1,12 @@
 //! All forces on one grain, gathered from whoever has them.
 
-use crate::contact::network::Network;
+use std::ops::Add;
+
+use crate::contact::network::{BondRates, Network};
 use crate::contact::pass::Contacts;
 use crate::domain::Space;
 use crate::ledger::Supplies;
+use crate::link::row_of_fields;
 use crate::math::Vec3;
 use crate::neighbors::PairList;
 use crate::particles::Particles;
@@ -37,16 +40,35 @@ pub struct Gather<'a> {
     pub hook: Option<&'a Loads>,
 }
 
+/// What is added up over all grains while they gather their loads.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Gathered {
+    /// What forces from outside supply.
+    pub supplies: Supplies,
+    /// What bonds do.
+    pub bonds: BondRates,
+}
+
+row_of_fields!(Gathered { supplies: Supplies, bonds: BondRates });
+
+impl Add for Gathered {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self { supplies: self.supplies + other.supplies, bonds: self.bonds + other.bonds }
+    }
+}
+
 impl Gather<'_> {
     /// Force [N] and torque [N m] on a grain at a place [m] with a velocity [m/s] and an angular velocity [rad/s].
     #[inline(always)]
-    pub fn on(&self, grain: usize, motion: (Vec3, Vec3, Vec3), supplies: &mut Supplies) -> (Vec3, Vec3) {
+    pub fn on(&self, grain: usize, motion: (Vec3, Vec3, Vec3), sums: &mut Gathered) -> (Vec3, Vec3) {
+        let Gathered { supplies, bonds } = sums;
         let (mut force, mut torque) = self.contacts.load_on(grain);
         if let Some(of_walls) = self.walls.load_on(grain) {
             force += of_walls.0;
             torque += of_walls.1;
         }
-        self.network.gather(grain, &mut force, &mut torque);
+        self.network.gather(grain, &mut force, &mut torque, bonds);
         if self.laws.fields.near_field.is_some() {
             self.near_field(grain, &mut force, supplies);
         }

@@ -3,12 +3,15 @@
 //! Rays have a clock of their own. In a step they fly the whole of it past grains held still, and the grains then
 //! feel the hits in that step. Where the grains' step is cut short, the rays wait until the grains catch up.
 
+use std::ops::Range;
+
 use serde::{Deserialize, Serialize};
 
 use crate::acoustics::{self, Beam, Flight, Hit, NONE, PulseCount};
 use crate::engine::validate::{Fault, ensure, finite, length};
 use crate::engine::{Moment, SimError, Warnings};
 use crate::math::Vec3;
+use crate::math::parallel::{self, BLOCK};
 use crate::particles::Particles;
 use crate::units::Quantity;
 
@@ -102,7 +105,7 @@ fn schedule(settings: &Settings) -> Vec<Launch> {
 impl Pulses {
     /// The pulses of a scenario, none started.
     pub fn new(settings: &Settings, grains: &Particles) -> Self {
-        let mean_radius = grains.radius.iter().sum::<f64>() / grains.len().max(1) as f64;
+        let mean_radius = parallel::mean(&grains.radius);
         Self::resume(settings, PulseState { mean_radius, ..PulseState::default() })
     }
 
@@ -294,8 +297,7 @@ impl Pulses {
         let scale = system.ray_load_scale(dt) * dt;
         self.book_walls(scale);
         let grains = &system.grains;
-        let mut sum = Supply::default();
-        for &grain in &self.hit_grains {
+        let of_grain = |&grain: &u32| {
             let grain = grain as usize;
             let impulse = system.ray_loads.force[grain] * scale;
             let twist = system.ray_loads.torque[grain] * scale;
@@ -305,9 +307,15 @@ impl Pulses {
             let mean_angular_velocity = (spin_before + grains.angular_velocity[grain]) * 0.5;
             let work = impulse.dot(s - r) / dt + twist.dot(mean_angular_velocity);
             let torque = ((r + s) * 0.5).cross(impulse) + twist;
-            sum = sum + Supply { power: work, force: impulse, torque };
-        }
-        sum
+            Supply { power: work, force: impulse, torque }
+        };
+        let hit = &self.hit_grains[..];
+        let leaf = |range: Range<usize>, ()| {
+            let [first, end] =
+                [range.start, range.end].map(|at| hit.partition_point(|grain| (*grain as usize) < at));
+            hit[first..end].iter().map(of_grain).fold(Supply::default(), |a, b| a + b)
+        };
+        parallel::over(0..grains.len(), BLOCK, (), &leaf, &|a, b| a + b)
     }
 
     /// The grains came to new places.

@@ -2,7 +2,7 @@
 
 use crate::acoustics::{Flight, Hit, NONE, PulseCount, Targets};
 use crate::engine::SimError;
-use crate::math::Vec3;
+use crate::math::{Vec3, parallel};
 
 use super::setup::Setup;
 use crate::engine::soft::settings::Settings;
@@ -37,7 +37,7 @@ pub struct Spheres<'a> {
 /// [`SimError::NoBeam`] where there is no such beam.
 pub fn trace(settings: &Settings, spheres: Spheres<'_>, beam: u32, pulse: u32) -> Result<Traced, SimError> {
     let Spheres { position, radius, material } = spheres;
-    let mean_radius = radius.iter().sum::<f64>() / radius.len().max(1) as f64;
+    let mean_radius = parallel::mean(radius);
     let beams = settings.acoustics.as_ref().map_or(0, |acoustics| acoustics.beams.len());
     let setup = Setup::new(settings, mean_radius).filter(|_| (beam as usize) < beams);
     let Some(mut setup) = setup else { return Err(SimError::NoBeam { beam, beams }) };

@@ -3,11 +3,12 @@
 use std::ops::Range;
 
 use crate::contact::pass::Record;
-use crate::math::{Vec3, parallel};
+use crate::math::Vec3;
+use crate::math::parallel::BLOCK;
 
 use super::change::Change;
 use crate::engine::soft::forces::loads::LoadViews;
-use crate::engine::soft::system::{LEAF, System};
+use crate::engine::soft::system::System;
 use crate::ledger::Correction;
 
 /// Which loads count at the end of the step.
@@ -37,7 +38,7 @@ impl System {
     ) -> Change {
         let ray_scale = self.ray_scale(dt);
         let stretch = self.move_space(time, time + dt);
-        let Self { grains, trial, records, loads, ray_loads, laws, .. } = self;
+        let Self { grains, trial, records, loads, ray_loads, laws, domain, .. } = self;
         let from_start = ahead == Ahead::AsAtStart;
         let at_time = if from_start { time } else { time + dt };
         let has_response = laws.has_response();
@@ -90,7 +91,12 @@ impl System {
             (change, correction)
         };
         let join = |a: (Change, Correction), b: (Change, Correction)| (Change::join(a.0, b.0), a.1 + b.1);
-        let (change, correction) = parallel::over(0..grains.len(), LEAF, views, &leaf, &join);
+        let (change, correction) = domain.over(0..grains.len(), BLOCK, views, &leaf, &join);
+        domain.share_grains(records);
+        if is_ended {
+            domain.share_grains(&mut trial.loads.force);
+            domain.share_grains(&mut trial.loads.torque);
+        }
         trial.rates.correct(correction);
         self.note_way(change.wavering);
         change
@@ -109,7 +115,8 @@ impl System {
             change
         };
         let n = self.records.len();
-        let change = parallel::over(0..n, LEAF, &mut self.records[..], &leaf, &Change::join);
+        let change = self.domain.over(0..n, BLOCK, &mut self.records[..], &leaf, &Change::join);
+        self.domain.share_grains(&mut self.records);
         self.note_way(change.wavering);
         change
     }

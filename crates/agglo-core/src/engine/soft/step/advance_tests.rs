@@ -10,7 +10,7 @@ use crate::testing::Scenario;
 const RADIUS: f64 = 1e-4;
 const DT: f64 = 1e-6;
 /// Four leaves and a half, so that both halves are cut again.
-const MANY: usize = 9 * LEAF / 2;
+const MANY: usize = 9 * BLOCK / 2;
 
 /// A row of grains, far from one another, in water; each flies along x at its own speed, `fast` ten times as fast.
 fn row(count: usize, fast: usize) -> System {
@@ -38,7 +38,7 @@ fn row(count: usize, fast: usize) -> System {
 /// to 4.6 m, which are rounded at 4e-16 m.
 #[test]
 fn a_change_is_that_of_all_grains() {
-    for fast in [3, LEAF - 1, LEAF + 7, 3 * LEAF + 1, MANY - 1] {
+    for fast in [3, BLOCK - 1, BLOCK + 7, 3 * BLOCK + 1, MANY - 1] {
         let mut system = row(MANY, fast);
         let change = system.move_trial(0.0, DT, 0.5, Ahead::AsAtStart);
         let ways: Vec<f64> =
@@ -59,7 +59,7 @@ fn a_change_is_that_of_all_grains() {
 /// The deepest contact is found wherever it stands, among others: overlaps of 0.1 and, once, 0.2 of the sum of radii.
 #[test]
 fn the_deepest_contact_is_that_of_all_grains() {
-    for deep in [3, LEAF - 1, LEAF + 7, 3 * LEAF + 1, MANY - 2] {
+    for deep in [3, BLOCK - 1, BLOCK + 7, 3 * BLOCK + 1, MANY - 2] {
         let mut system = row(MANY, usize::MAX);
         for at in (0..MANY - 1).filter(|at| at % 500 == 3 || *at == deep) {
             let part = if at == deep { 0.8 } else { 0.9 };

@@ -2,6 +2,7 @@
 
 use crate::contact::pass::Record;
 use crate::domain::Stretch;
+use crate::link::row_of_fields;
 use crate::math::Vec3;
 
 /// What one update of the trial motion amounts to.
@@ -22,6 +23,16 @@ pub struct Change {
     /// Place of the first grain whose motion is not finite.
     pub not_finite: Option<u32>,
 }
+
+row_of_fields!(Change {
+    since_last: f64,
+    since_start: f64,
+    farthest: f64,
+    farthest_grain: u32,
+    wavering: f64,
+    wavering_grain: u32,
+    not_finite: Option<u32>,
+});
 
 impl Change {
     pub fn join(a: Self, b: Self) -> Self {

@@ -7,11 +7,12 @@ use std::ops::Range;
 
 use crate::contact::pass::Record;
 use crate::domain::{Image, Space};
-use crate::engine::soft::forces::gather::Gather;
+use crate::engine::soft::forces::gather::{Gather, Gathered};
 use crate::engine::soft::forces::loads::{LoadViews, Loads};
-use crate::engine::soft::system::{LEAF, System, bring_home};
-use crate::ledger::{Correction, Rates, Supplies};
-use crate::math::{Vec3, parallel};
+use crate::engine::soft::system::{System, bring_home};
+use crate::ledger::{Correction, Rates};
+use crate::math::Vec3;
+use crate::math::parallel::BLOCK;
 use crate::particles::Particles;
 
 use super::change::{Afloat, Change};
@@ -88,7 +89,19 @@ impl System {
         let mut moving = self.take_motion();
         let ray_scale = self.ray_scale(dt);
         let Self {
-            grains, laws, network, contacts, walls, near, trial, hook, loads, ray_loads, records, ..
+            grains,
+            laws,
+            network,
+            contacts,
+            walls,
+            near,
+            trial,
+            hook,
+            loads,
+            ray_loads,
+            records,
+            domain,
+            ..
         } = self;
         let (space, images) = (&self.space, across(&self.space, &mut self.images));
         let has_response = laws.has_response();
@@ -98,11 +111,11 @@ impl System {
         let gather = Gather { grains, laws, network, contacts, walls, near, positions, space, time, hook };
         let ending = Ending { gather, rays, dt };
         let leaf = |range: Range<usize>, ((r, v, w), loads, mut images): Finished<'_>| {
-            let (mut supplies, mut correction) = (Supplies::default(), Correction::default());
+            let (mut sums, mut correction) = (Gathered::default(), Correction::default());
             for (slot, grain) in range.enumerate() {
                 let record = &records[grain];
                 let now = record.now();
-                let mut end = ending.gather.on(grain, now, &mut supplies);
+                let mut end = ending.gather.on(grain, now, &mut sums);
                 r[slot] = now.0;
                 if let Some(images) = &mut images {
                     bring_home(space, &mut r[slot], &mut images[slot]);
@@ -115,13 +128,17 @@ impl System {
                 };
                 (loads.force[slot], loads.torque[slot]) = end;
             }
-            (supplies, correction)
+            (sums, correction)
         };
         let columns = (&mut moving.0[..], &mut moving.1[..], &mut moving.2[..]);
-        let join = |a: (Supplies, Correction), b: (Supplies, Correction)| (a.0 + b.0, a.1 + b.1);
-        let (supplies, correction) =
-            parallel::over(0..records.len(), LEAF, (columns, loads.views(), images), &leaf, &join);
-        trial.rates = Rates::new(&trial.contact, trial.bonds, supplies.with_walls(walls.supply()));
+        let join = |a: (Gathered, Correction), b: (Gathered, Correction)| (a.0 + b.0, a.1 + b.1);
+        let (sums, correction) =
+            domain.over(0..records.len(), BLOCK, (columns, loads.views(), images), &leaf, &join);
+        for column in [&mut moving.0, &mut moving.1, &mut moving.2, &mut loads.force, &mut loads.torque] {
+            domain.share_grains(column);
+        }
+        domain.share_grains(&mut self.images);
+        trial.rates = Rates::new(&trial.contact, sums.bonds, sums.supplies.with_walls(walls.supply()));
         trial.rates.correct(correction);
         self.put_motion(moving);
         self.afloat = None;
@@ -133,16 +150,16 @@ impl System {
         // Grains come home in space as it is now, and move on to as it will be.
         let space = self.space;
         let stretch = self.move_space(time, time + next);
-        let Self { grains, laws, network, contacts, walls, near, trial, records, .. } = self;
+        let Self { grains, laws, network, contacts, walls, near, trial, records, domain, .. } = self;
         let (space, images) = (&space, across(&space, &mut self.images));
         let (positions, hook) = (&[][..], None);
         let gather = Gather { grains, laws, network, contacts, walls, near, positions, space, time, hook };
         let ending = Ending { gather, rays: None, dt };
         let leaf = |range: Range<usize>, (records, mut images): (&mut [Record], Images<'_>)| {
-            let (mut supplies, mut change) = (Supplies::default(), Change::default());
+            let (mut sums, mut change) = (Gathered::default(), Change::default());
             for (slot, (record, grain)) in records.iter_mut().zip(range).enumerate() {
                 let mut now = record.now();
-                let end = ending.gather.on(grain, now, &mut supplies);
+                let end = ending.gather.on(grain, now, &mut sums);
                 let (velocity, spin) = ending.corrected(grain, record, end);
                 if let Some(images) = &mut images {
                     bring_home(space, &mut now.0, &mut images[slot]);
@@ -153,12 +170,14 @@ impl System {
                 let changes = (end.0 * per_mass, end.1 * per_inertia);
                 change.note_move(grain, record, (next, 0.5, stretch), changes);
             }
-            (supplies, change)
+            (sums, change)
         };
-        let join = |a: (Supplies, Change), b: (Supplies, Change)| (a.0 + b.0, Change::join(a.1, b.1));
+        let join = |a: (Gathered, Change), b: (Gathered, Change)| (a.0 + b.0, Change::join(a.1, b.1));
         let n = grains.len();
-        let (supplies, change) = parallel::over(0..n, LEAF, (&mut records[..], images), &leaf, &join);
-        trial.rates = Rates::new(&trial.contact, trial.bonds, supplies.with_walls(walls.supply()));
+        let (sums, change) = domain.over(0..n, BLOCK, (&mut records[..], images), &leaf, &join);
+        domain.share_grains(records);
+        domain.share_grains(&mut self.images);
+        trial.rates = Rates::new(&trial.contact, sums.bonds, sums.supplies.with_walls(walls.supply()));
         self.note_way(change.wavering);
         self.afloat = Some(Afloat { dt: next, change });
     }
