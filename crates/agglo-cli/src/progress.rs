@@ -126,8 +126,8 @@ fn closing(end: &End<'_>) -> String {
                 .map(|(run, page)| format!("\nthe best one's run in {}{}", run.display(), page.words(run)));
             format!("in {shown}{page}{}", best.unwrap_or_default())
         }
-        (Outcome::Run(_), None) => format!("the run in {shown} has finished already"),
-        (Outcome::Campaign(_), None) => format!("what is in {shown} has finished already"),
+        (Outcome::Run(_), None) => format!("the run in {shown} has finished already{page}"),
+        (Outcome::Campaign(_), None) => format!("what is in {shown} has finished already{page}"),
     }
 }
 

@@ -11,7 +11,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use agglo::folder::RunFolder;
-use agglo::folder::names::BEST_RUN;
+use agglo::folder::names::{BEST_RUN, REPORT};
 use agglo::run::{Progress, Summary};
 use agglo::search::campaign::{CampaignProgress, CampaignSummary};
 use serde_json::Value as Json;
@@ -178,6 +178,12 @@ impl Session {
     /// It came to its end: writes the reports and tells of all.
     pub(crate) fn finished(mut self, outcome: &Outcome) -> Result<(), Failure> {
         let wall_s = Some(self.wall_s());
+        let (best, page) = self.pages(outcome);
+        self.listener.finished(&End { outcome, folder: &self.folder, wall_s, page, best })
+    }
+
+    /// Writes the pages of what has finished: that of the best one's run, where a search made one, and its own.
+    fn pages(&mut self, outcome: &Outcome) -> (Option<(PathBuf, Page)>, Page) {
         // A part is looked at in the whole.
         self.is_to_report &= !outcome.is_part();
         let best = Some(self.folder.join(BEST_RUN))
@@ -188,7 +194,7 @@ impl Session {
         });
         // It links to the page of the best one's run, which must be there.
         let page = self.page(&self.folder.clone());
-        self.listener.finished(&End { outcome, folder: &self.folder, wall_s, page, best })
+        (best, page)
     }
 
     /// Writes the page of what has just finished.
@@ -272,12 +278,16 @@ impl Session {
     }
 }
 
-/// Tells of a folder that was found finished.
+/// Tells of a folder that was found finished. A kill may have come between its results and its page, which is then written.
 pub(crate) fn has_finished(
     folder: &Path,
     outcome: &Outcome,
     options: &SessionOptions,
 ) -> Result<(), Failure> {
-    let end = End { outcome, folder, wall_s: None, page: Page::Unwanted, best: None };
-    listener(options.json).finished(&end)
+    let (best, page) = if folder.join(REPORT).is_file() {
+        (None, Page::Unwanted)
+    } else {
+        Session::open("resume", folder, WallTime::of(None)?, options)?.pages(outcome)
+    };
+    listener(options.json).finished(&End { outcome, folder, wall_s: None, page, best })
 }

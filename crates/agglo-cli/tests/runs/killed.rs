@@ -119,3 +119,18 @@ fn a_run_killed_before_its_first_checkpoint_says_to_start_again() {
     let text = complained(&refused);
     assert!(text.contains("before its first checkpoint") && text.contains("start again"), "{text}");
 }
+
+/// As a kill between the results and the page leaves it.
+#[test]
+fn a_finished_run_without_its_page_gets_it() {
+    let bench = Bench::with(STEPS);
+    ended(bench.start(&["--no-report"]).output().unwrap(), 0);
+    let page = bench.run().join("report.html");
+    ended(bench.resume().arg("--no-report").output().unwrap(), 0);
+    assert!(!page.exists(), "a page that nobody wants");
+    let told = said(&ended(bench.resume().output().unwrap(), 0));
+    assert!(told.contains("report.html shows it"), "{told}");
+    assert_same(&bench.run(), reference(STEPS));
+    let told = said(&ended(bench.resume().output().unwrap(), 0));
+    assert!(!told.contains("report.html"), "{told}");
+}
