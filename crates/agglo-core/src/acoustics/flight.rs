@@ -165,12 +165,13 @@ impl Flight {
         &self.pulses
     }
 
-    /// Tells the rays that grains were put into another order: `new_index_of_old` [n].
-    pub fn reindex(&mut self, new_index_of_old: &[u32]) {
+    /// Tells the rays that grains were put into another order, or are gone: the new index of each old one [n].
+    pub fn reindex(&mut self, new_index_of_old: &[Option<u32>]) {
         for ray in &mut self.rays {
             // A grain that is gone, and "none", stay none.
             if ray.last_hit < FIRST_FACE {
-                ray.last_hit = new_index_of_old.get(ray.last_hit as usize).copied().unwrap_or(NO_SPHERE);
+                ray.last_hit =
+                    new_index_of_old.get(ray.last_hit as usize).copied().flatten().unwrap_or(NO_SPHERE);
             }
             ray.clear = Clear::default();
         }
@@ -293,7 +294,9 @@ mod tests {
         for (place, last) in [(0, 0), (1, 2), (2, 5)] {
             flight.rays[place].last_hit = last;
         }
-        flight.reindex(&[2, 0, 1]);
+        flight.reindex(&[Some(2), Some(0), Some(1)]);
         assert_eq!([0, 1, 2, 3].map(|k| flight.rays[k].last_hit), [2, 1, NO_SPHERE, NO_SPHERE]);
+        flight.reindex(&[Some(0), None, Some(1)]);
+        assert_eq!([0, 1, 2, 3].map(|k| flight.rays[k].last_hit), [1, NO_SPHERE, NO_SPHERE, NO_SPHERE]);
     }
 }

@@ -293,12 +293,31 @@ impl Network {
         parallel::sum(grains.len(), |grain| own(grain).map(energy).fold(0.0, |a, b| a + b))
     }
 
-    /// The grains came to new places.
-    pub fn reindex(&mut self, place: &[u32]) {
-        for bond in &mut self.bonds {
-            bond.grains = bond.grains.map(|grain| place[grain as usize]);
-        }
-        self.settle(place.len());
+    /// The bonds of grains that are about to leave, as what they end with.
+    pub fn ending(
+        &self,
+        leaves: impl Fn(u32) -> bool,
+        grains: &Particles,
+        space: &Space,
+        time: f64,
+    ) -> Vec<BondEvent> {
+        let Some(law) = &self.law else { return Vec::new() };
+        let ended = self.bonds.iter().filter(|bond| bond.grains.into_iter().any(&leaves));
+        let event = |bond: &Bond| {
+            let energy = law.energy(&bond.state, distance_of(bond, grains, space));
+            BondEvent { time, ids: bond.ids, broke: Some(Break::Left), energy }
+        };
+        ended.map(event).collect()
+    }
+
+    /// The grains, of which `n` are left, came to new places; the bonds of those that are gone go with them.
+    pub fn reindex(&mut self, place: &[Option<u32>], n: usize) {
+        self.bonds.retain_mut(|bond| {
+            let [Some(a), Some(b)] = bond.grains.map(|grain| place[grain as usize]) else { return false };
+            bond.grains = [a, b];
+            true
+        });
+        self.settle(n);
     }
 }
 

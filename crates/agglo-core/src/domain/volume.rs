@@ -56,6 +56,8 @@ pub enum Boundary {
     Reflecting,
     /// The faces do nothing: grains fly on.
     Open,
+    /// Who comes out with its center is taken out of the run, with all that it holds; soft spheres only.
+    Absorbing,
 }
 
 impl Boundary {
@@ -164,12 +166,13 @@ impl Volume {
         from + self.shortest(place - from)
     }
 
-    /// Whether a sphere may be here: anywhere but in a wall.
+    /// Whether a sphere may be here: anywhere but in a face that reflects it.
     pub fn holds(&self, center: Vec3, radius: f64) -> bool {
         let (lower, upper) = (self.lower(), self.upper());
         let is_clear =
             |axis: usize| lower[axis] + radius <= center[axis] && center[axis] <= upper[axis] - radius;
-        self.boundary != Boundary::Reflecting || (0..3).all(is_clear)
+        let boundaries = self.boundaries();
+        (0..3).all(|axis| boundaries[axis] != Boundary::Reflecting || is_clear(axis))
     }
 }
 

@@ -174,6 +174,27 @@ pub enum SimError {
         /// How far grains act on one another, from center to center [m].
         reach: f64,
     },
+    /// A volume has what only the other kind of spheres knows.
+    #[error("[volume] has {what}, which {spheres} spheres do not know: take another")]
+    ForeignVolume {
+        /// What it has.
+        what: &'static str,
+        /// Who does not know it.
+        spheres: &'static str,
+    },
+    /// Grains that leave would change how far a deformation goes.
+    #[error(
+        "volume.deformation is given beside absorbing faces, and what leaves would change where it stops: leave out one of the two"
+    )]
+    AbsorbsInDeformation,
+    /// All grains have left.
+    #[error(
+        "{at}: the last grains leave through absorbing faces, and nothing is left to follow; let the run end before (time.end)"
+    )]
+    NoneLeft {
+        /// When.
+        at: Moment,
+    },
     /// A deformation leads away from where it is to stop.
     #[error(
         "volume.deformation leads away from solid_fraction = {wanted}: the grains fill {now:.6} of [volume] at the start; turn the \

@@ -50,6 +50,8 @@ pub struct Balance {
     pub bond_damping: f64,
     /// Lost with broken bonds [J].
     pub broken_bonds: f64,
+    /// Carried off by grains that left [J].
+    pub absorbed: f64,
     /// Lost along the normals of collisions [J].
     pub normal: f64,
     /// Heat of reactions [J].
@@ -81,7 +83,7 @@ impl Balance {
             (flows.rays.power, flows.supplies.gravity.power, flows.supplies.field.power);
         let custom = flows.supplies.hook.power + flows.driven;
         let walls = flows.supplies.walls.power;
-        let lost = drag + flows.damping + rubbed + flows.bond_damping + flows.broken_bonds;
+        let lost = drag + flows.damping + rubbed + flows.bond_damping + flows.broken_bonds + flows.absorbed;
         let mechanical_at_start = start.mechanical();
         let after_collisions = mechanical_at_start - collisions.normal - collisions.tangential;
         let mechanical_drift = stored.mechanical()
@@ -107,6 +109,7 @@ impl Balance {
             friction: rubbed + collisions.tangential,
             bond_damping: flows.bond_damping,
             broken_bonds: flows.broken_bonds,
+            absorbed: flows.absorbed,
             normal: collisions.normal,
             reaction: collisions.reaction,
             surface: collisions.surface,

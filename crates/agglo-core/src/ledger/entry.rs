@@ -81,6 +81,7 @@ pub mod soft {
         FRICTION = friction, "lost_friction_J", "J", "lost to friction", "since the start";
         BOND_DAMPING = bond_damping, "lost_bond_damping_J", "J", "lost in bonds", "in their dashpots, since the start";
         BROKEN_BONDS = broken_bonds, "lost_broken_bonds_J", "J", "lost with broken bonds", "since the start";
+        ABSORBED = absorbed, "lost_absorbed_J", "J", "lost with grains that left", "through absorbing faces, since the start";
         DRIFT = drift, "drift_J", "J", "not explained", "by the stores and the channels";
         DRIFT_RELATIVE = drift_relative, "drift_relative", "", "energy drift", "over the most energy so far that was there or came in and is explained";
     }

@@ -23,6 +23,10 @@ pub struct Flows {
     pub bond_damping: f64,
     /// Put in by space as it was pressed together [J].
     pub strained: f64,
+    /// Carried off by grains that left through absorbing faces [J].
+    pub absorbed: f64,
+    /// Momentum that they carried off.
+    pub carried_off: Momentum,
     /// Released by bonds that broke [J], put in by bonds that were made counting negative.
     pub broken_bonds: f64,
     /// Of all collisions of hard spheres.
@@ -97,10 +101,10 @@ impl Flows {
         own.walls = own.walls.plus(old.walls, early).plus(new.walls, late);
     }
 
-    /// Impulse [N s] and angular impulse [N m s] of all that acts from outside.
+    /// Impulse [N s] and angular impulse [N m s] of all that acts from outside, less what grains carried off.
     pub(super) fn impulse(&self) -> Momentum {
         let Supplies { drag, gravity, field, hook, walls, .. } = self.supplies;
         let all = self.rays + drag + gravity + field + hook + walls;
-        Momentum { linear: all.force + self.walls, angular: all.torque }
+        Momentum { linear: all.force + self.walls, angular: all.torque } - self.carried_off
     }
 }

@@ -123,10 +123,7 @@ impl Ledger {
     /// Momentum that impulses do not explain.
     pub fn momentum_drift(&self, momentum: &Momentum) -> Momentum {
         let impulse = self.flows.impulse();
-        Momentum {
-            linear: momentum.linear - self.start.momentum.linear - impulse.linear,
-            angular: momentum.angular - self.start.momentum.angular - impulse.angular,
-        }
+        *momentum - self.start.momentum - impulse
     }
 
     /// Linear drift over what the grains' momenta come to without regard to direction, at the start or now

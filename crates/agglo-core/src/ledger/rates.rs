@@ -80,6 +80,20 @@ impl Supplies {
         Self { walls, ..self }
     }
 
+    /// What is more in these than in others.
+    #[must_use]
+    pub fn less(self, other: Self) -> Self {
+        let less = |own: Supply, other: Supply| own.plus(other, -1.0);
+        Self {
+            drag: less(self.drag, other.drag),
+            gravity: less(self.gravity, other.gravity),
+            field: less(self.field, other.field),
+            hook: less(self.hook, other.hook),
+            walls: less(self.walls, other.walls),
+            strained: self.strained - other.strained,
+        }
+    }
+
     /// Forces [N] and a torque [N m] by which the loads on a grain at a point [m] changed when its velocity was solved
     /// for. What they supply is of second order in the step and left out.
     #[inline]

@@ -1,5 +1,7 @@
 //! What grains hold.
 
+use std::ops::{Add, Sub};
+
 use serde::{Deserialize, Serialize};
 
 use crate::math::Vec3;
@@ -45,4 +47,18 @@ pub struct Momentum {
     pub linear: Vec3,
     /// Angular [kg m²/s].
     pub angular: Vec3,
+}
+
+impl Add for Momentum {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self { linear: self.linear + other.linear, angular: self.angular + other.angular }
+    }
+}
+
+impl Sub for Momentum {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        Self { linear: self.linear - other.linear, angular: self.angular - other.angular }
+    }
 }

@@ -51,13 +51,13 @@ pub fn first_overlap(grains: &Particles, volume: Option<&Volume>) -> Option<Over
 }
 
 /// The first grain, by its place, that lies outside a volume whose faces hold grains in: with its center where faces
-/// are periodic or antipodal, with any part of it where they are walls, unless it may reach into them.
+/// are periodic, antipodal or absorbing, with any part of it where they are walls, unless it may reach into them.
 pub(super) fn first_outside(grains: &Particles, volume: &Volume, may_reach_in: bool) -> Option<usize> {
     let (lower, upper) = (volume.lower(), volume.upper());
     let walls = volume.boundaries().map(|boundary| match boundary {
         Boundary::Open => None,
         Boundary::Reflecting if !may_reach_in => Some(1.0 - TOLERANCE),
-        Boundary::Periodic | Boundary::Antipodal | Boundary::Reflecting => Some(0.0),
+        Boundary::Periodic | Boundary::Antipodal | Boundary::Reflecting | Boundary::Absorbing => Some(0.0),
     });
     let is_inside = |center: Vec3, radius: f64| {
         (0..3).all(|axis| {

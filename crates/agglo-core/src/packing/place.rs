@@ -251,7 +251,7 @@ fn bring_inside(
     }
     if let Some(at) = first_outside(grains, volume, may_reach_in) {
         let Vec3 { x, y, z } = grains.position[at];
-        let walls = !volume.boundary.wraps();
+        let walls = volume.contains(grains.position[at]);
         return Err(PackingError::Outside { grain: grains.id[at], walls, x, y, z });
     }
     grains.position.iter_mut().for_each(|position| *position = volume.wrap(*position));

@@ -95,6 +95,7 @@ _FLOWS = {
     "lost_friction_J": "lost to friction",
     "lost_bond_damping_J": "lost in bonds",
     "lost_broken_bonds_J": "lost with broken bonds",
+    "lost_absorbed_J": "lost with grains that left",
     "drift_J": "not explained",
 }
 _BEAM = {"magnitude": "in all", "x": "along x", "y": "along y", "z": "along z"}

@@ -97,6 +97,7 @@ const SHOWN_SOFT: &[Shown] = &[
             ("lost to friction", "lost_friction_J"),
             ("lost in bonds", "lost_bond_damping_J"),
             ("lost with broken bonds", "lost_broken_bonds_J"),
+            ("lost with grains that left", "lost_absorbed_J"),
             ("not explained", "drift_J"),
         ],
     ),

@@ -4,7 +4,7 @@ use super::counts::{SLOW_FRACTION, asked_fraction, pulses_before};
 use super::push::Push;
 use super::{Plan, hard};
 use crate::acoustics::Beam;
-use crate::domain::Space;
+use crate::domain::{Boundary, Space};
 use crate::math::Vec3;
 use crate::packing::{GrainGroup, Placement};
 use crate::scenario::Scenario;
@@ -84,6 +84,7 @@ fn without_effect(notes: &mut Vec<String>, scenario: &Scenario) {
             notes.push(format!("beam {index}: only {fired} of {wanted} pulses start before the end"));
         }
     }
+    faces(notes, scenario);
     aims(notes, scenario);
     trains(notes, scenario);
     if !scenario.context().is_charged && scenario.soft().is_some_and(|soft| soft.fields.are_by_charge()) {
@@ -95,6 +96,16 @@ fn without_effect(notes: &mut Vec<String>, scenario: &Scenario) {
         if !is_used.chain(of_walls.map(|wall| &wall.material)).any(|used| used == name) {
             notes.push(format!("no grain is made of {name}"));
         }
+    }
+}
+
+/// Sound at faces that are for grains alone.
+fn faces(notes: &mut Vec<String>, scenario: &Scenario) {
+    let ends = |face: &Boundary| matches!(face, Boundary::Reflecting | Boundary::Absorbing);
+    let volume = scenario.soft().and_then(|soft| soft.volume.as_ref());
+    if scenario.acoustics().is_some() && volume.is_some_and(|volume| volume.boundaries().iter().any(ends)) {
+        let note = "volume: some faces turn grains back or take them out; rays of sound fly on through these, and walls reflect both";
+        notes.push(note.to_owned());
     }
 }
 

@@ -32,7 +32,7 @@ use crate::folder::{Marked, Marking, files, names};
 use crate::text::cell;
 
 const MAGIC: &[u8; 8] = b"AGGLO\r\n\x8a";
-const FORMAT: u32 = 6;
+const FORMAT: u32 = 7;
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// Bytes before the payload: magic, format, the version with its length, step.
 const HEADING: u64 = (MAGIC.len() + 4 + 1 + VERSION.len() + 8) as u64;

@@ -1,6 +1,8 @@
-//! The contracts where space repeats itself and is pressed together: grains cross faces while they touch, are bonded and attract.
+//! The contracts where space repeats itself and is pressed together: grains cross faces while they touch, are bonded and attract, are
+//! turned back, and leave.
 
 use agglo::engine::soft::Simulation;
+use agglo::math::Vec3;
 use rayon::ThreadPoolBuilder;
 
 use crate::{common, crowd};
@@ -20,7 +22,6 @@ strain = 0.4
 lower = ["0 m", "0 m", "0 m"]
 upper = ["{edge:e} m", "{edge:e} m", "{edge:e} m"]
 {faces}
-deformation = {{ strain_rate = ["-2e4 1/s", "-1e4 1/s", "0 1/s"] }}
 [materials.pigment]
 density = "4000 kg/m3"
 youngs_modulus = "1 GPa"
@@ -52,8 +53,11 @@ law.van_der_waals = {{ hamaker = "1e-16 J", smallest_gap = "40 nm" }}
     )
 }
 
-const ALL: &str = "boundary = \"periodic\"";
-const TWO: &str = "faces.z = \"open\"";
+const ALL: &str =
+    "boundary = \"periodic\"\ndeformation = { strain_rate = [\"-2e4 1/s\", \"-1e4 1/s\", \"0 1/s\"] }";
+const TWO: &str =
+    "faces.z = \"open\"\ndeformation = { strain_rate = [\"-2e4 1/s\", \"-1e4 1/s\", \"0 1/s\"] }";
+const ENDS: &str = "faces = { x = \"periodic\", y = \"reflecting\", z = \"absorbing\" }";
 
 /// Everything that a contract is to be tested with has happened.
 fn assert_busy(simulation: &Simulation) {
@@ -62,8 +66,13 @@ fn assert_busy(simulation: &Simulation) {
         let between = system.grains.position[a as usize] - system.grains.position[b as usize];
         system.space.shortest(between) != between
     };
+    let ends = simulation.absorbed();
     let contacts = system.remembered();
-    assert_above!(contacts.iter().filter(|(a, b, _)| across(*a, *b)).count(), 0, "contacts across faces");
+    assert_above!(
+        contacts.iter().filter(|(a, b, _)| ends.is_some() || across(*a, *b)).count(),
+        0,
+        "contacts"
+    );
     let bonds = system.network.bonds();
     assert_above!(
         bonds.iter().filter(|bond| across(bond.grains[0], bond.grains[1])).count(),
@@ -76,19 +85,25 @@ fn assert_busy(simulation: &Simulation) {
         0,
         "bonds that broke"
     );
+    if let Some(absorbed) = ends {
+        assert_above!(absorbed.grains, 0, "grains that left");
+        assert_true!(simulation.ledger.flows.supplies.walls.force.y != 0.0, "no grain was turned back");
+    }
 }
 
-fn started(text: &str) -> Simulation {
-    common::start(text, |_| {})
+/// All grains are carried along at so much [m/s].
+fn started(text: &str, carried: Vec3) -> Simulation {
+    common::start(text, |grains| grains.velocity.iter_mut().for_each(|velocity| *velocity += carried))
 }
 
 #[test]
 fn same_bits_on_1_2_3_and_7_threads() {
-    for (engine, faces) in [(crowd::VERLET, ALL), (crowd::ADAPTIVE, TWO)] {
+    for (engine, faces) in [(crowd::VERLET, ALL), (crowd::ADAPTIVE, TWO), (crowd::VERLET, ENDS)] {
         let after = |threads: usize| {
             let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             pool.install(|| {
-                let mut simulation = started(&text(engine, 1300, faces));
+                let up = if faces == ENDS { Vec3::AXES[2] * 40.0 } else { Vec3::ZERO };
+                let mut simulation = started(&text(engine, 1300, faces), up);
                 common::steps(&mut simulation, 400);
                 assert_busy(&simulation);
                 common::bytes(&simulation)
@@ -105,9 +120,11 @@ fn same_bits_on_1_2_3_and_7_threads() {
 /// Also over the sorting after 2,000 steps.
 #[test]
 fn a_run_goes_on_with_the_same_bits() {
-    for (engine, faces) in [(crowd::VERLET, TWO), (crowd::ADAPTIVE, ALL)] {
-        let text = text(engine, 80, faces);
-        let mut whole = started(&text);
+    for (engine, count, faces) in
+        [(crowd::VERLET, 80, TWO), (crowd::ADAPTIVE, 80, ALL), (crowd::ADAPTIVE, 300, ENDS)]
+    {
+        let text = text(engine, count, faces);
+        let mut whole = started(&text, Vec3::ZERO);
         common::steps(&mut whole, 1985);
         assert_busy(&whole);
         let scenario = common::scenario(&text);

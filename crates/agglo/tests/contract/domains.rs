@@ -3,6 +3,7 @@
 use agglo::engine::SimError;
 use agglo::engine::soft::Simulation;
 use agglo::math::Vec3;
+use agglo::particles::Particles;
 
 use crate::{common, crowd};
 
@@ -10,16 +11,16 @@ use crate::{common, crowd};
 const COUNT: u32 = 2500;
 
 /// Grains that shake between walls and across periodic faces: nobody looks at them for many steps.
-fn shaken() -> String {
+fn shaken(faces: &str) -> String {
     format!(
         r#"
 version = 1
 time.end = "1 s"
 engine.verlet.safety = 0.2
 [volume]
-lower = ["0 m", "0 m", "0 m"]
+lower = ["0 m", "0 m", "23 um"]
 upper = ["0.4 mm", "0.4 mm", "1 mm"]
-faces = {{ x = "periodic", y = "periodic", z = "open" }}
+faces = {faces}
 [materials.glass]
 density = "2500 kg/m3"
 youngs_modulus = "0.1 GPa"
@@ -44,6 +45,10 @@ acceleration = ["0 m/s2", "0 m/s2", "-1e5 m/s2"]
 "#
     )
 }
+
+const BETWEEN: &str = r#"{ x = "periodic", y = "periodic", z = "open" }"#;
+/// The lowest layer leaves.
+const OUT: &str = r#"{ x = "periodic", y = "reflecting", z = "absorbing" }"#;
 
 fn spread(text: &str, mut simulation: Simulation, domains: usize) -> Simulation {
     simulation.spread(&common::scenario(text), domains).unwrap_or_else(|error| panic!("{error}"));
@@ -85,7 +90,6 @@ fn a_crowd_has_the_same_bits_by_1_2_3_and_5_domains() {
 
 #[test]
 fn grains_between_walls_have_the_same_bits_by_1_2_3_and_5_domains() {
-    let text = shaken();
     let go = |simulation: &mut Simulation| {
         let until = simulation.clock().time + 2e-6;
         while simulation.clock().time < until {
@@ -93,13 +97,24 @@ fn grains_between_walls_have_the_same_bits_by_1_2_3_and_5_domains() {
         }
         let pressed = simulation.system.remembered().len();
         assert_above!(pressed, 100, "contacts");
+        assert_true!(
+            simulation.absorbed().is_none_or(|absorbed| absorbed.grains > 10),
+            "{:?}",
+            simulation.absorbed()
+        );
     };
-    assert_same(&text, || common::start(&text, |_| {}), go);
+    for (faces, carried) in [(BETWEEN, 0.0), (OUT, 10.0)] {
+        let text = shaken(faces);
+        let down = Vec3::AXES[2] * carried;
+        let carry =
+            |grains: &mut Particles| grains.velocity.iter_mut().for_each(|velocity| *velocity -= down);
+        assert_same(&text, || common::start(&text, carry), go);
+    }
 }
 
 #[test]
 fn a_state_that_is_changed_from_outside_is_noticed() {
-    let text = shaken();
+    let text = shaken(BETWEEN);
     let mut run = spread(&text, common::start(&text, |_| {}), 2);
     common::steps(&mut run, 2);
     run.system.grains.velocity[7] += Vec3::AXES[0] * 1e-9;

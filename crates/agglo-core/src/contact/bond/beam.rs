@@ -225,6 +225,8 @@ pub enum Break {
     Tension,
     /// The shear strength was reached.
     Shear,
+    /// One of its grains left the run through an absorbing face.
+    Left,
 }
 
 /// Stiffness of a bond's four modes.

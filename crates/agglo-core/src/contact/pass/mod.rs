@@ -71,13 +71,15 @@ impl parallel::Split for Room<'_> {
 impl Contacts {
     /// Sets the committed contacts aside, before the list is built anew; `place` says where a grain comes to. They take the room
     /// of those that are tried, whose loads must be worked out again.
-    pub fn set_aside(&mut self, list: &PairList, place: impl Fn(u32) -> u32) {
+    pub fn set_aside(&mut self, list: &PairList, place: impl Fn(u32) -> Option<u32>) {
         let Self { committed, trial, parted, aside, .. } = self;
         trial.clear();
         aside.clear();
         for (a, b, spring) in committed.touching(list).chain(parted.drain(..)) {
-            aside.push([place(a), place(b)]);
-            trial.push(&spring);
+            if let (Some(a), Some(b)) = (place(a), place(b)) {
+                aside.push([a, b]);
+                trial.push(&spring);
+            }
         }
     }
 

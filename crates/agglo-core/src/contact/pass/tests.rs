@@ -245,7 +245,7 @@ fn a_spring_outlives_a_list_without_pairs() {
     contacts.relist(&near, 2, Some(&laws));
     let mut list = &near;
     for next in [&far, &far, &near] {
-        contacts.set_aside(list, |grain| grain);
+        contacts.set_aside(list, Some);
         contacts.relist(next, 2, Some(&laws));
         list = next;
         assert_eq!(contacts.remembered(list).collect::<Vec<_>>(), [(0, 1, spring)], "{} pairs", list.len());

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::domain::Volume;
+use crate::domain::{Boundary, Volume};
+use crate::engine::SimError;
 use crate::impact::Impact;
 use crate::measure::SizeClasses;
 use crate::particles::{Material, Mixture};
@@ -28,6 +29,25 @@ pub struct Settings {
     pub impact: Impact,
     /// Classes by which collisions and breakages are counted.
     pub classes: SizeClasses,
+}
+
+impl Settings {
+    /// Refuses what only soft spheres know of a volume.
+    ///
+    /// # Errors
+    /// [`SimError::ForeignVolume`].
+    pub(super) fn hold_volume(&self) -> Result<(), SimError> {
+        let Volume { boundary, faces, deformation, .. } = &self.volume;
+        let foreign = [
+            (*boundary == Boundary::Absorbing, "absorbing faces"),
+            (faces.is_some(), "faces that differ"),
+            (deformation.is_some(), "a deformation"),
+        ];
+        match foreign.into_iter().find(|(is_given, _)| *is_given) {
+            Some((_, what)) => Err(SimError::ForeignVolume { what, spheres: "hard" }),
+            None => Ok(()),
+        }
+    }
 }
 
 /// What drives time.

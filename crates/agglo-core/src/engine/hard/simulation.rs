@@ -106,7 +106,7 @@ impl Simulation {
     ///
     /// # Errors
     /// [`SimError::OtherSpheres`] where the settings come from a scenario of soft spheres; [`SimError::OutOfDigits`] where a
-    /// grain is too far out for its size.
+    /// grain is too far out for its size; [`SimError::ForeignVolume`] where the volume has what hard spheres do not know.
     pub fn start<S>(settings: S, start: impl Into<Start>) -> Result<Self, SimError>
     where
         S: TryInto<Settings>,
@@ -122,6 +122,7 @@ impl Simulation {
 
     /// Starts with grains that stay with the caller, and what grown ones keep of their parts.
     pub(super) fn begin(settings: Settings, grains: &Particles, grown: &[Grown]) -> Result<Self, SimError> {
+        settings.hold_volume()?;
         let heat_capacities: Vec<f64> = settings.materials.values().map(Material::specific_heat).collect();
         let mut spheres = Spheres::new(grains, |material| heat_capacities[material as usize]);
         for (bulk, grown) in spheres.bulk.iter_mut().zip(grown) {

@@ -1,6 +1,8 @@
 //! Soft spheres: forces, and the schemes that integrate them.
 
+mod at_faces;
 mod crew;
+mod faces;
 #[cfg(test)]
 mod flying_tests;
 mod forces;
@@ -29,6 +31,7 @@ mod types;
 mod validate;
 mod walls;
 
+pub use faces::Absorbed;
 pub use forces::laws::Laws;
 pub use forces::loads::{LoadViews, Loads};
 pub use forces::truncation::{Truncation, truncation};

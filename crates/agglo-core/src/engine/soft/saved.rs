@@ -13,6 +13,7 @@ use crate::ledger::{Ledger, Rates};
 use crate::particles::{ById, Particles};
 
 use super::crew::Crew;
+use super::faces::{Absorbed, EndFaces};
 use super::forces::laws::Laws;
 use super::forces::loads::Loads;
 use super::forces::truncation::Truncation;
@@ -43,6 +44,7 @@ pub struct SimulationState<'a> {
     pub(super) tempo: Option<Tempo>,
     pub(super) paces: Paces,
     pub(super) truncation: Option<Truncation>,
+    pub(super) absorbed: Absorbed,
     pub(super) is_hooked: bool,
 }
 
@@ -98,6 +100,8 @@ impl Simulation {
             limits: settings.limits.clone(),
             sort_every: SORT_EVERY,
             end: settings.end,
+            faces: EndFaces::of(settings.volume.as_ref()),
+            absorbed: state.absorbed,
             is_hooked: state.is_hooked,
             crew: Crew::default(),
         })
@@ -122,6 +126,7 @@ impl Simulation {
             tempo: self.tempo,
             truncation: self.truncation,
             paces: self.paces,
+            absorbed: self.absorbed,
             is_hooked: self.is_hooked,
         }
     }

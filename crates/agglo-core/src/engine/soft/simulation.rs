@@ -9,6 +9,7 @@ use crate::ledger::{Ledger, Opening};
 use crate::math::rounding_of_sum;
 
 use super::crew::Crew;
+use super::faces::{Absorbed, EndFaces};
 use super::forces::laws::Laws;
 use super::forces::truncation::Truncation;
 use super::rays::Pulses;
@@ -80,6 +81,10 @@ pub struct Simulation {
     /// Steps between two sortings of the grains.
     pub(super) sort_every: u64,
     pub(super) end: f64,
+    /// Faces that turn grains back or take them out, where there are some.
+    pub(super) faces: Option<EndFaces>,
+    /// What has left through them.
+    pub(super) absorbed: Absorbed,
     /// Whether the loads have those of a hook in them.
     pub(super) is_hooked: bool,
     /// The other domains, if the run is spread over several.
@@ -139,6 +144,8 @@ impl Simulation {
             limits: settings.limits.clone(),
             sort_every: SORT_EVERY,
             end: settings.end,
+            faces: EndFaces::of(settings.volume.as_ref()),
+            absorbed: Absorbed::default(),
             is_hooked: false,
             crew: Crew::default(),
         }
@@ -218,6 +225,7 @@ impl Simulation {
         self.book(&step);
         self.system.commit();
         self.change_bonds();
+        self.end_at_faces()?;
         self.system.tell_hook(self.clock.time);
         self.look_when_due()
     }
@@ -236,7 +244,8 @@ impl Simulation {
 
     /// Whether the next step can begin without a look at the grains.
     fn flies_on(&self) -> bool {
-        self.system.flies_freely()
+        self.faces.is_none()
+            && self.system.flies_freely()
             && self.pulses.since(self.clock.time).is_none()
             && !self.sorting_is_due()
             && !self.look_is_due()

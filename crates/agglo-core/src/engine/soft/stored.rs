@@ -55,7 +55,7 @@ impl Simulation {
                     grains.position[at].cross(linear) + grains.angular_velocity[at] * grains.inertia(at);
                 Momentum { linear, angular }
             },
-            |a, b| Momentum { linear: a.linear + b.linear, angular: a.angular + b.angular },
+            |a, b| a + b,
             Momentum::default(),
         )
     }

@@ -387,6 +387,17 @@ impl System {
         })
     }
 
+    /// Takes all grains but these, which are in their order, out with their bonds; the new place of each, and the bonds that ended.
+    pub(super) fn keep(&mut self, staying: &[u32], time: f64) -> (Vec<Option<u32>>, Vec<BondEvent>) {
+        let stays = |grain: u32| staying.binary_search(&grain).is_ok();
+        let ended = self.network.ending(|grain| !stays(grain), &self.grains, &self.space, time);
+        let place = self.reorder(staying);
+        if let Some(hook) = &mut self.hook {
+            hook.loads.fit(staying.len());
+        }
+        (place, ended)
+    }
+
     /// Bonds grains that were pressed together hard enough; tells which.
     pub fn bond_pressed(&mut self, time: f64) -> Vec<BondEvent> {
         self.network.bond_pressed(&self.grains, &self.space, &self.list, time)
@@ -420,7 +431,7 @@ impl System {
             return;
         }
         if !self.list.holds_for(&&self.records[..]) {
-            self.contacts.set_aside(&self.list, |grain| grain);
+            self.contacts.set_aside(&self.list, Some);
             self.skin.adapt(self.list.len(), self.grains.len());
             self.rebuild();
         }
@@ -437,7 +448,7 @@ impl System {
     }
 
     /// Sorts the grains along a space-filling curve; returns the order, or nothing if it is that already.
-    pub fn sort_in_space(&mut self) -> Option<Vec<u32>> {
+    pub fn sort_in_space(&mut self) -> Option<Vec<Option<u32>>> {
         let order = morton_order(&self.grains.position);
         if order.iter().zip(0..).all(|(a, b)| *a == b) {
             return None;
@@ -445,14 +456,15 @@ impl System {
         Some(self.reorder(&order))
     }
 
-    /// Puts the grains into another order: the one at `order[k]` comes to place k. Returns the new place of each.
-    pub(super) fn reorder(&mut self, order: &[u32]) -> Vec<u32> {
-        let mut place = vec![0_u32; order.len()];
+    /// Puts the grains into another order: the one at `order[k]` comes to place k, and those that it does not name are gone. Returns
+    /// the new place of each.
+    pub(super) fn reorder(&mut self, order: &[u32]) -> Vec<Option<u32>> {
+        let mut place = vec![None; self.grains.len()];
         for (new, &old) in order.iter().enumerate() {
-            place[old as usize] = new as u32;
+            place[old as usize] = Some(new as u32);
         }
         self.contacts.set_aside(&self.list, |grain| place[grain as usize]);
-        let at_walls = self.walls_remembered_at(&place);
+        let at_walls = self.walls_remembered_at(|grain| place[grain as usize]);
         self.grains.reorder(order);
         if self.space.repeats() {
             self.images = order.iter().map(|&at| self.images[at as usize]).collect();
@@ -461,7 +473,7 @@ impl System {
         self.ray_loads.reorder(order);
         self.inertial_mass = order.iter().map(|&at| self.inertial_mass[at as usize]).collect();
         self.renew_records();
-        self.network.reindex(&place);
+        self.network.reindex(&place, order.len());
         self.rebuild();
         self.list_near();
         self.remember_walls(&at_walls, None);

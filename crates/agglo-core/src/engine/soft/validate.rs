@@ -1,5 +1,6 @@
 //! Whether a saved state is one that a run of soft spheres can have come to.
 
+use super::faces::Absorbed;
 use super::saved::SimulationState;
 use super::settings::Settings;
 use crate::contact::network::Bond;
@@ -28,6 +29,8 @@ impl SimulationState<'_> {
         finite("rates", &self.rates)?;
         finite("ledger", &self.ledger)?;
         finite("paces", &self.paces)?;
+        let Absorbed { grains: absorbed, mass } = self.absorbed;
+        ensure(absorbed < MOST_COUNTED && mass.is_finite() && mass >= 0.0, || "absorbed grains".to_owned())?;
         if let Some(truncation) = &self.truncation {
             finite("truncation", truncation)?;
         }

@@ -66,7 +66,7 @@ impl System {
     pub(super) fn wall_memory(&self) -> WallMemory {
         let walls = &self.walls;
         WallMemory {
-            contacts: self.walls_remembered_at(&self.grains.id),
+            contacts: self.walls_remembered_at(|grain| Some(self.grains.id[grain as usize])),
             rates: walls.rates().to_vec(),
             flows: walls.flows().to_vec(),
         }
@@ -103,11 +103,12 @@ impl System {
         self.remember_walls(&placed.collect::<Vec<_>>(), Some(time));
     }
 
-    /// What contacts with walls remember, each grain under the number that it has here: a new place, or its id.
-    pub(super) fn walls_remembered_at(&self, numbers: &[u32]) -> Vec<RememberedAtWall> {
+    /// What contacts with walls remember, each grain under the number that it has here: a new place, or its id. Those without one are
+    /// gone.
+    pub(super) fn walls_remembered_at(&self, number: impl Fn(u32) -> Option<u32>) -> Vec<RememberedAtWall> {
         let moved =
-            |(grain, wall, face, spring): RememberedAtWall| (numbers[grain as usize], wall, face, spring);
-        self.walls.remembered().into_iter().map(moved).collect()
+            |(grain, wall, face, spring): RememberedAtWall| Some((number(grain)?, wall, face, spring));
+        self.walls.remembered().into_iter().filter_map(moved).collect()
     }
 
     /// Puts back what contacts with walls remember, and lists grains near walls anew where they are at a time [s]; where none is

@@ -1,7 +1,7 @@
 //! What the tables over time tell of soft spheres, measured at one moment.
 
 use crate::acoustics::{BeamPower, PulseCount};
-use crate::engine::soft::{Clock, Simulation, WallSound};
+use crate::engine::soft::{Absorbed, Clock, Simulation, WallSound};
 use crate::ledger::{Balance, Momentum};
 use crate::math::Vec3;
 use crate::measure::{ClusterSummary, Moments, mean_nearest_distance, moments};
@@ -22,6 +22,10 @@ pub struct Now {
     pub drift: Momentum,
     /// The clusters.
     pub clusters: ClusterSummary,
+    /// Grains.
+    pub grains: u64,
+    /// What has left through absorbing faces.
+    pub absorbed: Absorbed,
     /// Pairs of grains that touch.
     pub contacts: u64,
     /// The dispersion degree relative to the start.
@@ -65,6 +69,8 @@ impl Now {
             momentum,
             dispersion_since: dispersion_since(start, &together.clusters()),
             clusters: together.summary,
+            grains: grains.len() as u64,
+            absorbed: simulation.absorbed().unwrap_or_default(),
             contacts: together.contacts,
             bonds: system.network.bonds().len() as u64,
             nearest: mean_nearest_distance(&simulation.system.space, &grains.position),

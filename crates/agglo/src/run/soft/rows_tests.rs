@@ -81,6 +81,9 @@ fn clusters_of_soft_spheres_stand_under_their_names() {
         ("bonds", 2.0),
         ("mean_nearest_distance_m", (0..7).map(nearest).sum::<f64>() / 7.0),
         ("dispersion_degree_relative", 1.0 - largest / CLUSTERS_START.largest_fraction),
+        ("grains", 7.0),
+        ("absorbed", 19.0),
+        ("absorbed_kg", 0.375),
     ];
     assert_row("series/clusters.csv", &wanted, ROUND_OFF);
 }

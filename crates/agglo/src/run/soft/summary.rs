@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::acoustics::{BeamPower, PulseCount};
-use crate::engine::soft::{Pulses, Simulation, WallState};
+use crate::engine::soft::{Absorbed, Pulses, Simulation, WallState};
 use crate::ledger::Balance;
 use crate::math::Vec3;
 use crate::run::summary::{time_row, wall_row, warnings_row};
@@ -71,8 +71,21 @@ pub struct SoftSummary {
     /// Walls at the end, in the order of the scenario.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub walls: Vec<WallQuantities>,
+    /// What left through absorbing faces; not there without any.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub absorbed: Option<AbsorbedQuantities>,
     /// Warnings, with how often each came up.
     pub warnings: BTreeMap<String, u64>,
+}
+
+/// What left through absorbing faces since the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct AbsorbedQuantities {
+    /// Grains.
+    pub grains: u64,
+    /// Their mass [kg].
+    #[serde(rename = "mass_kg")]
+    pub mass: f64,
 }
 
 /// Quantities of one pulse.
@@ -301,6 +314,9 @@ impl SoftSummary {
             near_field_energy: simulation.truncation.and_then(|found| found.energy),
             momentum_drift_relative: simulation.momentum_drift_relative(),
             walls: WallQuantities::of_all(simulation),
+            absorbed: simulation
+                .absorbed()
+                .map(|Absorbed { grains, mass }| AbsorbedQuantities { grains, mass }),
             warnings: simulation.warnings.counts().clone(),
         }
     }
@@ -350,6 +366,9 @@ impl SoftSummary {
         }
         for wall in &self.walls {
             row(&format!("wall {}", wall.name), wall.told());
+        }
+        if let Some(AbsorbedQuantities { grains, mass }) = self.absorbed {
+            row("left the run", format!("{grains} grains, {}", readable(mass, "kg")));
         }
         row("energy drift", format!("{:.3e} of all energy", self.energy.balance.drift_relative));
         if self.energy.is_alarming() {

@@ -43,6 +43,8 @@ fn quantities_of_soft_spheres_stand_under_their_keys() {
         ("bonds_end", 2.0),
         ("bonds_broken_fraction", 0.75),
         ("momentum_drift_relative", drift.norm() / 40.0),
+        ("absorbed.grains", 19.0),
+        ("absorbed.mass_kg", 0.375),
         ("warnings.one", 14.0),
         ("warnings.two", 16.0),
     ]);
@@ -113,6 +115,7 @@ fn rows_of_the_closing_table_have_their_own_quantities() {
         "clusters: 4, the largest with 60.00 % of the mass",
         "dispersion degree: 0.4000; 0.2500 relative to the start",
         "near-field cut-off: left out 21.00 % of the forces at the start; the energy is 0.230 of that of all pairs",
+        "left the run: 19 grains, 0.375 kg",
     ];
     assert_eq!(rows[..wanted.len()], wanted, "found on the left, due on the right");
     let last: Vec<&str> = table[wanted.len()..].iter().map(|(what, _)| what.as_str()).collect();

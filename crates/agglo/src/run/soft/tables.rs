@@ -41,6 +41,7 @@ pub static ENERGY: Table<Now> = Table { file: names::ENERGY, columns: &[
     energy(&told::FRICTION).on(&FLOWS),
     energy(&told::BOND_DAMPING).on(&FLOWS),
     energy(&told::BROKEN_BONDS).on(&FLOWS),
+    energy(&told::ABSORBED).on(&FLOWS),
     energy(&told::DRIFT).on(&FLOWS),
     energy(&told::DRIFT_RELATIVE).glance(11),
 ] };
@@ -78,6 +79,9 @@ pub static TOGETHER: Table<Now> = Table { file: names::CLUSTERS, columns: &[
     count("bonds", "bonds", "that hold", |now: &Now| now.bonds).on(&CLUSTERS).glance(5),
     number("mean_nearest_distance_m", "m", "mean distance to the nearest grain", "from center to center (of more than 20,000 grains, an even sample)", |now: &Now| now.nearest),
     number("dispersion_degree_relative", "", "dispersion degree relative to the start", "1 - f/f_0, with f_0 the `largest_fraction` at the start", |now: &Now| now.dispersion_since).on(&DISPERSION).part(),
+    count("grains", "grains", "in the run", |now: &Now| now.grains),
+    count("absorbed", "grains that left", "through absorbing faces since the start", |now: &Now| now.absorbed.grains),
+    number("absorbed_kg", "kg", "mass that left", "the mass of those grains", |now: &Now| now.absorbed.mass),
 ] };
 
 /// Places and speeds, weighted by mass.
@@ -161,7 +165,7 @@ pub static EVENTS: Table<BondEvent> = Table { file: names::EVENTS, columns: &[
     number("time_s", "s", "time", "when it happened", |event: &BondEvent| event.time),
     count("grain_i", "first grain", "the lower id of the two", |event: &BondEvent| u64::from(event.ids[0])),
     count("grain_j", "second grain", "the higher id of the two", |event: &BondEvent| u64::from(event.ids[1])),
-    word("event", "what happened", "`broken_in_tension`, `broken_in_shear` or `made`", what_happened),
+    word("event", "what happened", "`broken_in_tension`, `broken_in_shear`, `made`, or `left` where one of the two left through an absorbing face", what_happened),
     number("energy_J", "J", "energy", "that the bond held", |event: &BondEvent| event.energy),
 ] };
 
@@ -170,6 +174,7 @@ fn what_happened(event: &BondEvent) -> &str {
         None => "made",
         Some(Break::Tension) => "broken_in_tension",
         Some(Break::Shear) => "broken_in_shear",
+        Some(Break::Left) => "left",
     }
 }
 

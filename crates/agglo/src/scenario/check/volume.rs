@@ -20,6 +20,12 @@ pub(super) fn check(check: &mut Check, scenario: &ScenarioFile) {
     if !scenario.engine.is_hard() {
         return of_soft_spheres(check, scenario, volume);
     }
+    if volume.boundary == Boundary::Absorbing {
+        let message =
+            format!("absorbing faces belong to soft spheres; {} moves hard ones", scenario.engine.key());
+        let help = "take \"open\": grains that leave the volume do not come back";
+        check.fail_with("volume.boundary", message, help);
+    }
     let foreign = [
         ("volume.faces", volume.faces.is_some(), "hard spheres have one boundary for all faces"),
         ("volume.deformation", volume.deformation.is_some(), "remove it: hard spheres do not feel it"),
@@ -39,15 +45,23 @@ pub(super) fn check(check: &mut Check, scenario: &ScenarioFile) {
     overlaps(check, scenario, volume);
 }
 
-/// Soft spheres know faces across which space repeats itself, and open ones.
+/// Soft spheres know all faces but those that are printed for hard ones.
 fn of_soft_spheres(check: &mut Check, scenario: &ScenarioFile, volume: &Volume) {
-    let known = [Boundary::Periodic, Boundary::Open];
     let Faces { x, y, z } = volume.faces.unwrap_or_default();
     let faces = [("boundary", Some(volume.boundary)), ("faces.x", x), ("faces.y", y), ("faces.z", z)];
-    for (key, _) in faces.iter().filter(|(_, of)| of.is_some_and(|boundary| !known.contains(&boundary))) {
+    for (key, _) in faces.iter().filter(|(_, of)| *of == Some(Boundary::Antipodal)) {
         let message =
-            format!("{} moves soft spheres, whose faces are periodic or open", scenario.engine.key());
-        check.fail_with(&format!("volume.{key}"), message, "take \"periodic\" or \"open\"");
+            format!("antipodal faces belong to hard spheres; {} moves soft ones", scenario.engine.key());
+        let help = "take \"periodic\", \"open\", \"reflecting\" or \"absorbing\"";
+        check.fail_with(&format!("volume.{key}"), message, help);
+    }
+    if volume.deformation.is_some() && volume.boundaries().contains(&Boundary::Absorbing) {
+        let message = "does not go with absorbing faces: what leaves would change where it stops".to_owned();
+        check.fail_with(
+            "volume.deformation",
+            message,
+            "let these faces be open or reflecting, or leave it out",
+        );
     }
     let space = volume.space();
     if let Some(law) = &volume.deformation {
@@ -166,7 +180,7 @@ fn holds(volume: &Volume, [lower, upper]: [Vec3; 2], radius: f64) -> bool {
     let slack = 1e-12 * volume.edges().norm();
     volume.boundaries().into_iter().enumerate().all(|(axis, boundary)| {
         let margin = match boundary {
-            Boundary::Periodic | Boundary::Antipodal => 0.0,
+            Boundary::Periodic | Boundary::Antipodal | Boundary::Absorbing => 0.0,
             Boundary::Reflecting => radius,
             Boundary::Open => return true,
         };

@@ -235,7 +235,7 @@ impl Steps {
             let goes_on = match boundary {
                 Boundary::Periodic => system.volume.wrap(motion.position),
                 Boundary::Antipodal => system.volume.mirrored(motion.position, motion.velocity),
-                Boundary::Reflecting | Boundary::Open => motion.position,
+                Boundary::Reflecting | Boundary::Open | Boundary::Absorbing => motion.position,
             };
             if goes_on != motion.position {
                 self.near.crossed(at as u32, crossings(motion.position - goes_on, edges));

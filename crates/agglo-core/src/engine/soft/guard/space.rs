@@ -2,7 +2,7 @@
 //! alone, and without what cannot go across its faces.
 
 use crate::contact::ContactLaws;
-use crate::domain::{Deformation, Volume, volume_of_spheres};
+use crate::domain::{Boundary, Deformation, Volume, volume_of_spheres};
 use crate::engine::SimError;
 use crate::engine::soft::settings::Settings;
 use crate::particles::Particles;
@@ -14,15 +14,17 @@ const AXES: [char; 3] = ['x', 'y', 'z'];
 /// Holds the periods of space to how far grains reach, and its faces to what can cross them.
 ///
 /// # Errors
+/// [`SimError::ForeignVolume`] and [`SimError::AbsorbsInDeformation`] where faces are none that soft spheres know, or go with nothing else;
 /// [`SimError::NarrowSpace`] where half a period is not above the longest distance of centers at which grains act on one another,
 /// [`SimError::RaysInDeformation`] and [`SimError::RegionAcrossFaces`] where rays cannot follow space, [`SimError::WallAcrossFaces`] and [`SimError::WallsInDeformation`] where walls
 /// cannot follow space, [`SimError::DeformsAway`] and [`SimError::DeformsOpenSpace`] where a deformation leads nowhere.
 pub fn hold(settings: &Settings, grains: &Particles) -> Result<(), SimError> {
     let space = settings.space();
-    if let Some(volume) = &settings.volume
-        && let Some(law) = &volume.deformation
-    {
-        hold_deformation(law, volume, grains)?;
+    if let Some(volume) = &settings.volume {
+        hold_faces(volume)?;
+        if let Some(law) = &volume.deformation {
+            hold_deformation(law, volume, grains)?;
+        }
     }
     if !space.repeats() {
         return Ok(());
@@ -54,6 +56,18 @@ pub fn hold(settings: &Settings, grains: &Particles) -> Result<(), SimError> {
     let last = settings.space_in_time(grains).at(settings.end);
     let period = space.shortest_period().min(last.shortest_period());
     if 2.0 * reach < period { Ok(()) } else { Err(SimError::NarrowSpace { period, reach }) }
+}
+
+/// Antipodal faces are of hard spheres, and who is taken out of a volume leaves its solid fraction another.
+fn hold_faces(volume: &Volume) -> Result<(), SimError> {
+    let has = |wanted: Boundary| volume.boundaries().contains(&wanted);
+    if has(Boundary::Antipodal) {
+        return Err(SimError::ForeignVolume { what: "antipodal faces", spheres: "soft" });
+    }
+    if has(Boundary::Absorbing) && volume.deformation.is_some() {
+        return Err(SimError::AbsorbsInDeformation);
+    }
+    Ok(())
 }
 
 fn hold_deformation(law: &Deformation, volume: &Volume, grains: &Particles) -> Result<(), SimError> {

@@ -318,12 +318,10 @@ impl Pulses {
         parallel::over(0..grains.len(), BLOCK, (), &leaf, &|a, b| a + b)
     }
 
-    /// The grains came to new places.
-    pub fn reindex(&mut self, place: &[u32]) {
+    /// The grains came to new places, or are gone.
+    pub fn reindex(&mut self, place: &[Option<u32>]) {
         self.state.flight.reindex(place);
-        for grain in &mut self.hit_grains {
-            *grain = place[*grain as usize];
-        }
+        self.hit_grains = self.hit_grains.iter().filter_map(|grain| place[*grain as usize]).collect();
     }
 
     /// Quantities of all pulses so far.

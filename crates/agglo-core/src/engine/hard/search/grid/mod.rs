@@ -304,7 +304,7 @@ impl Grid {
                 _ if (0..count).contains(&along) => (along, 0),
                 Boundary::Periodic => (along.rem_euclid(count), along.div_euclid(count) as i8),
                 Boundary::Open => (along.rem_euclid(count), 0),
-                Boundary::Antipodal | Boundary::Reflecting => continue,
+                Boundary::Antipodal | Boundary::Reflecting | Boundary::Absorbing => continue,
             };
             let found = (level.part(axis, folded as u32), image);
             // A folded grid of one or two cells would show the same cell twice.
@@ -412,7 +412,9 @@ impl Grid {
             // Nobody looks further than `FARTHEST` edges and half a volume.
             Boundary::Periodic => (from.max(-4 * count), to.min(5 * count - 1)),
             Boundary::Open => (from, to.min(from.saturating_add(count - 1))),
-            Boundary::Antipodal | Boundary::Reflecting => (from.max(0), to.min(count - 1)),
+            Boundary::Antipodal | Boundary::Reflecting | Boundary::Absorbing => {
+                (from.max(0), to.min(count - 1))
+            }
         }
     }
 
