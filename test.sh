@@ -102,7 +102,8 @@ check_features() {
     for features in "" render report render,report; do
         run cargo check --locked --all-targets -p agglo-view --no-default-features --features "$features"
     done
-    run cargo test --locked -p agglo-cli --no-default-features --test program
+    # Built for this alone, and run for seconds: what is not optimized is built in half the time.
+    run env CARGO_PROFILE_DEV_OPT_LEVEL=0 cargo test --locked -p agglo-cli --no-default-features --test program
 }
 
 # What takes too long for every change.
